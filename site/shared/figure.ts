@@ -1,0 +1,99 @@
+// One live figure: a scene, the space that finds its pairs, and the view it is drawn in.
+// Each frame: step the scene, find the pairs (this alone is timed), colour, draw. Nothing is allocated.
+import type { BroadPhase } from 'broadphase';
+import { Camera } from './camera.ts';
+import { Groups } from './groups.ts';
+import { FrameLoop } from './loop.ts';
+import { makePalette } from './palette.ts';
+import { panZoom } from './pan-zoom.ts';
+import { type BoxRenderer, createRenderer } from './renderer.ts';
+import type { LiveScene } from './scenes.ts';
+import { Timings } from './timings.ts';
+
+const sharpest = 2;
+
+export class Figure {
+  readonly camera = new Camera();
+  readonly groups = new Groups();
+  readonly timings = new Timings();
+  readonly loop: FrameLoop;
+  readonly renderer: BoxRenderer;
+  scene: LiveScene | undefined;
+  readonly #space: BroadPhase;
+  readonly #canvas: HTMLCanvasElement;
+  #drawAgain = 0;
+
+  /** view holds the canvas and takes the pointer and the keys. */
+  constructor(view: HTMLElement, space: BroadPhase, only2d = false) {
+    this.#canvas = view.querySelector('canvas')!;
+    this.#space = space;
+    this.renderer = createRenderer(this.#canvas, this.redraw, only2d);
+    this.loop = new FrameLoop(() => this.step());
+    this.loop.watch(view);
+    panZoom(view, this.camera, this.redraw);
+
+    const dark = matchMedia('(prefers-color-scheme: dark)');
+    const dress = () => {
+      const background = getComputedStyle(view).getPropertyValue('--page').trim();
+      this.renderer.setPalette(makePalette(dark.matches, background));
+      this.redraw();
+    };
+    dark.addEventListener('change', dress);
+    dress();
+
+    new ResizeObserver(() => this.#fitCanvas()).observe(this.#canvas);
+    this.#fitCanvas();
+  }
+
+  /** Shows another scene, all of it. */
+  show(scene: LiveScene): void {
+    this.scene = scene;
+    this.#space.clear();
+    this.timings.clear();
+    this.camera.fit(scene.world);
+    this.solve();
+  }
+
+  /** One frame of the scene. */
+  step(): void {
+    if (!this.scene) return;
+    this.scene.step();
+    this.solve();
+  }
+
+  /** Finds the pairs of the boxes as they stand, and draws them. */
+  solve(): void {
+    const { scene, groups } = this;
+    if (!scene) return;
+    const space = this.#space;
+    space.boxes(scene.count).set(scene.boxes);
+    const started = performance.now();
+    space.update();
+    const ended = performance.now();
+    this.timings.add(ended, ended - started);
+    groups.update(space.pairs, space.pairCount, scene.count);
+    this.#draw();
+  }
+
+  /** Draws again before the next frame is shown, without a step: the view or the colours changed. */
+  readonly redraw = (): void => {
+    cancelAnimationFrame(this.#drawAgain);
+    this.#drawAgain = requestAnimationFrame(this.#draw);
+  };
+
+  readonly #draw = (): void => {
+    const { scene, camera } = this;
+    if (scene) this.renderer.draw(scene.boxes, this.groups.slots, scene.count, camera);
+  };
+
+  #fitCanvas(): void {
+    const density = Math.min(sharpest, devicePixelRatio);
+    const width = Math.round(this.#canvas.clientWidth * density);
+    const height = Math.round(this.#canvas.clientHeight * density);
+    if (width === this.camera.width && height === this.camera.height) return;
+    this.#canvas.width = width;
+    this.#canvas.height = height;
+    this.camera.resize(width, height);
+    this.#draw();
+  }
+}

@@ -1,0 +1,169 @@
+// The first page as a visitor meets it: it runs, its numbers are live, every control does what it says,
+// and nothing is written to the console as an error or fetched from elsewhere.
+import { expect, type Page, test } from '@playwright/test';
+
+let faults: string[] = [];
+
+test.beforeEach(({ page, baseURL }) => {
+  faults = [];
+  page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
+  page.on('pageerror', (error) => faults.push(String(error)));
+  page.on('response', (response) => response.status() >= 400 && faults.push(`${response.status()} ${response.url()}`));
+  page.on('request', (request) => {
+    const url = request.url();
+    if (!/^(data|blob):/.test(url) && !url.startsWith(baseURL!)) faults.push(`a request to ${url}`);
+  });
+});
+
+test.afterEach(() => expect(faults).toEqual([]));
+
+const shown = (page: Page, name: string) => page.locator(`[data-number=${name}]`);
+const number = async (page: Page, name: string) =>
+  Number((await shown(page, name).textContent())!.replaceAll(',', '').replace('–', 'NaN'));
+const solved = (page: Page) => expect.poll(() => number(page, 'pairs')).toBeGreaterThan(0);
+
+/** How many colours the view shows: more than a few where boxes are drawn. */
+async function coloursInView(page: Page): Promise<number> {
+  const picture = (await page.locator('#view').screenshot()).toString('base64');
+  return page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes]));
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d')!;
+    context.drawImage(image, 0, 0);
+    return new Set(new Uint32Array(context.getImageData(0, 0, image.width, image.height).data.buffer)).size;
+  }, picture);
+}
+
+/** Opens a page that stands still: it is paused after its first frame. */
+async function openStill(page: Page, address: string): Promise<void> {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.goto(address);
+  await solved(page);
+}
+
+test('opens with 20,000 moving boxes and live numbers', async ({ page }) => {
+  await page.goto('/');
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Which boxes overlap?');
+  await expect(shown(page, 'boxes')).toHaveText('20,000');
+  await solved(page);
+  expect(await number(page, 'tests')).toBeGreaterThan(0);
+  expect(await number(page, 'median')).toBeGreaterThan(0);
+  const before = await number(page, 'pairs');
+  await expect.poll(() => number(page, 'pairs'), { timeout: 20_000 }).not.toBe(before);
+  await expect.poll(() => number(page, 'rate'), { timeout: 20_000 }).toBeGreaterThan(0);
+});
+
+test('is cross-origin isolated, so that its clock is fine', async ({ page }) => {
+  await openStill(page, '/?boxes=100');
+  expect(await page.evaluate(() => crossOriginIsolated)).toBe(true);
+});
+
+test('the slider goes from 100 to 200,000 in even ratios and keeps its place in the address', async ({ page }) => {
+  await openStill(page, '/?boxes=1000');
+  const slider = page.getByRole('slider', { name: 'Boxes' });
+  await slider.press('Home');
+  await expect(shown(page, 'boxes')).toHaveText('100');
+  await expect(slider).toHaveAttribute('aria-valuetext', '100 boxes');
+  await slider.fill('500');
+  await expect(shown(page, 'boxes')).toHaveText('4,500');
+  await expect(page).toHaveURL(/boxes=4500/);
+});
+
+test('every technique of the menu finds the same pairs', async ({ page }) => {
+  await openStill(page, '/?boxes=1500&scene=mixed2d');
+  const pairs = await number(page, 'pairs');
+  const menu = page.getByRole('combobox', { name: 'Technique' });
+  for (const name of await menu.locator('option').allTextContents()) {
+    await menu.selectOption(name);
+    await expect(page).toHaveURL(new RegExp(`technique=${name}`));
+    expect(await number(page, 'pairs'), name).toBe(pairs);
+    expect(await number(page, 'tests'), name).toBeGreaterThan(0);
+  }
+});
+
+test('every scene of the menu has pairs, the recorded rain with all its boxes', async ({ page }) => {
+  test.slow();
+  await openStill(page, '/?boxes=2000');
+  const menu = page.getByRole('combobox', { name: 'Scene' });
+  for (const label of await menu.locator('option').allTextContents()) {
+    await menu.selectOption({ label });
+    const name = await menu.inputValue();
+    await expect(page).toHaveURL(new RegExp(`scene=${name}`), { timeout: 20_000 });
+    await expect(shown(page, 'boxes')).toHaveText(name === 'rain' ? '15,505' : '2,000');
+    expect(await number(page, 'pairs'), label).toBeGreaterThan(name === 'rain' ? 50_000 : 0);
+    expect(await coloursInView(page), label).toBeGreaterThan(2);
+  }
+  await expect(page.getByRole('slider', { name: 'Boxes' })).toBeDisabled();
+});
+
+test('pauses, steps, and plays again, by button and by the space key', async ({ page }) => {
+  await page.goto('/?boxes=1500');
+  await solved(page);
+  await page.getByRole('button', { name: 'Pause' }).click();
+  const pairs = await number(page, 'pairs');
+  await page.waitForTimeout(600);
+  expect(await number(page, 'pairs')).toBe(pairs);
+  const step = page.getByRole('button', { name: 'Step' });
+  await expect
+    .poll(async () => {
+      await step.click();
+      return number(page, 'pairs');
+    })
+    .not.toBe(pairs);
+  await page.locator('#view').press(' ');
+  await expect(page.getByRole('button', { name: 'Pause' })).toBeVisible();
+  await page.locator('#view').press(' ');
+  await expect(page.getByRole('button', { name: 'Play' })).toBeVisible();
+});
+
+test('starts paused for those who ask for less motion', async ({ page }) => {
+  await openStill(page, '/?boxes=1000');
+  await expect(page.getByRole('button', { name: 'Play' })).toBeVisible();
+  await expect(page.getByRole('img')).toHaveAttribute('aria-label', /1,000 boxes, paused, with \d+ overlapping pairs/);
+});
+
+test('zooms by keys, wheel and buttons, and shows everything again', async ({ page }) => {
+  await openStill(page, '/?boxes=1000');
+  const view = page.locator('#view');
+  /** The picture without the ring of the focus. */
+  const picture = async () => {
+    await view.blur();
+    return view.screenshot();
+  };
+  const whole = await picture();
+  const showsAll = () => expect.poll(async () => (await picture()).equals(whole));
+  await view.press('+');
+  await view.press('ArrowLeft');
+  await showsAll().toBe(false);
+  await view.press('0');
+  await showsAll().toBe(true);
+  await view.hover();
+  await page.mouse.wheel(0, -400);
+  await showsAll().toBe(false);
+  await page.getByRole('button', { name: 'Show everything' }).click();
+  await page.mouse.move(0, 0);
+  await showsAll().toBe(true);
+});
+
+test('draws without WebGL too', async ({ page }) => {
+  await openStill(page, '/?boxes=1000&renderer=canvas-2d');
+  expect(await coloursInView(page)).toBeGreaterThan(10);
+});
+
+for (const [device, width, height] of [
+  ['phone', 375, 812],
+  ['tablet', 820, 1180],
+  ['wide', 1440, 900],
+  ['very-wide', 1920, 1080],
+] as const) {
+  for (const colorScheme of ['light', 'dark'] as const) {
+    test(`fits a ${device} screen, ${colorScheme}`, async ({ page }) => {
+      await page.setViewportSize({ width, height });
+      await page.emulateMedia({ colorScheme });
+      await openStill(page, '/?boxes=2000');
+      expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+      expect(await coloursInView(page)).toBeGreaterThan(10);
+      await page.screenshot({ path: `test-results/screens/${device}-${colorScheme}.png`, fullPage: true });
+    });
+  }
+}
