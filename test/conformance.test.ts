@@ -7,6 +7,7 @@ import { createRandom } from '../src/scenes/random.ts';
 import { expectKeys, expectPairs } from './expect-pairs.ts';
 import { hostileCases } from './hostile.ts';
 import { type Numbers, referencePairs } from './reference.ts';
+import { setBox } from './set-box.ts';
 import { readTrace, traceNames } from './traces.ts';
 
 interface Frame {
@@ -48,7 +49,11 @@ const hostile = { 2: hostileCases(2), 3: hostileCases(3) };
 function setEach(space: BroadPhase, boxes: Numbers, idOf: (index: number) => number = (index) => index): void {
   const stride = 2 * space.dimensions;
   for (let at = 0; at < boxes.length; at += stride) {
-    space.set(idOf(at / stride), ...Array.from({ length: stride }, (_, k) => boxes[at + k]));
+    setBox(
+      space,
+      idOf(at / stride),
+      Array.from({ length: stride }, (_, k) => boxes[at + k]),
+    );
   }
 }
 
@@ -118,15 +123,13 @@ describe.each(combinations)('%s in %d dimensions', (technique, dimensions) => {
     const missing = touching.with(dimensions, 0.1 - 1e-12);
     expectKeys(space.setAll(touching).update(), referencePairs(touching, dimensions));
     expect(space.pairCount).toBe(1);
-    space.set(0, ...missing.slice(0, 2 * dimensions)).update();
+    setBox(space, 0, missing.slice(0, 2 * dimensions)).update();
     expect(space.pairCount).toBe(0);
     const floats = Float32Array.from(missing);
     space.boxes(2).set(floats);
     expectKeys(space.update(), referencePairs(floats, dimensions));
-    space
-      .set(0, ...touching.slice(0, 2 * dimensions))
-      .set(1, ...touching.slice(2 * dimensions))
-      .update();
+    setBox(space, 0, touching.slice(0, 2 * dimensions));
+    setBox(space, 1, touching.slice(2 * dimensions)).update();
     expect(space.pairCount).toBe(1);
   });
 
@@ -152,7 +155,7 @@ describe.each(combinations)('%s in %d dimensions', (technique, dimensions) => {
       } else {
         const min = Array.from({ length: dimensions }, () => Math.floor(random() * 60));
         const box = [...min, ...min.map((value) => value + Math.floor(random() * 12))];
-        space.set(id, ...box);
+        setBox(space, id, box);
         model.set(id, box);
       }
       if (call % 150 === 0) expectPairs(space, [...model.values()].flat(), dimensions, [...model.keys()]);
