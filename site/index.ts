@@ -1,10 +1,11 @@
 // The first page: boxes that move, their pairs found every frame, and what that costs.
 // What is chosen stands in the address, so that a view can be sent to someone.
-import { BroadPhase } from 'broadphase';
+import { BroadPhase, type TechniqueName } from 'broadphase';
 import type { SceneName } from '../src/scenes/index.ts';
 import { Figure } from './shared/figure.ts';
 import { formatCount, formatMilliseconds, formatRate, formatShare } from './shared/format.ts';
 import { numberPanel } from './shared/numbers.ts';
+import type { RendererKind } from './shared/renderer.ts';
 import { fetchRecording, type LiveScene, recordedScene, seededScene } from './shared/scenes.ts';
 
 /** The scenes of the menu: name, label, and a word about them. */
@@ -42,9 +43,15 @@ const meter = find('meter');
 const canvas = find('boxes');
 const write = numberPanel(document);
 
+/** How to draw can be chosen in the address, to compare: ?renderer=canvas-2d. */
+const kinds: readonly RendererKind[] = ['webgl2', 'canvas-2d'];
 const address = new URLSearchParams(location.search);
 const space = new BroadPhase();
-const figure = new Figure(find('view'), space, address.get('renderer') === 'canvas-2d');
+const figure = new Figure(
+  find('view'),
+  space,
+  kinds.find((kind) => kind === address.get('renderer')),
+);
 let recording: Promise<LiveScene> | undefined;
 let shown = 0;
 
@@ -67,7 +74,7 @@ function wanted(): number {
 /** Shows the chosen scene with the chosen technique and number of boxes. */
 async function show(): Promise<void> {
   const turn = ++shown;
-  space.technique = techniqueMenu.value;
+  space.technique = techniqueMenu.value as TechniqueName;
   const recorded = sceneMenu.value === 'rain';
   let scene: LiveScene;
   if (recorded) {
@@ -114,7 +121,7 @@ function report(): void {
   write('touching', formatCount(groups.touching));
   write('tests', formatCount(stats.tests));
   write('share', formatShare(stats.tests / possible(scene.count)));
-  write('technique', stats.technique === space.technique ? '' : stats.technique);
+  write('technique', stats.technique);
   write('rate', loop.playing ? formatRate(timings.rate) : '–');
 }
 

@@ -6,7 +6,7 @@ import { Groups } from './groups.ts';
 import { FrameLoop } from './loop.ts';
 import { makePalette } from './palette.ts';
 import { panZoom } from './pan-zoom.ts';
-import { type BoxRenderer, createRenderer } from './renderer.ts';
+import { type BoxRenderer, createRenderer, type RendererKind } from './renderer.ts';
 import type { LiveScene } from './scenes.ts';
 import { Timings } from './timings.ts';
 
@@ -24,10 +24,10 @@ export class Figure {
   #drawAgain = 0;
 
   /** view holds the canvas and takes the pointer and the keys. */
-  constructor(view: HTMLElement, space: BroadPhase, only2d = false) {
+  constructor(view: HTMLElement, space: BroadPhase, kind?: RendererKind) {
     this.#canvas = view.querySelector('canvas')!;
     this.#space = space;
-    this.renderer = createRenderer(this.#canvas, this.redraw, only2d);
+    this.renderer = createRenderer(this.#canvas, this.redraw, kind);
     this.loop = new FrameLoop(() => this.step());
     this.loop.watch(view);
     panZoom(view, this.camera, this.redraw);

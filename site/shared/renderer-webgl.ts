@@ -85,6 +85,19 @@ function build(gl: WebGL2RenderingContext): Program {
   return { boxes, slots, uniform: (name) => places.get(name) ?? null };
 }
 
+/** A WebGL of this name runs on the processor: far slower at this than the 2D canvas. */
+const software = /swiftshader|llvmpipe|softpipe|software|basic render/i;
+
+/** True where WebGL2 is there and runs on a GPU. A trial canvas tells, for a canvas is bound to its first context. */
+export function hasFastWebgl(): boolean {
+  const gl = document.createElement('canvas').getContext('webgl2', { failIfMajorPerformanceCaveat: true });
+  if (!gl) return false;
+  const names = gl.getExtension('WEBGL_debug_renderer_info');
+  const name = String(gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  gl.getExtension('WEBGL_lose_context')?.loseContext();
+  return !software.test(name);
+}
+
 /** undefined where there is no WebGL2. */
 export function createWebglRenderer(canvas: HTMLCanvasElement, redraw: () => void): BoxRenderer | undefined {
   const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, depth: false });

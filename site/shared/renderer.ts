@@ -1,8 +1,8 @@
-// Draws boxes in the colours of their slots: WebGL2 where there is one, else a 2D canvas.
+// Draws boxes in the colours of their slots: by WebGL2 on a GPU, else by hand on a 2D canvas.
 import type { Camera } from './camera.ts';
 import type { Palette } from './palette.ts';
 import { createCanvasRenderer } from './renderer-canvas.ts';
-import { createWebglRenderer } from './renderer-webgl.ts';
+import { createWebglRenderer, hasFastWebgl } from './renderer-webgl.ts';
 
 export interface BoxRenderer {
   readonly kind: 'webgl2' | 'canvas-2d';
@@ -11,7 +11,14 @@ export interface BoxRenderer {
   draw(boxes: Float32Array, slots: Uint8Array, count: number, camera: Camera): void;
 }
 
-/** redraw is called when what was drawn is lost and has to be drawn again. */
-export function createRenderer(canvas: HTMLCanvasElement, redraw: () => void, only2d = false): BoxRenderer {
-  return (only2d ? undefined : createWebglRenderer(canvas, redraw)) ?? createCanvasRenderer(canvas);
+export type RendererKind = BoxRenderer['kind'];
+
+/**
+ * kind chooses one; left out, it is WebGL2 where it runs on a GPU, and the 2D canvas where it would not.
+ * redraw is called when what was drawn is lost and has to be drawn again.
+ */
+export function createRenderer(canvas: HTMLCanvasElement, redraw: () => void, kind?: RendererKind): BoxRenderer {
+  const wanted = kind ?? (hasFastWebgl() ? 'webgl2' : 'canvas-2d');
+  const webgl = wanted === 'webgl2' ? createWebglRenderer(canvas, redraw) : undefined;
+  return webgl ?? createCanvasRenderer(canvas);
 }

@@ -67,6 +67,17 @@ test('the slider goes from 100 to 200,000 in even ratios and keeps its place in 
   await slider.fill('500');
   await expect(shown(page, 'boxes')).toHaveText('4,500');
   await expect(page).toHaveURL(/boxes=4500/);
+  await slider.press('End');
+  await expect(shown(page, 'boxes')).toHaveText('200,000');
+  expect(await number(page, 'pairs')).toBeGreaterThan(90_000);
+  expect(await coloursInView(page)).toBeGreaterThan(10);
+});
+
+test('brute force stops at a number that a page can bear, and says so', async ({ page }) => {
+  await openStill(page, '/?boxes=50000');
+  await page.getByRole('combobox', { name: 'Technique' }).selectOption('brute-force');
+  await expect(shown(page, 'boxes')).toHaveText('20,000');
+  await expect(page.getByRole('status')).toContainText('199,990,000 tests a frame');
 });
 
 test('every technique of the menu finds the same pairs', async ({ page }) => {
@@ -145,10 +156,14 @@ test('zooms by keys, wheel and buttons, and shows everything again', async ({ pa
   await showsAll().toBe(true);
 });
 
-test('draws without WebGL too', async ({ page }) => {
-  await openStill(page, '/?boxes=1000&renderer=canvas-2d');
-  expect(await coloursInView(page)).toBeGreaterThan(10);
-});
+for (const renderer of ['webgl2', 'canvas-2d']) {
+  test(`draws by ${renderer}`, async ({ page }) => {
+    await openStill(page, `/?boxes=1000&renderer=${renderer}`);
+    expect(await coloursInView(page)).toBeGreaterThan(10);
+    await page.getByRole('button', { name: 'Step' }).click();
+    await page.screenshot({ path: `test-results/screens/${renderer}.png` });
+  });
+}
 
 for (const [device, width, height] of [
   ['phone', 375, 812],
