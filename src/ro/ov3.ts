@@ -32,8 +32,10 @@ export function scale<T extends Vector = Vector>(a: Vector, factor: number, targ
 
 /** The vector of length 1 that points the same way; a zero vector stays zero. */
 export function normalize<T extends Vector = Vector>(a: Vector, target: T = a as T): T {
-  const l = length(a);
-  return scale(a, l === 0 ? 0 : 1 / l, target);
+  const l = length(a) || 1;
+  target.x = a.x / l;
+  target.y = a.y / l;
+  return target;
 }
 
 export function length(a: Vector): number {
