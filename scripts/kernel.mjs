@@ -22,6 +22,7 @@ const flags = [
   '-fno-exceptions',
   '-fno-rtti',
   '-ffp-contract=off',
+  '-Ikernel',
   '-Wall',
   '-Wextra',
   '-nostdlib',
@@ -61,7 +62,13 @@ if (!upToDate) {
     folder[name] = readFileSync(file, 'utf8');
   }
   const started = performance.now();
-  const output = await runClang(['clang++', ...flags, '-o', 'kernel.wasm', 'kernel/abi.cpp'], tree);
+  // The compiler prints its diagnostics itself; its exit is an exception that carries the whole file tree.
+  const output = await runClang(['clang++', ...flags, '-o', 'kernel.wasm', 'kernel/abi.cpp'], tree, {
+    fetchProgress: () => {},
+  }).catch((error) => {
+    console.error(`kernel: not compiled (${error.message})`);
+    process.exit(1);
+  });
   const wasm = output['kernel.wasm'];
   mkdirSync(join(root, 'build'), { recursive: true });
   mkdirSync(join(root, 'src/generated'), { recursive: true });

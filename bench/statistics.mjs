@@ -1,0 +1,28 @@
+// The figures of a contender from the times of its frames, round by round. The headline is the median over the
+// rounds of a round's mean: a busy moment of the machine spoils one round, a structure's own spikes spoil them all.
+
+const sum = (values) => values.reduce((total, value) => total + value, 0);
+
+const ascending = (values) => [...values].sort((a, b) => a - b);
+
+function quantile(values, share) {
+  const sorted = ascending(values);
+  return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
+}
+
+function median(values) {
+  const sorted = ascending(values);
+  const half = sorted.length >> 1;
+  return sorted.length % 2 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+}
+
+export function summary(rounds) {
+  const all = rounds.flat();
+  return {
+    median: median(rounds.map((times) => sum(times) / times.length)),
+    mean: sum(all) / all.length,
+    p95: quantile(all, 0.95),
+    worst: Math.max(...all),
+    frames: all.length,
+  };
+}

@@ -1,0 +1,123 @@
+// The exported functions: the only thing JavaScript calls. One instance of the module is one space.
+// Numbers that do not fit in a return value are passed through `io`, an array of doubles.
+#include "space.hpp"
+
+namespace {
+
+Ids ids;
+GridOptions options;
+Space<2> flat(ids, options);
+Space<3> solid(ids, options);
+bool is_flat = true;
+f64 io[8];
+
+/// Calls `what` with the space in use.
+template <class What> auto with_space(What what) { return is_flat ? what(flat) : what(solid); }
+
+}  // namespace
+
+#define EXPORT(name) extern "C" __attribute__((export_name(#name))) auto name
+
+EXPORT(io_address)() -> f64* { return io; }
+
+/// Once, first; then, where the user says so, the cell size and the bounds, from io.
+EXPORT(open_space)(u32 dimensions) -> void { is_flat = dimensions == 2; }
+EXPORT(set_cell_size)() -> void {
+  for (int k = 0; k < 3; k++) options.cell_size[k] = io[k];
+}
+EXPORT(set_bounds)() -> void {
+  for (int k = 0; k < 6; k++) options.bounds[k] = io[k];
+}
+
+EXPORT(reserve)(u32 count) -> void {
+  with_space([&](auto& space) { space.reserve(count); });
+}
+EXPORT(set_2)(u32 id, f64 x0, f64 y0, f64 x1, f64 y1) -> void {
+  f64 box[4] = {x0, y0, x1, y1};
+  flat.set(id, box);
+}
+EXPORT(set_3)(u32 id, f64 x0, f64 y0, f64 z0, f64 x1, f64 y1, f64 z1) -> void {
+  f64 box[6] = {x0, y0, z0, x1, y1, z1};
+  solid.set(id, box);
+}
+EXPORT(remove)(u32 id) -> u32 {
+  return with_space([&](auto& space) { return space.remove(id); });
+}
+EXPORT(has)(u32 id) -> u32 { return ids.slot(id) != Ids::none; }
+EXPORT(get)(u32 id) -> u32 {
+  return with_space([&](auto& space) { return space.get(id, io); });
+}
+EXPORT(size)() -> u32 { return ids.count(); }
+EXPORT(clear)() -> void {
+  with_space([](auto& space) { space.clear(); });
+}
+
+EXPORT(stage)(u32 count) -> f32* {
+  return with_space([&](auto& space) { return space.stage(count); });
+}
+EXPORT(stage_exact)(u32 count) -> f64* {
+  return with_space([&](auto& space) { return space.stage_exact(count); });
+}
+EXPORT(replace)(u32 count, u32 doubles) -> i32 {
+  return with_space([&](auto& space) { return space.replace(count, doubles != 0); });
+}
+EXPORT(expose)(u32 count) -> f32* {
+  return with_space([&](auto& space) { return space.expose(count); });
+}
+/// A number of a box that was staged, for the message that says why it is bad.
+EXPORT(staged_number)(u32 index, u32 doubles) -> f64 {
+  return with_space([&](auto& space) { return space.staged_number(index, doubles != 0); });
+}
+
+/// Marks boxes 0 … red - 1 as red and the rest as blue: only pairs of both colours are reported.
+EXPORT(split)(u32 red) -> void {
+  with_space([&](auto& space) {
+    for (u32 slot = 0; slot < ids.count(); slot++) space.exclude(slot, slot < red ? is_red : is_blue, true);
+  });
+}
+
+EXPORT(set_technique)(u32 technique) -> void {
+  with_space([&](auto& space) {
+    space.technique = Technique(technique);
+  });
+}
+EXPORT(update)() -> i32 {
+  return with_space([](auto& space) { return space.update(); });
+}
+EXPORT(pairs_address)() -> u64* {
+  return with_space([](auto& space) { return space.pairs.list.data(); });
+}
+EXPORT(pair_count)() -> u32 {
+  return with_space([](auto& space) { return u32(space.pairs.count); });
+}
+EXPORT(stats_address)() -> Stats* {
+  return with_space([](auto& space) { return &space.stats; });
+}
+EXPORT(structure)() -> f32* {
+  return with_space([](auto& space) {
+    space.structure();
+    return space.cells.data();
+  });
+}
+EXPORT(structure_count)() -> u32 {
+  return with_space([](auto& space) { return space.cell_count; });
+}
+EXPORT(validate)() -> u32 {
+  return with_space([](auto& space) {
+    u32 detail;
+    u32 broken = space.validate(detail);
+    io[0] = detail;
+    return broken;
+  });
+}
+
+#if defined(__wasm__)
+/// After a trap: what it was, and how many bytes were asked for (in io[0]); the space is usable again.
+EXPORT(recover)() -> u32 {
+  Fault what = fault;
+  io[0] = fault_bytes;
+  fault = Fault::none;
+  if (what != Fault::none) with_space([](auto& space) { space.recover(); });
+  return u32(what);
+}
+#endif

@@ -1,0 +1,203 @@
+// Boxes as the techniques see them.
+// A scene is a dense array of float32 boxes; a box's place in it is its slot. Inside a technique a box is an
+// item: its bounds with the axes reordered (the sweep axis first), and a tag: the slot in 24 bits and 8
+// exclusion bits. Two items that share an exclusion bit are never reported as a pair. One AND thus answers
+// three questions at once: did both continue into this cell from an earlier one (then they have met there), are
+// both static, are both of one colour (bipartite search).
+#pragma once
+#include "heap.hpp"
+
+inline constexpr u32 slot_mask = 0x00ffffff;
+inline constexpr u32 max_slots = 1u << 24;
+enum : u32 {
+  continues_1 = 1u << 31,  // the item began in an earlier cell along the first binned axis
+  continues_2 = 1u << 30,  // ... the second
+  continues_3 = 1u << 29,  // ... the third
+  is_static = 1u << 28,
+  is_red = 1u << 27,
+  is_blue = 1u << 26,
+};
+
+template <int D> struct Scene {
+  const f32* boxes;  // D minima, then D maxima, per slot
+  u32 count;
+  const u32* excluded;  // exclusion bits per slot, or null where no slot has any
+};
+
+/// Which axis stands where in an item: axis[0] is swept, the others are binned.
+template <int D> struct AxisOrder {
+  int axis[D];
+  u8x16 pick;  // byte swizzle that puts the minima (3D) or the whole box (2D) in that order
+
+  static AxisOrder make(int sweep) {
+    AxisOrder order;
+    order.axis[0] = sweep;
+    for (int k = 1, a = 0; k < D; a++) {
+      if (a != sweep) order.axis[k++] = a;
+    }
+    for (int lane = 0; lane < 4; lane++) {
+      int from = D == 2 ? order.axis[lane & 1] + (lane & 2) : lane < 3 ? order.axis[lane % D] : -1;
+      for (int byte = 0; byte < 4; byte++) order.pick[lane * 4 + byte] = u8(from < 0 ? 0x80 : from * 4 + byte);
+    }
+    return order;
+  }
+};
+
+template <int D> struct Item;
+
+template <> struct Item<2> {
+  f32x4 box;  // min sweep, min binned, max sweep, max binned
+  u32 tag;
+
+  f32 lo(int axis) const { return box[axis]; }
+  f32 hi(int axis) const { return box[2 + axis]; }
+};
+
+template <> struct Item<3> {
+  f32x4 low;   // min sweep, min binned 1, min binned 2, the tag's bits
+  f32x4 high;  // max sweep, max binned 1, max binned 2, unused
+
+  f32 lo(int axis) const { return low[axis]; }
+  f32 hi(int axis) const { return high[axis]; }
+};
+
+inline Item<2> with_tag(Item<2> item, u32 bits) { return {item.box, item.tag | bits}; }
+inline Item<3> with_tag(Item<3> item, u32 more) {
+  return {bits<f32x4>(bits<u32x4>(item.low) | u32x4{0, 0, 0, more}), item.high};
+}
+
+/// Items read straight from the scene.
+template <int D> struct SceneItems {
+  Scene<D> scene;
+  AxisOrder<D> order;
+
+  Item<D> operator[](u32 slot) const {
+    u32 tag = slot | (scene.excluded ? scene.excluded[slot] : 0);
+    if constexpr (D == 2) {
+      return {bits<f32x4>(swizzle(load<u8x16>(scene.boxes + 4 * size_t(slot)), order.pick)), tag};
+    } else {
+      const f32* box = scene.boxes + 6 * size_t(slot);
+      f32x4 low = bits<f32x4>(swizzle(load<u8x16>(box), order.pick));
+      f32x4 tail = load<f32x4>(box + 2);
+      f32x4 high = bits<f32x4>(swizzle(bits<u8x16>(f32x4{tail[1], tail[2], tail[3], 0}), order.pick));
+      return {bits<f32x4>(bits<u32x4>(low) | u32x4{0, 0, 0, tag}), high};
+    }
+  }
+};
+
+/// Items stored one after the other, in the order a technique has put them.
+template <int D> struct Items {
+  Buffer<f32x4> boxes;
+  Buffer<u32> tags;  // 2D; in 3D the tag travels in the box's spare lane
+
+  void grow(u64 n, u64 keep) {
+    boxes.grow(n * (D - 1), keep * (D - 1));
+    if constexpr (D == 2) tags.grow(n, keep);
+  }
+  void release() {
+    boxes.release();
+    tags.release();
+  }
+};
+
+/// A pointer to items stored in `Items`.
+template <int D> struct ItemsAt {
+  f32x4* boxes;
+  u32* tags;
+
+  ItemsAt(const Items<D>& items, size_t first)
+      : boxes(items.boxes.data() + first * (D - 1)), tags(D == 2 ? items.tags.data() + first : nullptr) {}
+
+  Item<D> operator[](size_t k) const {
+    if constexpr (D == 2) return {boxes[k], tags[k]};
+    else return {boxes[2 * k], boxes[2 * k + 1]};
+  }
+  void put(size_t k, Item<D> item) const {
+    if constexpr (D == 2) {
+      boxes[k] = item.box;
+      tags[k] = item.tag;
+    } else {
+      boxes[2 * k] = item.low;
+      boxes[2 * k + 1] = item.high;
+    }
+  }
+};
+
+/// Items as structure of arrays, for tests of one against four: lo and hi per axis, and the tags.
+/// Followed by a block of NaN boxes, which overlap nothing: reading past the end is harmless.
+template <int D> class Lanes {
+  Buffer<f32> values_;
+  size_t stride_ = 0;
+
+ public:
+  static constexpr u32 padding = 12;
+
+  f32* lo(int axis) const { return values_.data() + size_t(axis) * stride_; }
+  f32* hi(int axis) const { return values_.data() + size_t(D + axis) * stride_; }
+  u32* tag() const { return reinterpret_cast<u32*>(values_.data() + size_t(2 * D) * stride_); }
+
+  void reserve(u32 n) {
+    size_t stride = (size_t(n) + padding + 3) & ~size_t(3);
+    if (stride <= stride_) return;
+    values_.reserve(stride * (2 * D + 1));
+    stride_ = values_.capacity() / (2 * D + 1) & ~size_t(3);
+  }
+  void release() {
+    values_.release();
+    stride_ = 0;
+  }
+
+  /// Transposes n items, four at a time.
+  void fill(ItemsAt<D> items, u32 n) const {
+    u32 k = 0;
+    for (; k + 4 <= n; k += 4) put4(k, items[k], items[k + 1], items[k + 2], items[k + 3]);
+    Item<D> none = nothing();
+    if (k < n) {
+      put4(k, items[k], k + 1 < n ? items[k + 1] : none, k + 2 < n ? items[k + 2] : none, none);
+      k += 4;
+    }
+    for (u32 end = n + padding; k + 4 <= end; k += 4) put4(k, none, none, none, none);
+  }
+
+ private:
+  static Item<D> nothing() {
+    f32x4 nan = splat(__builtin_nanf(""));
+    if constexpr (D == 2) return {nan, 0};
+    else return {nan, nan};
+  }
+
+  void put4(u32 k, Item<D> a, Item<D> b, Item<D> c, Item<D> d) const {
+    if constexpr (D == 2) {
+      f32x4 row[4] = {a.box, b.box, c.box, d.box};
+      transpose(row);
+      store(lo(0) + k, row[0]);
+      store(lo(1) + k, row[1]);
+      store(hi(0) + k, row[2]);
+      store(hi(1) + k, row[3]);
+      store(tag() + k, u32x4{a.tag, b.tag, c.tag, d.tag});
+    } else {
+      f32x4 row[4] = {a.low, b.low, c.low, d.low};
+      transpose(row);
+      store(lo(0) + k, row[0]);
+      store(lo(1) + k, row[1]);
+      store(lo(2) + k, row[2]);
+      store(tag() + k, row[3]);
+      f32x4 top[4] = {a.high, b.high, c.high, d.high};
+      transpose(top);
+      store(hi(0) + k, top[0]);
+      store(hi(1) + k, top[1]);
+      store(hi(2) + k, top[2]);
+    }
+  }
+
+  static void transpose(f32x4 (&row)[4]) {
+    f32x4 ab_low = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
+    f32x4 ab_high = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
+    f32x4 cd_low = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
+    f32x4 cd_high = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
+    row[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+    row[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+    row[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+    row[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+  }
+};

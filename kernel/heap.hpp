@@ -1,0 +1,177 @@
+// Memory: growable arrays over one heap that never asks twice for the same bytes.
+// Idea: sizes are rounded up to quarter octaves (waste at most 25 %); a block given back waits in the list of
+// its size class; the last block grows in place, so the pair list, the one array whose size nobody knows
+// beforehand, costs no copy. Natively the same arrays stand on malloc, where AddressSanitizer sees them.
+// Running out: nothing has been changed yet when `fail` is called; it does not return (wasm: a trap that the
+// JavaScript side turns into an error; natively: an exception).
+#pragma once
+#include "simd.hpp"
+
+enum class Fault : u32 { none = 0, out_of_memory = 1 };
+
+#if defined(__wasm__)
+inline Fault fault = Fault::none;
+inline f64 fault_bytes = 0;
+[[noreturn]] inline void fail(Fault what, f64 bytes) {
+  fault = what;
+  fault_bytes = bytes;
+  __builtin_trap();
+}
+#else
+#include <cstdlib>
+struct Failure {
+  Fault what;
+  f64 bytes;
+};
+[[noreturn]] inline void fail(Fault what, f64 bytes) { throw Failure{what, bytes}; }
+#endif
+
+namespace heap {
+
+inline constexpr u32 least = 64;  // bytes of the smallest block; all are aligned to 16
+inline size_t used = 0;           // bytes in blocks that are handed out
+
+/// The size class of a request: class c holds blocks of (4 + c % 4) << (c / 4) times `least` / 4 bytes.
+inline u32 size_class(size_t bytes) {
+  size_t quarters = (bytes + least / 4 - 1) / (least / 4);
+  if (quarters <= 4) return 0;
+  u32 octave = 61 - u32(__builtin_clzll(u64(quarters - 1)));
+  u32 step = u32((quarters - 1) >> octave) + 1;  // 5 … 8
+  return octave * 4 + step - 4;
+}
+inline u64 class_bytes(u32 c) { return u64(4 + c % 4) * (least / 4) << (c / 4); }
+
+#if defined(__wasm__)
+extern "C" u8 __heap_base;
+inline u8* top = nullptr;       // first byte never handed out
+inline u8* waiting[112] = {};   // per size class, the given-back blocks, each holding the address of the next
+
+inline void* take(u32 c) {
+  if (u8* block = waiting[c]) {
+    waiting[c] = load<u8*>(block);
+    used += class_bytes(c);
+    return block;
+  }
+  if (!top) top = reinterpret_cast<u8*>((reinterpret_cast<size_t>(&__heap_base) + least - 1) / least * least);
+  u64 end = u64(reinterpret_cast<size_t>(top)) + class_bytes(c);
+  u64 have = u64(__builtin_wasm_memory_size(0)) << 16;
+  if (end > have) {
+    u64 pages = (end - have + 0xffff) >> 16;
+    if (end >= (u64(1) << 32) || __builtin_wasm_memory_grow(0, size_t(pages)) == size_t(-1)) {
+      fail(Fault::out_of_memory, f64(class_bytes(c)));
+    }
+  }
+  u8* block = top;
+  top = reinterpret_cast<u8*>(size_t(end));
+  used += class_bytes(c);
+  return block;
+}
+
+inline void give(void* block, u32 c) {
+  used -= class_bytes(c);
+  if (static_cast<u8*>(block) + class_bytes(c) == top) {
+    top = static_cast<u8*>(block);
+    return;
+  }
+  store(block, waiting[c]);
+  waiting[c] = static_cast<u8*>(block);
+}
+
+/// The last block can become larger where it stands.
+inline bool extend(void* block, u32 from, u32 to) {
+  if (static_cast<u8*>(block) + class_bytes(from) != top) return false;
+  u8* old_top = top;
+  u64 end = u64(reinterpret_cast<size_t>(block)) + class_bytes(to);
+  u64 have = u64(__builtin_wasm_memory_size(0)) << 16;
+  if (end > have) {
+    u64 pages = (end - have + 0xffff) >> 16;
+    if (end >= (u64(1) << 32) || __builtin_wasm_memory_grow(0, size_t(pages)) == size_t(-1)) {
+      fail(Fault::out_of_memory, f64(class_bytes(to)));
+    }
+  }
+  top = old_top + (class_bytes(to) - class_bytes(from));
+  used += class_bytes(to) - class_bytes(from);
+  return true;
+}
+#else
+inline u64 limit = u64(1) << 32;  // tests lower it to see what happens when memory ends
+inline void* take(u32 c) {
+  if (used + class_bytes(c) > limit) fail(Fault::out_of_memory, f64(class_bytes(c)));
+  used += class_bytes(c);
+  return std::malloc(class_bytes(c));
+}
+inline void give(void* block, u32 c) {
+  used -= class_bytes(c);
+  std::free(block);
+}
+inline bool extend(void*, u32, u32) { return false; }
+#endif
+
+}  // namespace heap
+
+/// An array of plain values that grows. Not copied; memory is given back by `release` or the destructor.
+template <class T> class Buffer {
+  T* at_ = nullptr;
+  u32 class_ = 0;
+
+ public:
+  Buffer() = default;
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+#if !defined(__wasm__)
+  ~Buffer() { release(); }  // the wasm's arrays are all global: they go with its memory
+#endif
+
+  T* data() const { return at_; }
+  T& operator[](size_t i) const { return at_[i]; }
+  u64 capacity() const { return at_ ? heap::class_bytes(class_) / sizeof(T) : 0; }
+
+  void release() {
+    if (at_) heap::give(at_, class_);
+    at_ = nullptr;
+  }
+
+  /// Room for n values; what was inside is lost when it has to grow.
+  T* reserve(u64 n) {
+    if (n > capacity()) {
+      check(n);
+      u32 wanted = heap::size_class(n * sizeof(T));
+      release();
+      at_ = static_cast<T*>(heap::take(wanted));
+      class_ = wanted;
+    }
+    return at_;
+  }
+
+  /// Room for n values, of which the first `keep` stay what they are. Grows by half at least.
+  T* grow(u64 n, u64 keep) {
+    if (n <= capacity()) return at_;
+    u64 wish = larger(n, capacity() + capacity() / 2);
+    check(wish);
+    u32 wanted = heap::size_class(wish * sizeof(T));
+    if (at_ && heap::extend(at_, class_, wanted)) {
+      class_ = wanted;
+      return at_;
+    }
+    T* to = static_cast<T*>(heap::take(wanted));
+    if (keep) __builtin_memcpy(to, at_, keep * sizeof(T));
+    release();
+    at_ = to;
+    class_ = wanted;
+    return at_;
+  }
+
+  void swap(Buffer& other) {
+    T* at = at_;
+    u32 c = class_;
+    at_ = other.at_;
+    class_ = other.class_;
+    other.at_ = at;
+    other.class_ = c;
+  }
+
+ private:
+  static void check(u64 n) {
+    if (n >= (u64(1) << 32) / sizeof(T)) fail(Fault::out_of_memory, f64(n) * sizeof(T));
+  }
+};

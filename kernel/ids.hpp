@@ -1,0 +1,90 @@
+// The user's ids and the kernel's slots.
+// Boxes stand densely in slots 0 … count - 1; deleting moves the last one into the gap. As long as the ids are
+// just 0 … count - 1 in order (an array's indices), slot and id are the same and nothing is stored. From the
+// first gap on, the id of each slot is kept, and the slot of each id in pages of 4,096, so that an id near the
+// limit of 2^24 costs a page, not a table of 2^24.
+#pragma once
+#include "heap.hpp"
+
+class Ids {
+  static constexpr u32 page_size = 4096, page_count = 4096;
+  bool same_ = true;  // slot == id for all
+  u32 count_ = 0;
+  Buffer<u32> id_of_;              // per slot
+  Buffer<u32> pages_[page_count];  // per 4,096 ids: slot + 1 of each, 0 where the id is free
+
+  u32* page(u32 id) {
+    Buffer<u32>& found = pages_[id / page_size];
+    if (!found.data()) {
+      found.reserve(page_size);
+      __builtin_memset(found.data(), 0, page_size * sizeof(u32));
+    }
+    return found.data();
+  }
+
+  /// Writes down what was implied so far. Allocates first: when that fails, nothing has changed.
+  void spell_out() {
+    id_of_.grow(larger(count_, 1u), 0);
+    for (u32 id = 0; id < count_; id += page_size) page(id);
+    for (u32 id = 0; id < count_; id++) {
+      id_of_[id] = id;
+      page(id)[id % page_size] = id + 1;
+    }
+    same_ = false;
+  }
+
+ public:
+  static constexpr u32 none = 0xffffffff;
+
+  u32 count() const { return count_; }
+  bool same() const { return same_; }
+  u32 id(u32 slot) const { return same_ ? slot : id_of_[slot]; }
+
+  u32 slot(u32 id) const {
+    if (same_) return id < count_ ? id : none;
+    const u32* page = pages_[id / page_size].data();
+    return page ? page[id % page_size] - 1 : none;
+  }
+
+  /// Gives an id that is not there yet the next slot.
+  u32 insert(u32 id) {
+    if (same_ && id != count_) spell_out();
+    if (!same_) {
+      u32* of = page(id);
+      id_of_.grow(u64(count_) + 1, count_);
+      id_of_[count_] = id;
+      of[id % page_size] = count_ + 1;
+    }
+    return count_++;
+  }
+
+  /// Takes an id away. Its slot goes to the id of the last slot, whose content the caller moves.
+  void erase(u32 id) {
+    if (same_ && id != count_ - 1) spell_out();
+    count_--;
+    if (same_) return;
+    u32& gap = pages_[id / page_size][id % page_size];
+    u32 moved = id_of_[count_];
+    id_of_[gap - 1] = moved;
+    pages_[moved / page_size][moved % page_size] = gap;
+    gap = 0;
+  }
+
+  /// From now on the ids are 0 … count - 1, in this order.
+  void reset(u32 count) {
+    if (!same_) {
+      for (auto& page : pages_) page.release();
+      id_of_.release();
+    }
+    same_ = true;
+    count_ = count;
+  }
+
+  /// Whether slots and ids name each other.
+  bool valid() const {
+    for (u32 s = 0; s < count_; s++) {
+      if (slot(id(s)) != s) return false;
+    }
+    return true;
+  }
+};

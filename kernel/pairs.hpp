@@ -1,0 +1,48 @@
+// The list of pairs: two slots each, the smaller first.
+// Four candidates are written at once without a branch: the lanes that hit are swizzled to the front by a table
+// of 16 entries, all four are stored, and the end moves on by the number of hits.
+#pragma once
+#include "box.hpp"
+
+struct Pairs {
+  Buffer<u64> list;  // in memory: slot a, slot b, slot a, …
+  u64 count = 0;
+
+  static constexpr u64 slack = 4;  // the compress-store writes up to four pairs past the end
+
+  /// Makes room for `more` pairs behind `out` and gives the place to go on writing.
+  u64* room(u64* out, u64 more) {
+    u64 have = u64(out - list.data());
+    if (have + more + slack > list.capacity()) return list.grow(have + more + slack, have) + have;
+    return out;
+  }
+};
+
+namespace detail {
+struct Swizzles {
+  u8 of[16][16];
+  constexpr Swizzles() : of{} {
+    for (int mask = 0; mask < 16; mask++) {
+      int to = 0;
+      for (int lane = 0; lane < 4; lane++) {
+        if (mask >> lane & 1) {
+          for (int byte = 0; byte < 4; byte++) of[mask][to * 4 + byte] = u8(lane * 4 + byte);
+          to++;
+        }
+      }
+    }
+  }
+};
+alignas(16) inline constexpr Swizzles swizzles;
+alignas(16) inline constexpr u8 bits_set[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
+}  // namespace detail
+
+/// Appends the pairs of slot `mine` with those of the four `others` whose bit is set in `mask`.
+inline u64* append(u64* out, u32x4 mine, u32x4 others, u32 mask) {
+  u32x4 packed = bits<u32x4>(swizzle(bits<u8x16>(others), load<u8x16>(detail::swizzles.of[mask])));
+  u32x4 a = min(mine, packed);
+  u32x4 b = max(mine, packed);
+  store(out, __builtin_shufflevector(a, b, 0, 4, 1, 5));
+  store(out + 2, __builtin_shufflevector(a, b, 2, 6, 3, 7));
+  return out + detail::bits_set[mask];
+}

@@ -1,0 +1,71 @@
+// Four lanes at a time: the few vector operations the kernel needs, the same for WebAssembly simd128 and
+// native SSE4.1, so that sanitizers and fuzzers watch the very code that ships.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#if defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#else
+#include <smmintrin.h>
+#endif
+
+using f32 = float;
+using f64 = double;
+using u8 = uint8_t;
+using u16 = uint16_t;
+using u32 = uint32_t;
+using i32 = int32_t;
+using u64 = uint64_t;
+
+typedef f32 f32x4 __attribute__((vector_size(16)));
+typedef i32 i32x4 __attribute__((vector_size(16)));
+typedef u32 u32x4 __attribute__((vector_size(16)));
+typedef u8 u8x16 __attribute__((vector_size(16)));
+
+/// Reads any plain value from unaligned memory.
+template <class T> inline T load(const void* at) {
+  T value;
+  __builtin_memcpy(&value, at, sizeof(T));
+  return value;
+}
+
+template <class T> inline void store(void* at, T value) { __builtin_memcpy(at, &value, sizeof(T)); }
+
+inline f32x4 splat(f32 x) { return f32x4{x, x, x, x}; }
+inline u32x4 splat(u32 x) { return u32x4{x, x, x, x}; }
+
+template <class To, class From> inline To bits(From value) {
+  static_assert(sizeof(To) == sizeof(From));
+  To result;
+  __builtin_memcpy(&result, &value, sizeof(To));
+  return result;
+}
+
+#if defined(__wasm_simd128__)
+/// One bit a lane: its sign.
+inline u32 bitmask(i32x4 v) { return wasm_i32x4_bitmask(bits<v128_t>(v)); }
+inline u32x4 min(u32x4 a, u32x4 b) { return bits<u32x4>(wasm_u32x4_min(bits<v128_t>(a), bits<v128_t>(b))); }
+inline u32x4 max(u32x4 a, u32x4 b) { return bits<u32x4>(wasm_u32x4_max(bits<v128_t>(a), bits<v128_t>(b))); }
+/// min and max of floats; where one is NaN the result is the second.
+inline f32x4 min(f32x4 a, f32x4 b) { return bits<f32x4>(wasm_f32x4_pmin(bits<v128_t>(b), bits<v128_t>(a))); }
+inline f32x4 max(f32x4 a, f32x4 b) { return bits<f32x4>(wasm_f32x4_pmax(bits<v128_t>(b), bits<v128_t>(a))); }
+inline u8x16 swizzle(u8x16 v, u8x16 index) {
+  return bits<u8x16>(wasm_i8x16_swizzle(bits<v128_t>(v), bits<v128_t>(index)));
+}
+#else
+inline u32 bitmask(i32x4 v) { return u32(_mm_movemask_ps(bits<__m128>(v))); }
+inline u32x4 min(u32x4 a, u32x4 b) { return bits<u32x4>(_mm_min_epu32(bits<__m128i>(a), bits<__m128i>(b))); }
+inline u32x4 max(u32x4 a, u32x4 b) { return bits<u32x4>(_mm_max_epu32(bits<__m128i>(a), bits<__m128i>(b))); }
+inline f32x4 min(f32x4 a, f32x4 b) { return bits<f32x4>(_mm_min_ps(bits<__m128>(a), bits<__m128>(b))); }
+inline f32x4 max(f32x4 a, f32x4 b) { return bits<f32x4>(_mm_max_ps(bits<__m128>(a), bits<__m128>(b))); }
+inline u8x16 swizzle(u8x16 v, u8x16 index) {
+  return bits<u8x16>(_mm_shuffle_epi8(bits<__m128i>(v), bits<__m128i>(index)));
+}
+#endif
+
+/// Floats, already clamped to what an int holds, to ints.
+inline i32x4 truncate(f32x4 v) { return __builtin_convertvector(v, i32x4); }
+
+template <class T> inline T smaller(T a, T b) { return b < a ? b : a; }
+template <class T> inline T larger(T a, T b) { return a < b ? b : a; }

@@ -1,0 +1,389 @@
+// A space: boxes by id, the technique that finds their pairs, and the exactness of the answer.
+//
+// Boxes live twice over where they must: as float32 rounded outward, which every technique searches, and, from
+// the first box on that float32 cannot hold, as the doubles that were given. Pairs found in float32 are then
+// re-tested in double where one of the two was rounded. Boxes that float32 holds pay nothing.
+// Every change allocates before it writes: when memory ends, the space is as it was.
+#pragma once
+#include "ids.hpp"
+#include "techniques/brute_force.hpp"
+#include "techniques/spatial_grid.hpp"
+#include "techniques/strip_sweep.hpp"
+
+/// In the order of BroadPhase.techniques.
+enum class Technique : u32 { brute_force, spatial_grid, strip_sweep, automatic };
+
+template <int D> class Space {
+  static constexpr u32 width = 2 * D;  // numbers in a box
+  static constexpr u64 padding = 4;    // vector loads may read this many floats past the last box
+  // Below this many boxes testing all against all costs less than looking at them first.
+  static constexpr u32 handful = 24;
+
+  Ids& ids_;
+  const GridOptions& options_;
+  Buffer<f32> boxes_, staged_;
+  Buffer<f64> exact_, staged_exact_;  // the doubles given, while `rounding_`
+  Buffer<u8> rounded_, staged_rounded_;  // per slot, while `rounding_`: whether float32 cannot hold the box
+  bool rounding_ = false;
+  bool exposed_ = false;  // `boxes()` has handed out the memory: look for bad numbers at the next update
+  Buffer<u32> excluded_;  // per slot its exclusion bits, while `excluding_`
+  bool excluding_ = false;
+  BruteForce<D> brute_force_;
+  SpatialGrid<D> spatial_grid_;
+  StripSweep<D> strip_sweep_;
+  Technique ran_ = Technique::brute_force;
+
+ public:
+  Pairs pairs;
+  Stats stats;
+  Buffer<f32> cells;  // what structure() has written
+  u32 cell_count = 0;
+  Technique technique = Technique::automatic;
+
+  Space(Ids& ids, const GridOptions& options) : ids_(ids), options_(options) {}
+
+  /// Memory for that many boxes, so that it need not grow while they are added.
+  void reserve(u32 count) {
+    if (count > ids_.count()) make_room(count, ids_.count());
+  }
+
+  /// Adds or moves a box: D minima, then D maxima, none NaN, no minimum above its maximum.
+  void set(u32 id, const f64* box) {
+    f32 low_high[width];
+    bool exact = true;
+    for (u32 k = 0; k < width; k++) {
+      low_high[k] = k < D ? round_down(box[k]) : round_up(box[k]);
+      exact &= f64(low_high[k]) == box[k];
+    }
+    if (!exact && !rounding_) start_rounding();
+    u32 slot = ids_.slot(id);
+    if (slot == Ids::none) {
+      make_room(u64(ids_.count()) + 1, ids_.count());
+      slot = ids_.insert(id);
+      if (excluding_) excluded_[slot] = 0;
+    }
+    __builtin_memcpy(boxes_.data() + u64(slot) * width, low_high, sizeof(low_high));
+    if (rounding_) {
+      __builtin_memcpy(exact_.data() + u64(slot) * width, box, width * sizeof(f64));
+      rounded_[slot] = !exact;
+    }
+  }
+
+  /// Takes a box away; false where there is none.
+  bool remove(u32 id) {
+    u32 slot = ids_.slot(id);
+    if (slot == Ids::none) return false;
+    ids_.erase(id);
+    u32 last = ids_.count();
+    if (slot == last) return true;
+    __builtin_memcpy(boxes_.data() + u64(slot) * width, boxes_.data() + u64(last) * width, width * sizeof(f32));
+    if (excluding_) excluded_[slot] = excluded_[last];
+    if (rounding_) {
+      __builtin_memcpy(exact_.data() + u64(slot) * width, exact_.data() + u64(last) * width, width * sizeof(f64));
+      rounded_[slot] = rounded_[last];
+    }
+    return true;
+  }
+
+  /// The numbers a box was given with; false where there is none.
+  bool get(u32 id, f64* box) const {
+    u32 slot = ids_.slot(id);
+    if (slot == Ids::none) return false;
+    for (u32 k = 0; k < width; k++) box[k] = number(slot, k);
+    return true;
+  }
+
+  void clear() {
+    ids_.reset(0);
+    exposed_ = rounding_ = excluding_ = false;
+  }
+
+  /// Memory into which the next `replace` expects its boxes, as float32 or as doubles.
+  f32* stage(u32 count) { return staged_.reserve(u64(count) * width + padding); }
+  f64* stage_exact(u32 count) {
+    stage(count);
+    staged_rounded_.reserve(count);
+    return staged_exact_.reserve(u64(count) * width);
+  }
+
+  f64 staged_number(u32 index, bool doubles) const { return doubles ? staged_exact_[index] : f64(staged_[index]); }
+
+  /// Takes what was staged in place of all boxes, as ids 0 … count - 1. Returns the first bad id, or -1;
+  /// where there is one, nothing changes.
+  i32 replace(u32 count, bool doubles) {
+    bool rounded = false;
+    i32 bad = doubles ? round_staged(count, rounded) : first_bad(staged_.data(), count);
+    if (bad >= 0) return bad;
+    renumber(count);
+    boxes_.swap(staged_);
+    rounding_ = rounded;
+    if (rounded) {
+      exact_.swap(staged_exact_);
+      rounded_.swap(staged_rounded_);
+    }
+    exposed_ = false;
+    return -1;
+  }
+
+  /// The boxes of ids 0 … count - 1, to be written in place. Ids from count on are removed, new ones are points
+  /// at the origin.
+  f32* expose(u32 count) {
+    u32 had = ids_.count();
+    if (!ids_.same()) {
+      f32* to = stage(count);
+      for (u32 id = 0; id < count; id++) {
+        u32 slot = ids_.slot(id);
+        if (slot == Ids::none) __builtin_memset(to + u64(id) * width, 0, width * sizeof(f32));
+        else __builtin_memcpy(to + u64(id) * width, boxes_.data() + u64(slot) * width, width * sizeof(f32));
+      }
+      renumber(count);
+      boxes_.swap(staged_);
+    } else if (count != had || !boxes_.data()) {
+      boxes_.grow(u64(count) * width + padding, u64(had) * width);
+      if (count > had) {
+        __builtin_memset(boxes_.data() + u64(had) * width, 0, u64(count - had) * width * sizeof(f32));
+      }
+      renumber(count);
+    }
+    rounding_ = false;
+    exposed_ = true;
+    return boxes_.data();
+  }
+
+  /// Sets or clears an exclusion bit of a box.
+  void exclude(u32 slot, u32 bit, bool on) {
+    if (!excluding_) {
+      if (!on) return;
+      excluded_.reserve(boxes_.capacity() / width);
+      __builtin_memset(excluded_.data(), 0, ids_.count() * sizeof(u32));
+      excluding_ = true;
+    }
+    excluded_[slot] = on ? excluded_[slot] | bit : excluded_[slot] & ~bit;
+  }
+
+  /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
+  i32 update() {
+    if (exposed_) {
+      i32 bad = first_bad(boxes_.data(), ids_.count());
+      if (bad >= 0) return bad;
+    }
+    Scene<D> scene{boxes_.data(), ids_.count(), excluding_ ? excluded_.data() : nullptr};
+    pairs.count = 0;
+    stats = Stats{};
+    Technique chosen = technique;
+    if (chosen == Technique::automatic) {
+      chosen = scene.count <= handful ? Technique::brute_force : Technique::strip_sweep;
+    }
+    if (chosen != ran_) release_techniques();
+    ran_ = chosen;
+    switch (ran_) {
+      case Technique::brute_force: brute_force_.update(scene, pairs, stats); break;
+      case Technique::spatial_grid: spatial_grid_.update(scene, options_, pairs, stats); break;
+      default: strip_sweep_.update(scene, pairs, stats);
+    }
+    stats.candidates = f64(pairs.count);
+    if (rounding_) retest();
+    if (!ids_.same()) name_pairs();
+    stats.pairs = f64(pairs.count);
+    stats.bytes = f64(heap::used);
+    stats.technique = f64(u32(ran_));
+    return -1;
+  }
+
+  /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
+  /// all finite boxes.
+  void structure() {
+    switch (ran_) {
+      case Technique::brute_force: brute_force_.structure(cells, cell_count, stats); break;
+      case Technique::spatial_grid: spatial_grid_.structure(cells, cell_count, stats); break;
+      default: strip_sweep_.structure(cells, cell_count, stats);
+    }
+    f32 least[D], most[D];
+    for (int a = 0; a < D; a++) {
+      least[a] = __builtin_inff();
+      most[a] = -__builtin_inff();
+      for (u32 s = 0; s < ids_.count(); s++) {
+        f32 lo = boxes_[u64(s) * width + a], hi = boxes_[u64(s) * width + D + a];
+        if (detail::is_finite(lo)) least[a] = smaller(least[a], lo);
+        if (detail::is_finite(hi)) most[a] = larger(most[a], hi);
+      }
+    }
+    for (u64 c = 0; c < cell_count; c++) {
+      for (int a = 0; a < D; a++) {
+        f32& lo = cells[c * width + a];
+        f32& hi = cells[c * width + D + a];
+        if (!detail::is_finite(lo)) lo = smaller(least[a], hi);
+        if (!detail::is_finite(hi)) hi = larger(most[a], lo);
+      }
+    }
+  }
+
+  /// After memory has run out in the middle of an update: no pairs, and all that an update needs built anew.
+  void recover() {
+    release_techniques();
+    pairs.list.release();
+    pairs.count = 0;
+    stats = Stats{};
+    stats.bytes = f64(heap::used);
+  }
+
+  /// Gives the techniques' memory back: on a switch, and after memory has run out in the middle of one.
+  void release_techniques() {
+    brute_force_.release();
+    spatial_grid_.release();
+    strip_sweep_.release();
+    cells.release();
+    cell_count = 0;
+  }
+
+  /// The number of the first invariant that does not hold (see src/broad-phase.ts), or 0; `detail`: where.
+  u32 validate(u32& detail) const {
+    detail = 0;
+    if (!ids_.valid()) return 1;
+    if (!exposed_) {
+      i32 bad = first_bad(boxes_.data(), ids_.count());
+      if (bad >= 0) {
+        detail = ids_.id(u32(bad));
+        return 2;
+      }
+    }
+    for (u32 s = 0; rounding_ && s < ids_.count(); s++) {
+      detail = ids_.id(s);
+      bool exact = true;
+      for (u32 k = 0; k < width; k++) {
+        f64 given = exact_[u64(s) * width + k];
+        f64 held = boxes_[u64(s) * width + k];
+        if (k < D ? held > given : held < given) return 3;
+        exact &= held == given;
+      }
+      if (exact == bool(rounded_[s])) return 4;
+    }
+    for (u64 p = 0; p < pairs.count; p++) {
+      u32 a = u32(pairs.list[p]), b = u32(pairs.list[p] >> 32);
+      detail = u32(p);
+      if (a >= b) return 5;
+    }
+    return 0;
+  }
+
+ private:
+  static f32 next_toward(f32 x, bool up) {
+    i32 b = bits<i32>(x == 0 ? (up ? 0.0f : -0.0f) : x);
+    return bits<f32>((b >= 0) == up ? b + 1 : b - 1);
+  }
+  static f32 round_down(f64 x) {
+    f32 near = f32(x);
+    return f64(near) > x ? next_toward(near, false) : near;
+  }
+  static f32 round_up(f64 x) {
+    f32 near = f32(x);
+    return f64(near) < x ? next_toward(near, true) : near;
+  }
+
+  f64 number(u32 slot, u32 k) const {
+    u64 at = u64(slot) * width + k;
+    return rounding_ ? exact_[at] : f64(boxes_[at]);
+  }
+
+  /// Room for `count` boxes in every array that has one entry a box.
+  void make_room(u64 count, u32 keep) {
+    if (count > max_slots) fail(Fault::out_of_memory, f64(count) * width * sizeof(f32));
+    boxes_.grow(count * width + padding, u64(keep) * width);
+    if (excluding_) excluded_.grow(count, keep);
+    if (rounding_) {
+      exact_.grow(count * width, u64(keep) * width);
+      rounded_.grow(count, keep);
+    }
+  }
+
+  /// From now on the doubles are kept too.
+  void start_rounding() {
+    u32 n = ids_.count();
+    exact_.reserve(u64(n) * width);
+    rounded_.reserve(n);
+    for (u64 k = 0; k < u64(n) * width; k++) exact_[k] = boxes_[k];
+    if (n) __builtin_memset(rounded_.data(), 0, n);
+    rounding_ = true;
+  }
+
+  /// The ids become 0 … count - 1; those that were there keep their exclusion bits.
+  void renumber(u32 count) {
+    if (excluding_) {
+      u32 had = ids_.count();
+      if (ids_.same()) {
+        excluded_.grow(count, smaller(had, count));
+        if (count > had) __builtin_memset(excluded_.data() + had, 0, (count - had) * sizeof(u32));
+      } else {
+        Buffer<u32> moved;
+        moved.reserve(count);
+        for (u32 id = 0; id < count; id++) {
+          u32 slot = ids_.slot(id);
+          moved[id] = slot == Ids::none ? 0 : excluded_[slot];
+        }
+        excluded_.swap(moved);
+        moved.release();
+      }
+    }
+    ids_.reset(count);
+  }
+
+  /// The first of `count` boxes with a NaN or with a minimum above its maximum, or -1.
+  static i32 first_bad(const f32* boxes, u32 count) {
+    for (u32 s = 0; s < count; s++) {
+      const f32* box = boxes + u64(s) * width;
+      bool good = true;
+      for (int a = 0; a < D; a++) good &= box[a] <= box[D + a];
+      if (!good) return i32(s);
+    }
+    return -1;
+  }
+
+  /// Rounds the staged doubles outward into the staged float32; says whether any was rounded.
+  i32 round_staged(u32 count, bool& rounded) {
+    const f64* from = staged_exact_.data();
+    f32* to = staged_.data();
+    for (u32 s = 0; s < count; s++) {
+      const f64* box = from + u64(s) * width;
+      bool good = true, exact = true;
+      for (int a = 0; a < D; a++) good &= box[a] <= box[D + a];
+      if (!good) return i32(s);
+      for (u32 k = 0; k < width; k++) {
+        f32 near = k < D ? round_down(box[k]) : round_up(box[k]);
+        to[u64(s) * width + k] = near;
+        exact &= f64(near) == box[k];
+      }
+      staged_rounded_[s] = !exact;
+      rounded |= !exact;
+    }
+    return -1;
+  }
+
+  /// Keeps, of the pairs with a rounded box, those that overlap in the numbers given.
+  void retest() {
+    const f64* exact = exact_.data();
+    u64* list = pairs.list.data();
+    u64 kept = 0;
+    for (u64 p = 0; p < pairs.count; p++) {
+      u64 pair = list[p];
+      u32 a = u32(pair), b = u32(pair >> 32);
+      bool overlap = true;
+      if (rounded_[a] | rounded_[b]) {
+        const f64* first = exact + u64(a) * width;
+        const f64* second = exact + u64(b) * width;
+        for (int k = 0; k < D; k++) overlap &= first[k] <= second[D + k] && second[k] <= first[D + k];
+      }
+      list[kept] = pair;
+      kept += overlap;
+    }
+    pairs.count = kept;
+  }
+
+  /// Slots to ids, the smaller first.
+  void name_pairs() {
+    u64* list = pairs.list.data();
+    for (u64 p = 0; p < pairs.count; p++) {
+      u32 a = ids_.id(u32(list[p])), b = ids_.id(u32(list[p] >> 32));
+      list[p] = u64(smaller(a, b)) | u64(larger(a, b)) << 32;
+    }
+  }
+};

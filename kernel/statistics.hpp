@@ -1,0 +1,156 @@
+// What a frame looks like, from a sample of it: extents, sizes and crowding.
+// Idea: a few hundred boxes at jittered strides (fixed strides alias with structured input). Where the extents
+// have a heavy tail (one box at 1e9 must not stretch the grid) the 2nd and 98th percentiles take their place.
+// Crowding is measured by a coarse histogram: how many times more neighbours a box has than if all were spread
+// evenly. Depends on the boxes alone, never on the frames before, so that a restored space acts the same.
+// Cost: about 10 ns for each of at most 1,024 sampled boxes.
+#pragma once
+#include "box.hpp"
+
+inline f64 cube_root(f64 x) {
+  f64 root = bits<f64>(bits<u64>(x) / 3 + 0x2a9f7893782da1ce);  // within 5 %: the exponent divided by three
+  for (int k = 0; k < 3; k++) root = (2 * root + x / (root * root)) / 3;
+  return root;
+}
+
+template <int D> struct Statistics {
+  f64 low[D], high[D];  // extents of the boxes' lower corners, without outliers
+  f64 size[D];          // mean sizes, each clipped to the extent
+  f64 crowding;         // 1: spread evenly
+};
+
+namespace detail {
+
+inline constexpr u32 most_samples = 1024;
+inline f32 sample[6][most_samples];  // per axis the minima, then per axis the maxima
+inline f32 sorted[most_samples];
+
+/// The k-th smallest of n values, which are reordered (quickselect with the median of three).
+inline f32 select(f32* v, i32 n, i32 k) {
+  i32 from = 0, to = n - 1;
+  while (from < to) {
+    f32 a = v[from], b = v[(from + to) / 2], c = v[to];
+    f32 pivot = larger(smaller(a, b), smaller(larger(a, b), c));
+    i32 i = from, j = to;
+    while (i <= j) {
+      while (v[i] < pivot) i++;
+      while (pivot < v[j]) j--;
+      if (i <= j) {
+        f32 t = v[i];
+        v[i++] = v[j];
+        v[j--] = t;
+      }
+    }
+    if (k <= j) to = j;
+    else if (k >= i) from = i;
+    else break;
+  }
+  return v[k];
+}
+
+inline bool is_finite(f32 x) { return x - x == 0; }
+
+/// Extents of the finite ones among n values, without outliers.
+inline void extents(const f32* v, u32 n, f64& low, f64& high) {
+  // Finite values near the largest float would overflow in float32; none does in double.
+  f64 least = __builtin_inf(), most = -__builtin_inf(), sum = 0, squares = 0;
+  for (u32 k = 0; k < n; k++) {
+    f64 x = v[k];
+    least = smaller(x, least);
+    most = larger(x, most);
+    sum += x;
+    squares += x * x;
+  }
+  f64 mean = sum / n;
+  f64 variance = squares / n - mean * mean;
+  low = least;
+  high = most;
+  // For even or bell-shaped spreads the range is below 8 standard deviations at these sample sizes. The second
+  // test catches cancellation: then the deviation is not to be trusted.
+  f64 range = most - least;
+  bool tame = range * range <= 64 * variance && variance > 1e-9 * mean * mean;
+  if (tame) return;
+  i32 kept = 0;
+  for (u32 k = 0; k < n; k++) {
+    if (is_finite(v[k])) sorted[kept++] = v[k];
+  }
+  if (kept == 0) {
+    low = high = 0;
+    return;
+  }
+  i32 cut = kept / 50;
+  low = select(sorted, kept, cut);
+  high = select(sorted, kept, kept - 1 - cut);
+}
+
+}  // namespace detail
+
+/// Statistics of `count` items (Source: SceneItems or ItemsAt), along the axes as the source gives them.
+template <int D, class Source> Statistics<D> measure(const Source& items, u32 count) {
+  using detail::sample;
+  u32 n = smaller(count, smaller(larger(count / 64, 256u), detail::most_samples));
+  u32 stride = count / n;
+  u32 jitter = 0x9e3779b9;
+  for (u32 k = 0; k < n; k++) {
+    jitter = jitter * 1664525 + 1013904223;
+    Item<D> item = items[k * stride + u32((u64(jitter) * stride) >> 32)];
+    for (int a = 0; a < D; a++) {
+      sample[a][k] = item.lo(a);
+      sample[D + a][k] = item.hi(a);
+    }
+  }
+
+  Statistics<D> found;
+  constexpr u32 side = D == 2 ? 16 : 8;
+  static u16 cell[detail::most_samples];
+  for (int a = 0; a < D; a++) {
+    detail::extents(sample[a], n, found.low[a], found.high[a]);
+    f64 extent = found.high[a] - found.low[a];
+    f64 sum = 0;
+    for (u32 k = 0; k < n; k++) {
+      f64 size = f64(sample[D + a][k]) - f64(sample[a][k]);
+      if (size > 0) sum += smaller(size, extent);  // not where both are the same infinity: NaN
+    }
+    found.size[a] = sum / n;
+    f64 scale = extent > 0 ? side / extent : 0;
+    for (u32 k = 0; k < n; k++) {
+      f64 at = (f64(sample[a][k]) - found.low[a]) * scale;
+      u32 index = at > 0 ? u32(smaller(at, f64(side - 1))) : 0;
+      cell[k] = a == 0 ? u16(index) : u16(cell[k] * side + index);
+    }
+  }
+
+  constexpr u32 cells = D == 2 ? side * side : side * side * side;
+  static u16 histogram[cells];
+  for (u32 c = 0; c < cells; c++) histogram[c] = 0;
+  f64 meetings = 0;
+  for (u32 k = 0; k < n; k++) meetings += 2 * histogram[cell[k]]++;
+  found.crowding = n < 64 ? 1 : larger(1.0, meetings * cells / (f64(n) * (n - 1)));
+  return found;
+}
+
+/// A monotone map from a coordinate to a cell index in [0, cells): trunc(clamp(x * shrink * scale + offset)).
+/// `shrink` is a power of two that brings the extent near 1, so that neither denormal nor huge extents overflow.
+struct Axis {
+  f32 shrink = 1, scale = 0, offset = 0, last = 0;
+
+  static Axis make(f64 low, f64 high, u32 cells) {
+    Axis axis;
+    f64 extent = high - low;
+    if (!(extent > 0) || cells < 2) return axis;
+    i32 exponent = i32(bits<u64>(extent) >> 52) - 1023;
+    exponent = larger(-126, smaller(126, exponent));
+    axis.shrink = bits<f32>(u32(127 - exponent) << 23);
+    f64 scale = cells / (extent * f64(axis.shrink));
+    axis.scale = f32(scale);
+    axis.offset = f32(-low * f64(axis.shrink) * scale);
+    axis.last = f32(cells - 1);
+    return axis;
+  }
+
+  u32 operator()(f32 x) const {
+    f32 at = x * shrink * scale + offset;
+    at = at > 0 ? at : 0;  // NaN, from infinity times a scale of 0, too
+    return u32(at < last ? at : last);
+  }
+};

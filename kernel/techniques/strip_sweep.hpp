@@ -1,0 +1,394 @@
+// Strip sweep: cut the world into strips (2D) or columns (3D), order each along the remaining axis, sweep.
+//
+// Idea: an item enters every strip it touches and is marked "continues" in all but its first (3D: one mark per
+// axis). Two items that both continue into a strip have already met, so their shared mark keeps them from being
+// tested again: every pair is found once, with no table. Within a strip items are put into as many cells along
+// the sweep axis as there are items, by one counting sort; they are not sorted further, since the sweep tests
+// four at a time and a few candidates more cost nothing, while branches of a sort do. Where the cells turn out
+// uneven (outliers, clusters) the strip is radix-sorted instead; where a strip has too many candidates that are
+// not hits, it is cut again, along the same axes, by its own statistics.
+// Cost: build O(n), pairs O(n + candidates); memory about 48 (2D) or 80 (3D) bytes for each entry.
+// Wins nearly always when everything moves: box size costs almost nothing, there is no cell size to choose.
+// Loses when few boxes move: it starts anew each time.
+// From: two-layer partitioning, Tsitsigkos et al., "A Two-layer Partitioning for Non-point Spatial Data",
+// ICDE 2021; the sweep in strips goes back to Güting & Schilling 1987.
+#pragma once
+#include "radix_sort.hpp"
+#include "statistics.hpp"
+#include "stats.hpp"
+#include "sweep.hpp"
+
+template <int D> class StripSweep {
+  // What an entry in a strip costs, relative to a tested candidate: sets the width of the strips.
+  static constexpr f64 entry_cost = D == 2 ? 24 : 40;
+  // Below this many candidates a box, narrower strips save nothing: the first block of four is tested anyway.
+  static constexpr f64 free_candidates = 1.5;
+  // Strips longer than this leave the cache near the core.
+  static constexpr f64 cached_items = 8192;
+  static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
+  static constexpr u32 deepest = 4;
+  // A strip is looked at again where it has this many candidates an item, and this many in all.
+  static constexpr u64 again_factor = 24, again_least = 8192;
+  // Cells hold one item on average; above this many squared they are given up for a sort.
+  static constexpr u64 uneven = 6;
+
+  /// How one set of items is cut: along the binned axes 1 (and 2); axis 0 is swept.
+  struct Cut {
+    Statistics<D> world;
+    Axis along[D];
+    u32 strips[D];
+
+    u32 lists() const { return D == 2 ? strips[1] : strips[1] * strips[2]; }
+  };
+
+  /// A part of the world, along the item's axes; unbounded at its borders.
+  struct Region {
+    f64 low[D], high[D];
+  };
+
+  /// First and last strip of an item along each binned axis, packed to 4 bytes.
+  struct Range {
+    u32 packed;
+    static Range make(const Cut& cut, const Item<D>& item) {
+      if constexpr (D == 2) return {cut.along[1](item.lo(1)) | cut.along[1](item.hi(1)) << 16};
+      else return {cut.along[1](item.lo(1)) | cut.along[1](item.hi(1)) << 8 | cut.along[2](item.lo(2)) << 16 |
+                   cut.along[2](item.hi(2)) << 24};
+    }
+    u32 first(int axis) const { return D == 2 ? packed & 0xffff : packed >> (16 * axis - 16) & 0xff; }
+    u32 last(int axis) const { return D == 2 ? packed >> 16 : packed >> (16 * axis - 8) & 0xff; }
+  };
+
+  Items<D> entries_;       // by strip; deeper cuts stack theirs on top
+  Items<D> ordered_;       // the items of one strip, in the order of the sweep
+  Lanes<D> lanes_;         // the same, as the sweep reads them
+  Buffer<Range> ranges_;   // per item that is being cut
+  Buffer<u32> offsets_[deepest + 1];  // per cut: where each strip's entries begin
+  Buffer<u32> cells_;      // per item of a strip, its cell
+  Buffer<u32> starts_;     // per cell, where its items begin, later: end
+  Buffer<u32> end_;        // per ordered item, how far to look
+  RadixSort sort_;
+  Buffer<Region> leaves_;  // the strips in use
+  AxisOrder<D> order_;
+  Stats* stats_ = nullptr;
+
+ public:
+  static constexpr const char* name = "strip-sweep";
+
+  void update(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
+    stats_ = &stats;
+    if (scene.count < 2) return;
+    SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
+    Statistics<D> world = measure<D>(plain, scene.count);
+    order_ = AxisOrder<D>::make(longest(world));
+    Statistics<D> turned = world;
+    for (int a = 0; a < D; a++) {
+      turned.low[a] = world.low[order_.axis[a]];
+      turned.high[a] = world.high[order_.axis[a]];
+      turned.size[a] = world.size[order_.axis[a]];
+    }
+    Cut cut = choose(turned, scene.count);
+    SceneItems<D> items{scene, order_};
+    Region everywhere;
+    for (int a = 0; a < D; a++) {
+      everywhere.low[a] = -__builtin_inf();
+      everywhere.high[a] = __builtin_inf();
+    }
+    if (cut.lists() == 1) list(items, scene.count, everywhere, 0, 0, pairs);
+    else divide(items, scene.count, cut, everywhere, 0, 0, pairs);
+  }
+
+  /// The strips of the last update, as boxes in the world's axes; unbounded sides are infinite.
+  void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+    count = u32(stats.cells);
+    boxes.reserve(u64(count) * 2 * D);
+    for (u32 k = 0; k < count; k++) {
+      for (int a = 0; a < D; a++) {
+        boxes[k * 2 * D + order_.axis[a]] = f32(leaves_[k].low[a]);
+        boxes[k * 2 * D + D + order_.axis[a]] = f32(leaves_[k].high[a]);
+      }
+    }
+  }
+
+  void release() {
+    entries_.release();
+    ordered_.release();
+    lanes_.release();
+    ranges_.release();
+    for (auto& offsets : offsets_) offsets.release();
+    cells_.release();
+    starts_.release();
+    end_.release();
+    sort_.release();
+    leaves_.release();
+  }
+
+ private:
+  /// The axis along which the world is longest, measured in boxes.
+  static int longest(const Statistics<D>& world) {
+    int best = 0;
+    f64 most = -1;
+    for (int a = 0; a < D; a++) {
+      f64 extent = world.high[a] - world.low[a];
+      f64 length = extent > 0 ? extent / larger(world.size[a], extent * 1e-7) : 0;
+      if (length > most) {
+        most = length;
+        best = a;
+      }
+    }
+    return best;
+  }
+
+  /// Strip widths that balance entries against candidates: a strip w boxes wide makes 1 / w more entries and
+  /// tests w times the neighbours along the sweep axis.
+  static Cut choose(const Statistics<D>& world, u32 count) {
+    f64 relative[D];  // mean size as a share of the extent
+    for (int a = 0; a < D; a++) {
+      f64 extent = world.high[a] - world.low[a];
+      relative[a] = extent > 0 ? smaller(1.0, larger(world.size[a] / extent, 1e-3 / count)) : 1;
+    }
+    f64 neighbours = world.crowding * count * relative[0];  // along the sweep axis, in the whole width
+    f64 width[D];                                           // as a share of the extent
+    auto one_axis = [&](int axis) {
+      f64 balanced = __builtin_sqrt(entry_cost * relative[axis] / neighbours);
+      return larger(balanced, free_candidates / neighbours);
+    };
+    if constexpr (D == 2) {
+      width[1] = smaller(one_axis(1), cached_items / count);
+    } else {
+      f64 boxes = cube_root(entry_cost / (neighbours * relative[1] * relative[2]));
+      boxes = larger(boxes, __builtin_sqrt(free_candidates / (neighbours * relative[1] * relative[2])));
+      width[1] = boxes * relative[1];
+      width[2] = boxes * relative[2];
+      // Where one axis is not worth cutting the world is flat: balance the other alone.
+      if (width[1] >= 1) width[2] = one_axis(2);
+      else if (width[2] >= 1) width[1] = one_axis(1);
+    }
+    Cut cut;
+    cut.world = world;
+    cut.strips[0] = 1;
+    for (int a = 1; a < D; a++) {
+      cut.strips[a] = u32(larger(1.0, smaller(f64(most_strips), 1 / width[a])));
+      cut.along[a] = Axis::make(world.low[a], world.high[a], cut.strips[a]);
+      if (cut.along[a].scale == 0) cut.strips[a] = 1;
+    }
+    return cut;
+  }
+
+  /// Puts items into the strips of a cut, behind the `base` entries of the cuts further out, and sweeps each.
+  template <class Source>
+  void divide(Source items, u32 count, const Cut& cut, const Region& region, u32 base, u32 depth, Pairs& pairs) {
+    // Counting by differences: +1 where an item's range of strips begins, -1 behind its end, then prefix sums.
+    // One more strip along each axis takes the -1 of the last; it stays empty.
+    u32 across = D == 2 ? 1 : cut.strips[D - 1] + 1;
+    u32 lists = (cut.strips[1] + 1) * across;
+    u32* offsets = offsets_[depth].reserve(lists);
+    __builtin_memset(offsets, 0, lists * sizeof(u32));
+    Range* ranges = ranges_.reserve(count);
+    for (u32 k = 0; k < count; k++) {
+      Range range = Range::make(cut, items[k]);
+      ranges[k] = range;
+      u32 first = range.first(1), behind = range.last(1) + 1;
+      if constexpr (D == 2) {
+        offsets[first]++;
+        offsets[behind]--;
+      } else {
+        u32 first_2 = range.first(2), behind_2 = range.last(2) + 1;
+        offsets[first * across + first_2]++;
+        offsets[first * across + behind_2]--;
+        offsets[behind * across + first_2]--;
+        offsets[behind * across + behind_2]++;
+      }
+    }
+    if constexpr (D == 3) {
+      for (u32 l = 0; l < lists; l++) {
+        if (l % across) offsets[l] += offsets[l - 1];
+      }
+    }
+    for (u32 l = across; l < lists; l++) offsets[l] += offsets[l - across];
+    u64 total = base;
+    for (u32 l = 0; l < lists; l++) {
+      u32 size = offsets[l];
+      offsets[l] = u32(total);
+      total += size;
+    }
+    size_t source = place(items);
+    entries_.grow(total, base);
+    move(items, source);
+
+    ItemsAt<D> entries(entries_, 0);
+    for (u32 k = 0; k < count; k++) {
+      Item<D> item = items[k];
+      Range range = ranges[k];
+      u32 first = range.first(1), last = range.last(1);
+      if constexpr (D == 2) {
+        entries.put(offsets[first]++, item);
+        if (first == last) continue;
+        item = with_tag(item, continues_1);
+        for (u32 s = first + 1; s <= last; s++) entries.put(offsets[s]++, item);
+      } else {
+        u32 first_2 = range.first(2), last_2 = range.last(2);
+        for (u32 s = first; s <= last; s++) {
+          Item<D> marked = s == first ? item : with_tag(item, continues_1);
+          u32* row = offsets + s * across;
+          entries.put(row[first_2]++, marked);
+          if (first_2 == last_2) continue;
+          marked = with_tag(marked, continues_2);
+          for (u32 t = first_2 + 1; t <= last_2; t++) entries.put(row[t]++, marked);
+        }
+      }
+    }
+    stats_->entries += f64(total - base);
+
+    // offsets[l] is now where list l ends.
+    u32 begin = base;
+    for (u32 l = 0; l < lists; l++) {
+      u32 end = offsets[l];
+      if (end > begin) {
+        Region part = region;
+        narrow(part, 1, cut, l / across);
+        if constexpr (D == 3) narrow(part, 2, cut, l % across);
+        list(ItemsAt<D>(entries_, begin), end - begin, part, u32(total), depth + 1, pairs);
+      }
+      begin = end;
+    }
+  }
+
+  // Items that are cut again stand in entries_ themselves, which may move when it grows.
+  static size_t place(const SceneItems<D>&) { return 0; }
+  static void move(SceneItems<D>&, size_t) {}
+  size_t place(const ItemsAt<D>& items) const { return size_t(items.boxes - entries_.boxes.data()) / (D - 1); }
+  void move(ItemsAt<D>& items, size_t first) const { items = ItemsAt<D>(entries_, first); }
+
+  /// Cuts a region down to one strip along an axis; the border strips keep the region's own border.
+  static void narrow(Region& region, int axis, const Cut& cut, u32 strip) {
+    f64 low = cut.world.low[axis], step = (cut.world.high[axis] - low) / cut.strips[axis];
+    if (strip > 0) region.low[axis] = low + strip * step;
+    if (strip + 1 < cut.strips[axis]) region.high[axis] = low + (strip + 1) * step;
+  }
+
+  /// Orders the items of one strip and sweeps them, or cuts them again where that saves work.
+  template <class Source>
+  void list(const Source& items, u32 count, const Region& region, u32 base, u32 depth, Pairs& pairs) {
+    u64 tests = order_by_cells(items, count);
+    if (depth < deepest && tests > again_factor * count && tests > again_least && wasteful(count)) {
+      Statistics<D> part = measure<D>(items, count);
+      for (int a = 1; a < D; a++) {
+        part.low[a] = larger(part.low[a], region.low[a]);
+        part.high[a] = smaller(part.high[a], region.high[a]);
+        part.size[a] = smaller(part.size[a], larger(0.0, part.high[a] - part.low[a]));
+      }
+      Cut cut = choose(part, count);
+      if (cut.lists() > 1) {
+        divide(items, count, cut, region, base, depth, pairs);
+        return;
+      }
+    }
+    stats_->tests += f64(tests);
+    stats_->cells++;
+    note(region);
+    sweep<D>(lanes_, end_.data(), 0, count, pairs);
+  }
+
+  /// Fills lanes_ and end_; returns the number of tests the sweep will make.
+  template <class Source> u64 order_by_cells(const Source& items, u32 count) {
+    lanes_.reserve(count);
+    ordered_.grow(count, 0);
+    end_.reserve(count + 4);
+    u32* cells = cells_.reserve(count);
+    u32* starts = starts_.reserve(count + 1);
+    __builtin_memset(starts, 0, (count + 1) * sizeof(u32));
+    Axis axis = sampled_axis(items, count);
+    for (u32 k = 0; k < count; k++) {
+      u32 cell = axis(items[k].lo(0));
+      cells[k] = cell;
+      starts[cell]++;
+    }
+    u32 at = 0;
+    u64 crowd = 0;  // the sum of the squares: what the unsorted cells cost
+    for (u32 c = 0; c < count; c++) {
+      u32 size = starts[c];
+      starts[c] = at;
+      at += size;
+      crowd += u64(size) * size;
+    }
+    ItemsAt<D> ordered(ordered_, 0);
+    for (u32 k = 0; k < count; k++) ordered.put(starts[cells[k]]++, items[k]);
+    lanes_.fill(ordered, count);
+
+    // starts[c] is now where cell c ends.
+    const f32* hi = lanes_.hi(0);
+    u32* end = end_.data();
+    u64 tests = 0;
+    for (u32 k = 0; k < count; k++) {
+      end[k] = starts[axis(hi[k])];
+      tests += end[k] - k - 1;
+    }
+    if (crowd > uneven * count && 3 * crowd > tests) return order_by_sorting(items, count);
+    return tests;
+  }
+
+  /// The same by a full sort: for strips where cells of one size do not fit.
+  template <class Source> u64 order_by_sorting(const Source& items, u32 count) {
+    sort_.begin(count);
+    for (u32 k = 0; k < count; k++) sort_.put(k, items[k].lo(0));
+    sort_.sort(count);
+    ItemsAt<D> ordered(ordered_, 0);
+    for (u32 k = 0; k < count; k++) ordered.put(k, items[sort_.index(k)]);
+    lanes_.fill(ordered, count);
+    const f32* lo = lanes_.lo(0);
+    const f32* hi = lanes_.hi(0);
+    u32* end = end_.data();
+    u64 tests = 0;
+    for (u32 k = 0; k < count; k++) {
+      // The first item that starts past this one's end: by doubling steps, then by halving.
+      u32 step = 1, from = k + 1;
+      while (from + step <= count && lo[from + step - 1] <= hi[k]) {
+        from += step;
+        step *= 2;
+      }
+      u32 to = smaller(from + step, count);
+      while (from < to) {
+        u32 middle = (from + to) / 2;
+        if (lo[middle] <= hi[k]) from = middle + 1;
+        else to = middle;
+      }
+      end[k] = from;
+      tests += from - k - 1;
+    }
+    return tests;
+  }
+
+  /// Cells along the sweep axis, as many as there are items, over the range of a sample of them.
+  template <class Source> static Axis sampled_axis(const Source& items, u32 count) {
+    u32 stride = larger(1u, count / 64);
+    f32 least = __builtin_inff(), most = -__builtin_inff();
+    for (u32 k = 0; k < count; k += stride) {
+      f32 x = items[k].lo(0);
+      if (!detail::is_finite(x)) continue;
+      least = smaller(x, least);
+      most = larger(x, most);
+    }
+    return Axis::make(least, most, count);
+  }
+
+  /// Whether most of the tests that the sweep is about to make would be misses, by a sample of them.
+  bool wasteful(u32 count) const {
+    u32 hits = 0, tried = 0;
+    u32 stride = larger(1u, count / 32);
+    for (u32 i = stride / 2; i < count; i += stride) {
+      Probe<D> probe(lanes_, i);
+      u32 until = end_[i], step = larger(4u, (until - i) / 8);
+      for (u32 j = i + 1; j + 4 <= until; j += step) {
+        hits += detail::bits_set[bitmask(probe.overlaps(lanes_, j, load<u32x4>(lanes_.tag() + j)))];
+        tried += 4;
+      }
+    }
+    return hits * 4 < tried;
+  }
+
+  void note(const Region& region) {
+    u64 leaf = u64(stats_->cells) - 1;
+    leaves_.grow(leaf + 1, leaf);
+    leaves_[leaf] = region;
+  }
+};

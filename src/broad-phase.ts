@@ -1,0 +1,480 @@
+// The class BroadPhase: a Map from id to box that knows which of its boxes overlap.
+// All state lives in the kernel's memory (kernel/space.hpp); this file checks what comes in, passes it on, and
+// gives views of what comes out. Nothing here runs once per box or per pair of an update.
+import { badBox, badCount, badId, badValue, maxId } from './errors.ts';
+import { instantiate, type KernelExports } from './kernel.ts';
+
+/** Options of {@link BroadPhase}, all optional. */
+export interface BroadPhaseOptions {
+  /** 2 or 3. Default 2. */
+  dimensions?: 2 | 3;
+  /** One of {@link BroadPhase.techniques}. Default `'auto'`. */
+  technique?: TechniqueName;
+  /** For grids: the side of a cell, or one number per axis, above 0. Left out: chosen from the boxes. */
+  cellSize?: number | readonly number[];
+  /** For `spatial-grid`: the world that is cut into cells, minima then maxima. Boxes outside are found all the same. */
+  bounds?: readonly number[];
+  /** A hint: how many boxes there will be, 0 … 2^24. Saves growing while they are added. */
+  capacity?: number;
+}
+
+const techniques = ['brute-force', 'spatial-grid', 'strip-sweep', 'auto'] as const;
+
+/** The name of a technique. */
+export type TechniqueName = (typeof techniques)[number];
+
+/** Counters of the last update. */
+export interface Stats {
+  /** The technique that ran: what `auto` chose. */
+  technique: TechniqueName;
+  /** Boxes tested against boxes. */
+  tests: number;
+  /** Pairs found in float32, before the exact test in double precision. */
+  candidates: number;
+  /** Pairs reported. */
+  pairs: number;
+  /** Cells, strips or nodes in use. */
+  cells: number;
+  /** Places of boxes in them: more than there are boxes where a box stands in several. */
+  entries: number;
+  /** Bytes of memory in use by the space. */
+  bytes: number;
+}
+
+/** Boxes for {@link BroadPhase.setAll}: interleaved, minima then maxima, box after box. */
+export type Boxes = Float32Array | Float64Array | readonly number[];
+
+const broken = [
+  '',
+  'ids and slots do not name each other, at id',
+  'a box has a NaN or a minimum above its maximum, id',
+  'a box was rounded inward, id',
+  'a box is wrongly marked as rounded, id',
+  'a pair is not in order, number',
+];
+
+/** A number of views kept, so that pair counts seen lately make no garbage. */
+const viewsKept = 256;
+
+/**
+ * For find-pairs.ts: boxes 0 … red - 1 become red, the others blue; only pairs of both colours are reported.
+ * @internal
+ */
+export let splitColours: (space: BroadPhase, red: number) => void;
+
+/**
+ * Finds every overlapping pair among boxes that move. Reads like a Map from id to box.
+ *
+ * Boxes are closed: touching boxes overlap. Boxes of zero size are points, infinite ones are half planes; both
+ * are legal. The pairs are exactly those of the numbers given, doubles included, whatever the technique.
+ *
+ * @example
+ * const space = new BroadPhase();
+ * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
+ * space.pairs; // Uint32Array [7, 9]
+ */
+export class BroadPhase {
+  /** The names of the techniques, in order. */
+  static readonly techniques: readonly TechniqueName[] = techniques;
+
+  /** 2 or 3. */
+  readonly dimensions: 2 | 3;
+
+  #kernel: KernelExports;
+  readonly #io: number;
+  readonly #stackTop: number;
+  readonly #width: number;
+  readonly #stats: Stats = { technique: 'auto', tests: 0, candidates: 0, pairs: 0, cells: 0, entries: 0, bytes: 0 };
+  readonly #pairViews: Uint32Array[] = [];
+  #technique: TechniqueName;
+  /** What `boxes()` gave last, and whether no `update()` has read it since. */
+  #view: Float32Array | undefined;
+  #viewIsUnread = false;
+
+  /**
+   * @throws RangeError or TypeError that names the option
+   * @throws Error where WebAssembly with SIMD is missing or forbidden
+   */
+  constructor(options: BroadPhaseOptions = {}) {
+    if (typeof options !== 'object' || options === null) {
+      badValue('new BroadPhase', options, 'an object of options', true);
+    }
+    const { dimensions = 2, technique = 'auto', cellSize, bounds, capacity = 0 } = options;
+    if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
+    checkTechnique(technique);
+    checkBoxCount('capacity', capacity);
+    const cells = cellSize === undefined ? undefined : checkCellSize(cellSize, dimensions);
+    if (bounds !== undefined) checkBounds(bounds, dimensions);
+
+    this.dimensions = dimensions;
+    this.#width = 2 * dimensions;
+    this.#technique = technique;
+    this.#kernel = instantiate();
+    this.#io = this.#kernel.io_address();
+    this.#stackTop = this.#kernel.__stack_pointer.value;
+    this.#kernel.open_space(dimensions);
+    this.#kernel.set_technique(techniques.indexOf(technique));
+    const io = new Float64Array(this.#kernel.memory.buffer, this.#io, 8);
+    if (cells) {
+      io.set(cells);
+      this.#kernel.set_cell_size();
+    }
+    if (bounds) {
+      io.set(bounds);
+      this.#kernel.set_bounds();
+    }
+    try {
+      this.#kernel.reserve(capacity);
+    } catch (error) {
+      this.#recover(error, 'capacity');
+    }
+  }
+
+  /** The number of boxes. */
+  get size(): number {
+    return this.#kernel.size();
+  }
+
+  /**
+   * Adds box `id`, or moves it: 2D `set(id, minX, minY, maxX, maxY)`, 3D `set(id, minX, minY, minZ, maxX, maxY, maxZ)`.
+   *
+   * @param id an integer from 0 to 2^24 - 1; ids near 0 without gaps are best
+   * @throws RangeError for a bad id, for NaN, and for a minimum above its maximum; TypeError for other than
+   *   numbers and for a wrong number of them. The space is as before.
+   */
+  set(id: number, minX: number, minY: number, maxX: number, maxY: number): this;
+  set(id: number, minX: number, minY: number, minZ: number, maxX: number, maxY: number, maxZ: number): this;
+  set(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
+    if (arguments.length !== this.#width + 1) badCount('set', arguments.length, this.dimensions);
+    if (id >>> 0 !== id || id > maxId) badId('set', id);
+    if (this.#width === 4) {
+      if (!(a <= c && b <= d) || !areNumbers(a, b, c, d)) badBox('set', id, [a, b, c, d], 2);
+      try {
+        this.#kernel.set_2(id, a, b, c, d);
+      } catch (error) {
+        this.#recover(error, 'set');
+      }
+    } else {
+      if (!(a <= d && b <= e! && c <= f!) || !areNumbers(a, b, c, d) || !areNumbers(e!, f!, 0, 0)) {
+        badBox('set', id, [a, b, c, d, e, f], 3);
+      }
+      try {
+        this.#kernel.set_3(id, a, b, c, d, e!, f!);
+      } catch (error) {
+        this.#recover(error, 'set');
+      }
+    }
+    if (!this.#viewIsUnread) this.#view = undefined;
+    return this;
+  }
+
+  /**
+   * Replaces all boxes, by ids 0 … count - 1.
+   *
+   * @param boxes 4 (2D) or 6 (3D) numbers for each box, as `set` takes them, one box after the other
+   * @param count how many boxes to take; default: all there are
+   * @throws RangeError that names the first bad id and its value, or a length that does not fit; TypeError for
+   *   other than an array of numbers. The space is as before.
+   */
+  setAll(boxes: Boxes, count?: number): this {
+    const width = this.#width;
+    const single = boxes instanceof Float32Array;
+    checkBoxes('setAll', boxes);
+    count ??= countBoxes('setAll', boxes, this.dimensions);
+    const { length } = boxes;
+    checkBoxCount('setAll: count', count);
+    if (count * width > length) {
+      badValue('setAll: count', count, `at most ${Math.floor(length / width)}, as ${length} numbers were given`);
+    }
+    if (!single) checkNumbers(boxes, count, this.dimensions);
+    try {
+      const kernel = this.#kernel;
+      const at = single ? kernel.stage(count) : kernel.stage_exact(count);
+      const view = single
+        ? new Float32Array(kernel.memory.buffer, at, count * width)
+        : new Float64Array(kernel.memory.buffer, at, count * width);
+      if (length === view.length) view.set(boxes);
+      else
+        view.set(Array.isArray(boxes) ? boxes.slice(0, view.length) : (boxes as Float64Array).subarray(0, view.length));
+      const bad = kernel.replace(count, single ? 0 : 1);
+      if (bad >= 0) badBox('setAll', bad, view.slice(bad * width, (bad + 1) * width), this.dimensions);
+    } catch (error) {
+      this.#recover(error, 'setAll');
+    }
+    this.#view = undefined;
+    this.#viewIsUnread = false;
+    return this;
+  }
+
+  /**
+   * The fastest way in: an array over the kernel's own memory for the boxes of ids 0 … count - 1, to be written
+   * in place, as float32, before `update()`. Ids from count on are removed; new ones are points at the origin.
+   *
+   * The array is valid until the next call that can grow memory, so ask for it each time; asking again costs
+   * next to nothing and makes no garbage. `update()` checks what was written and refuses an array that memory
+   * growth has cut off.
+   *
+   * @param count how many boxes, 0 … 2^24
+   * @throws RangeError for a bad count
+   */
+  boxes(count: number): Float32Array {
+    checkBoxCount('boxes: count', count);
+    try {
+      const at = this.#kernel.expose(count);
+      const { buffer } = this.#kernel.memory;
+      const length = count * this.#width;
+      let view = this.#view;
+      if (view?.buffer !== buffer || view.byteOffset !== at || view.length !== length) {
+        view = new Float32Array(buffer, at, length);
+        this.#view = view;
+      }
+      this.#viewIsUnread = true;
+      return view;
+    } catch (error) {
+      this.#recover(error, 'boxes');
+    }
+  }
+
+  /**
+   * Takes box `id` away.
+   * @returns whether there was one
+   * @throws RangeError for a bad id
+   */
+  delete(id: number): boolean {
+    if (id >>> 0 !== id || id > maxId) badId('delete', id);
+    if (!this.#viewIsUnread) this.#view = undefined;
+    try {
+      return this.#kernel.remove(id) === 1;
+    } catch (error) {
+      this.#recover(error, 'delete');
+    }
+  }
+
+  /**
+   * Whether there is a box `id`.
+   * @throws RangeError for a bad id
+   */
+  has(id: number): boolean {
+    if (id >>> 0 !== id || id > maxId) badId('has', id);
+    return this.#kernel.has(id) === 1;
+  }
+
+  /**
+   * The numbers box `id` was given with, or `undefined` where there is none.
+   * @param out filled and returned, if given; else a new Float64Array
+   * @throws RangeError for a bad id
+   */
+  get(id: number): Float64Array | undefined;
+  get<Out extends Float32Array | Float64Array | number[]>(id: number, out: Out): Out | undefined;
+  get(id: number, out: Float32Array | Float64Array | number[] = new Float64Array(this.#width)) {
+    if (id >>> 0 !== id || id > maxId) badId('get', id);
+    if (this.#kernel.get(id) === 0) return undefined;
+    const io = this.#ioView();
+    for (let k = 0; k < this.#width; k++) out[k] = io[k]!;
+    return out;
+  }
+
+  /** Takes all boxes away. */
+  clear(): void {
+    this.#kernel.clear();
+    this.#view = undefined;
+    this.#viewIsUnread = false;
+  }
+
+  /**
+   * Brings the pairs up to date with the boxes. Chainable.
+   * @throws RangeError that names the first bad box written through `boxes()`; the pairs stay as they were
+   * @throws Error where the array that `boxes()` gave has been cut off by growing memory and not been asked for again
+   * @throws RangeError where memory ends: the pairs are empty, and the space works again once there are fewer
+   */
+  update(): this {
+    if (this.#view !== undefined && this.#view.buffer !== this.#kernel.memory.buffer) {
+      throw new Error(
+        'update: the array that boxes() gave was cut off when memory grew, so what was written to it since is lost: ' +
+          'call boxes(count) before each time it is written',
+      );
+    }
+    let bad = -1;
+    try {
+      bad = this.#kernel.update();
+    } catch (error) {
+      this.#recover(error, 'update');
+    }
+    if (bad >= 0) {
+      const box = new Float32Array(this.#width);
+      this.get(bad, box);
+      badBox('update', bad, box, this.dimensions);
+    }
+    this.#viewIsUnread = false;
+    return this;
+  }
+
+  /**
+   * Each overlapping pair of ids once, `[a0, b0, a1, b1, …]` with a < b, as of the last update. The order
+   * depends only on the calls made. A view of the kernel's memory: valid until the next `update()`.
+   */
+  get pairs(): Uint32Array {
+    const at = this.#kernel.pairs_address();
+    const count = this.#kernel.pair_count();
+    const { buffer } = this.#kernel.memory;
+    const views = this.#pairViews;
+    let view = views[count % viewsKept];
+    if (view?.buffer !== buffer || view.byteOffset !== at || view.length !== 2 * count) {
+      view = new Uint32Array(buffer, at, 2 * count);
+      views[count % viewsKept] = view;
+    }
+    return view;
+  }
+
+  /** The number of pairs as of the last update. */
+  get pairCount(): number {
+    return this.#kernel.pair_count();
+  }
+
+  /** Counters of the last update: the same object every time, brought up to date when it is asked for. */
+  get stats(): Readonly<Stats> {
+    const from = new Float64Array(this.#kernel.memory.buffer, this.#kernel.stats_address(), 7);
+    const stats = this.#stats;
+    stats.tests = from[0]!;
+    stats.candidates = from[1]!;
+    stats.pairs = from[2]!;
+    stats.cells = from[3]!;
+    stats.entries = from[4]!;
+    stats.bytes = from[5]!;
+    stats.technique = techniques[from[6]!]!;
+    return stats;
+  }
+
+  /** The technique, which may be changed at any time: the pairs stay the same. */
+  get technique(): TechniqueName {
+    return this.#technique;
+  }
+  set technique(name: TechniqueName) {
+    checkTechnique(name);
+    this.#technique = name;
+    this.#kernel.set_technique(techniques.indexOf(name));
+  }
+
+  /**
+   * The boxes of the cells, strips or nodes that the last update used, to draw: interleaved like `setAll`'s. A
+   * view of the kernel's memory: valid until the next call.
+   */
+  structure(): Float32Array {
+    try {
+      const at = this.#kernel.structure();
+      return new Float32Array(this.#kernel.memory.buffer, at, this.#kernel.structure_count() * this.#width);
+    } catch (error) {
+      this.#recover(error, 'structure');
+    }
+  }
+
+  /**
+   * Checks every invariant of the space, in time proportional to boxes and pairs.
+   * @throws Error that says what is broken, which would be a fault of this library
+   */
+  validate(): this {
+    const code = this.#kernel.validate();
+    if (code !== 0) throw new Error(`validate: ${broken[code]} ${this.#ioView()[0]}`);
+    return this;
+  }
+
+  /** Lets go of the memory at once; it also goes with the object. Any call after this throws. */
+  dispose(): void {
+    this.#kernel = disposed;
+    this.#pairViews.length = 0;
+    this.#view = undefined;
+  }
+
+  static {
+    splitColours = (space, red) => {
+      try {
+        space.#kernel.split(red);
+      } catch (error) {
+        space.#recover(error, 'findPairsBetween');
+      }
+    };
+  }
+
+  #ioView(): Float64Array {
+    return new Float64Array(this.#kernel.memory.buffer, this.#io, 8);
+  }
+
+  /** After an exception out of the kernel: makes the space usable again and says what was wrong. */
+  #recover(error: unknown, where: string): never {
+    if (!(error instanceof WebAssembly.RuntimeError)) throw error;
+    this.#kernel.__stack_pointer.value = this.#stackTop;
+    if (this.#kernel.recover() === 0) throw error;
+    throw new RangeError(
+      `${where}: out of memory: ${this.#ioView()[0]} bytes more for ${this.size} boxes and their pairs, expected no ` +
+        'more than WebAssembly allows (4 GiB) or this host can give',
+      { cause: error },
+    );
+  }
+}
+
+/** Stands in for the kernel of a disposed space. */
+const disposed = new Proxy({} as KernelExports, {
+  get() {
+    throw new Error('this BroadPhase was disposed: it cannot be used any more');
+  },
+});
+
+function areNumbers(a: unknown, b: unknown, c: unknown, d: unknown): boolean {
+  return typeof a === 'number' && typeof b === 'number' && typeof c === 'number' && typeof d === 'number';
+}
+
+function checkTechnique(name: unknown): void {
+  if (techniques.includes(name as TechniqueName)) return;
+  badValue('technique', name, `one of ${techniques.join(', ')}`, typeof name !== 'string');
+}
+
+function checkBoxCount(what: string, count: unknown): void {
+  const expected = `an integer from 0 to ${maxId + 1}`;
+  if (typeof count !== 'number') badValue(what, count, expected, true);
+  if (!Number.isInteger(count) || count < 0 || count > maxId + 1) badValue(what, count, expected);
+}
+
+/** One positive number per axis. */
+function checkCellSize(cellSize: number | readonly number[], dimensions: 2 | 3): readonly number[] {
+  const sizes = Array.isArray(cellSize) ? cellSize : new Array<unknown>(dimensions).fill(cellSize);
+  const expected = `a number above 0, or ${dimensions} of them, one per axis`;
+  if (sizes.length !== dimensions) badValue('cellSize', cellSize, expected);
+  for (const size of sizes) {
+    if (typeof size !== 'number') badValue('cellSize', cellSize, expected, true);
+    if (!(size > 0 && size < Number.POSITIVE_INFINITY)) badValue('cellSize', cellSize, expected);
+  }
+  return sizes as number[];
+}
+
+function checkBounds(bounds: readonly number[], dimensions: 2 | 3): void {
+  const expected = `${2 * dimensions} finite numbers: minima, then larger maxima`;
+  if (!Array.isArray(bounds)) badValue('bounds', bounds, expected, true);
+  let good = bounds.length === 2 * dimensions && bounds.every(Number.isFinite);
+  for (let a = 0; a < dimensions; a++) good &&= bounds[a]! < bounds[a + dimensions]!;
+  if (!good) badValue('bounds', bounds, expected);
+}
+
+/** Boxes come in one of three kinds of array. */
+export function checkBoxes(where: string, boxes: unknown): void {
+  if (boxes instanceof Float32Array || boxes instanceof Float64Array || Array.isArray(boxes)) return;
+  badValue(where, boxes, 'a Float32Array, a Float64Array or an array of numbers', true);
+}
+
+/** How many boxes an array holds, which must be a whole number of them. */
+export function countBoxes(where: string, boxes: Boxes, dimensions: 2 | 3): number {
+  const width = 2 * dimensions;
+  if (boxes.length % width !== 0) {
+    badValue(`${where}: length`, boxes.length, `a multiple of ${width}, the numbers of a box in ${dimensions}D`);
+  }
+  return boxes.length / width;
+}
+
+/** Each number of the first `count` boxes of an array really is one; what it is worth the kernel checks. */
+function checkNumbers(boxes: ArrayLike<unknown>, count: number, dimensions: 2 | 3): void {
+  const width = 2 * dimensions;
+  for (let k = 0; k < count * width; k++) {
+    if (typeof boxes[k] === 'number') continue;
+    const id = Math.floor(k / width);
+    badBox('setAll', id, Array.prototype.slice.call(boxes, id * width, (id + 1) * width), dimensions);
+  }
+}

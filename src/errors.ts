@@ -1,0 +1,60 @@
+// What bad input is told: what was asked, the value, what was expected. One function a kind of input; each
+// throws, and none is called before everything is still as it was.
+
+/** Ids are integers from 0 to this. */
+export const maxId = 2 ** 24 - 1;
+
+const corners = {
+  2: ['minX', 'minY', 'maxX', 'maxY'],
+  3: ['minX', 'minY', 'minZ', 'maxX', 'maxY', 'maxZ'],
+} as const;
+
+/** A value as a person would write it. */
+export function show(value: unknown): string {
+  if (typeof value === 'string') return JSON.stringify(value);
+  if (typeof value === 'bigint') return `${value}n`;
+  if (Array.isArray(value)) return `[${value.slice(0, 8).map(show).join(', ')}${value.length > 8 ? ', …' : ''}]`;
+  if (typeof value === 'object' && value !== null) return Object.prototype.toString.call(value);
+  return Object.is(value, -0) ? '-0' : String(value);
+}
+
+/** An id that is no integer in range. */
+export function badId(where: string, id: unknown): never {
+  const message = `${where}: the id is ${show(id)}, expected an integer from 0 to ${maxId}`;
+  throw typeof id === 'number' ? new RangeError(message) : new TypeError(message);
+}
+
+/** A box that is not one: says which of its numbers is wrong. */
+export function badBox(where: string, id: number, box: ArrayLike<unknown>, dimensions: 2 | 3): never {
+  const names = corners[dimensions];
+  for (let k = 0; k < names.length; k++) {
+    const value = box[k];
+    if (typeof value !== 'number') {
+      throw new TypeError(`${where}: ${names[k]} of box ${id} is ${show(value)}, expected a number`);
+    }
+    if (Number.isNaN(value)) throw new RangeError(`${where}: ${names[k]} of box ${id} is NaN, expected a number`);
+  }
+  for (let a = 0; a < dimensions; a++) {
+    const low = box[a] as number;
+    const high = box[a + dimensions] as number;
+    if (low > high) {
+      throw new RangeError(
+        `${where}: box ${id} has ${names[a]} ${low} above ${names[a + dimensions]} ${high}, expected minima not above maxima`,
+      );
+    }
+  }
+  throw new Error(`${where}: box ${id} was refused, but nothing is wrong with it: please report this`);
+}
+
+/** A call with too few or too many arguments. */
+export function badCount(where: string, got: number, dimensions: 2 | 3): never {
+  throw new TypeError(
+    `${where}: got ${got} arguments, expected ${1 + 2 * dimensions} in ${dimensions}D: id, ${corners[dimensions].join(', ')}`,
+  );
+}
+
+/** Any other argument or option. */
+export function badValue(where: string, value: unknown, expected: string, wrongType = false): never {
+  const message = `${where}: got ${show(value)}, expected ${expected}`;
+  throw wrongType ? new TypeError(message) : new RangeError(message);
+}

@@ -1,0 +1,49 @@
+// One-shot search: pairs of an array of boxes, or between two, without keeping anything.
+import { type Boxes, BroadPhase, type BroadPhaseOptions, checkBoxes, countBoxes, splitColours } from './broad-phase.ts';
+
+/**
+ * Every overlapping pair of an array of boxes, once: `[a0, b0, a1, b1, …]` with a < b, indices into the array.
+ * For boxes that move, a {@link BroadPhase} that is kept is faster.
+ *
+ * @param boxes interleaved: minX, minY, maxX, maxY (3D: minX, minY, minZ, maxX, maxY, maxZ), box after box
+ * @throws RangeError or TypeError that names the first bad box or option
+ *
+ * @example
+ * findPairs([0, 0, 10, 10, 5, 5, 15, 15]); // Uint32Array [0, 1]
+ */
+export function findPairs(boxes: Boxes, options?: BroadPhaseOptions): Uint32Array {
+  return new BroadPhase(options).setAll(boxes).update().pairs.slice();
+}
+
+/**
+ * Every pair of a red and a blue box that overlap, once: `[red0, blue0, red1, blue1, …]`, indices into each array.
+ *
+ * @param red interleaved boxes, as for {@link findPairs}
+ * @param blue the same; the two together at most 2^24 boxes
+ * @throws RangeError or TypeError that names the first bad box (blue ones are counted on from the red) or option
+ *
+ * @example
+ * findPairsBetween([0, 0, 10, 10], [5, 5, 15, 15, 20, 20, 30, 30]); // Uint32Array [0, 0]
+ */
+export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOptions): Uint32Array {
+  const space = new BroadPhase(options);
+  checkBoxes('findPairsBetween: red', red);
+  checkBoxes('findPairsBetween: blue', blue);
+  const reds = countBoxes('findPairsBetween: red', red, space.dimensions);
+  countBoxes('findPairsBetween: blue', blue, space.dimensions);
+  space.setAll(join(red, blue));
+  splitColours(space, reds);
+  const pairs = space.update().pairs.slice();
+  for (let k = 1; k < pairs.length; k += 2) pairs[k]! -= reds;
+  return pairs;
+}
+
+/** Both arrays as one, in double precision unless both are float32. */
+function join(red: Boxes, blue: Boxes): Boxes {
+  if (Array.isArray(red) || Array.isArray(blue)) return [...red, ...blue];
+  const single = red instanceof Float32Array && blue instanceof Float32Array;
+  const joined = new (single ? Float32Array : Float64Array)(red.length + blue.length);
+  joined.set(red);
+  joined.set(blue, red.length);
+  return joined;
+}

@@ -1,0 +1,81 @@
+// Loads the kernel: one WebAssembly module for all spaces, one instance with its own memory for each.
+// The module is inlined as base64 and compiled on first use, synchronously, so that `new BroadPhase()` works
+// everywhere without waiting; `init` is for hosts that forbid that or want to load the bytes themselves.
+import { kernelBase64 } from './generated/kernel-wasm.ts';
+
+/** The exported functions of kernel/abi.cpp. */
+export interface KernelExports {
+  memory: WebAssembly.Memory;
+  __stack_pointer: WebAssembly.Global;
+  io_address(): number;
+  open_space(dimensions: number): void;
+  set_cell_size(): void;
+  set_bounds(): void;
+  reserve(count: number): void;
+  set_2(id: number, x0: number, y0: number, x1: number, y1: number): void;
+  set_3(id: number, x0: number, y0: number, z0: number, x1: number, y1: number, z1: number): void;
+  remove(id: number): number;
+  has(id: number): number;
+  get(id: number): number;
+  size(): number;
+  clear(): void;
+  stage(count: number): number;
+  stage_exact(count: number): number;
+  replace(count: number, doubles: number): number;
+  expose(count: number): number;
+  staged_number(index: number, doubles: number): number;
+  split(red: number): void;
+  set_technique(technique: number): void;
+  update(): number;
+  pairs_address(): number;
+  pair_count(): number;
+  stats_address(): number;
+  structure(): number;
+  structure_count(): number;
+  validate(): number;
+  recover(): number;
+}
+
+let module: WebAssembly.Module | undefined;
+
+/**
+ * Gives the library its kernel, once, before the first `new BroadPhase()`. Not needed where WebAssembly may be
+ * compiled synchronously from inlined bytes, which is nearly everywhere; meant for pages with a strict content
+ * security policy and for hosts that load modules their own way.
+ *
+ * @param source the bytes of `broadphase/kernel.wasm`, or a module compiled from them
+ * @throws TypeError where it is neither
+ */
+export function init(source: WebAssembly.Module | BufferSource): void {
+  if (source instanceof WebAssembly.Module) module = source;
+  else if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) module = compile(source);
+  else throw new TypeError(`init: got ${String(source)}, expected a WebAssembly.Module or the bytes of one`);
+}
+
+/** A fresh kernel with memory of its own. */
+export function instantiate(): KernelExports {
+  module ??= compile(decodeBase64(kernelBase64));
+  return new WebAssembly.Instance(module).exports as unknown as KernelExports;
+}
+
+function compile(bytes: BufferSource): WebAssembly.Module {
+  if (typeof WebAssembly === 'undefined') {
+    throw new Error('broadphase needs WebAssembly with SIMD (all browsers since 2023, Node 16.4): it is missing here');
+  }
+  try {
+    return new WebAssembly.Module(bytes);
+  } catch (cause) {
+    throw new Error(
+      'broadphase needs WebAssembly with SIMD (all browsers since 2023, Node 16.4): this host refused to compile it. ' +
+        "Where a content security policy forbids it, allow 'wasm-unsafe-eval' or call init() with a compiled module",
+      { cause },
+    );
+  }
+}
+
+function decodeBase64(text: string): Uint8Array<ArrayBuffer> {
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let k = 0; k < binary.length; k++) bytes[k] = binary.charCodeAt(k);
+  return bytes;
+}

@@ -1,0 +1,82 @@
+// The scenes are the ground every figure stands on: seeded, as dense as they say, and steady.
+import { describe, expect, test } from 'vitest';
+import { createScene, type Scene, type SceneName, sceneNames } from '../src/scenes/index.ts';
+
+function measure({ boxes, dimensions, count, world }: Scene) {
+  let volume = 0;
+  for (let k = 0; k < count; k++) {
+    let product = 1;
+    for (let axis = 0; axis < dimensions; axis++) {
+      const at = 2 * dimensions * k + axis;
+      product *= boxes[at + dimensions] - boxes[at];
+    }
+    volume += product;
+  }
+  return volume / world ** dimensions;
+}
+
+const densities = {
+  uniform: 0.25,
+  sparse: 0.001,
+  dense: 4,
+  mixed: 0.5,
+  giants: 0.5,
+  clustered: 0.05,
+  static: 0.25,
+  skewed: 0.1,
+};
+
+describe.each(sceneNames)('%s', (name) => {
+  const count = 20_000;
+
+  test('is as dense as it says and lies inside its world', () => {
+    const scene = createScene(name, count);
+    const density = densities[name.slice(0, -2) as keyof typeof densities];
+    expect(measure(scene) / density).toBeCloseTo(1, 2);
+    expect(scene.boxes.find((value) => !(value >= 0 && value <= scene.world * (1 + 1e-6)))).toBeUndefined();
+  });
+
+  test('is the same for the same seed, and another for another', () => {
+    const [a, b, c] = [3, 3, 4].map((seed) => createScene(name, 500, { seed }));
+    for (let frame = 0; frame < 3; frame++) for (const scene of [a, b, c]) scene.step();
+    expect(a.boxes).toEqual(b.boxes);
+    expect(a.boxes).not.toEqual(c.boxes);
+  });
+
+  test('moves boxes by at most the speed, in place, without leaving or changing size', () => {
+    const scene = createScene(name, 500, { speed: 3 });
+    const { boxes, dimensions: d } = scene;
+    const first = boxes.slice();
+    for (let frame = 0; frame < 200; frame++) {
+      const before = boxes.slice();
+      scene.step();
+      for (let at = 0; at < boxes.length; at += 2 * d) {
+        let squares = 0;
+        for (let axis = at; axis < at + d; axis++) {
+          squares += (boxes[axis] - before[axis]) ** 2;
+          if (boxes[axis] < 0) expect.fail(`box ${at / (2 * d)} left the world`);
+          const size = first[axis + d] - first[axis];
+          if (Math.abs(boxes[axis + d] - boxes[axis] - size) > 1e-3) expect.fail(`box ${at / (2 * d)} changed size`);
+        }
+        if (Math.sqrt(squares) > 3.001) expect.fail(`box ${at / (2 * d)} moved by ${Math.sqrt(squares)}`);
+      }
+    }
+    expect(scene.boxes).toBe(boxes);
+    expect(boxes).not.toEqual(first);
+  });
+});
+
+test('one box in twenty moves in the static scenes', () => {
+  const scene = createScene('static2d', 20_000);
+  const before = scene.boxes.slice();
+  scene.step();
+  let moved = 0;
+  for (let at = 0; at < before.length; at += 4) if (before[at] !== scene.boxes[at]) moved++;
+  expect(moved / 20_000).toBeCloseTo(0.05, 2);
+});
+
+test('a scene may be empty, and an unknown one or a bad count is an error that names it', () => {
+  expect(createScene('mixed3d', 0).boxes.length).toBe(0);
+  expect(() => createScene('round2d' as SceneName, 1)).toThrow('"round2d"');
+  expect(() => createScene('mixed2d', 1.5)).toThrow('1.5');
+});
