@@ -32,13 +32,9 @@ EXPORT(set_bounds)() -> void {
 EXPORT(reserve)(u32 count) -> void {
   with_space([&](auto& space) { space.reserve(count); });
 }
-EXPORT(set_2)(u32 id, f64 x0, f64 y0, f64 x1, f64 y1) -> void {
-  f64 box[4] = {x0, y0, x1, y1};
-  flat.set(id, box);
-}
-EXPORT(set_3)(u32 id, f64 x0, f64 y0, f64 z0, f64 x1, f64 y1, f64 z1) -> void {
-  f64 box[6] = {x0, y0, z0, x1, y1, z1};
-  solid.set(id, box);
+/// Adds or moves a box; its numbers are in io.
+EXPORT(set)(u32 id) -> void {
+  with_space([&](auto& space) { space.set(id, io); });
 }
 EXPORT(remove)(u32 id) -> u32 {
   return with_space([&](auto& space) { return space.remove(id); });

@@ -123,6 +123,13 @@ template <int D> struct ItemsAt {
   }
 };
 
+/// Where `Lanes` stand, for the inner loop: pointers that no store can change.
+template <int D> struct LaneView {
+  const f32* lo[D];
+  const f32* hi[D];
+  const u32* tag;
+};
+
 /// Items as structure of arrays, for tests of one against four: lo and hi per axis, and the tags.
 /// Followed by a block of NaN boxes, which overlap nothing: reading past the end is harmless.
 template <int D> class Lanes {
@@ -135,6 +142,16 @@ template <int D> class Lanes {
   f32* lo(int axis) const { return values_.data() + size_t(axis) * stride_; }
   f32* hi(int axis) const { return values_.data() + size_t(D + axis) * stride_; }
   u32* tag() const { return reinterpret_cast<u32*>(values_.data() + size_t(2 * D) * stride_); }
+
+  LaneView<D> view() const {
+    LaneView<D> view;
+    for (int a = 0; a < D; a++) {
+      view.lo[a] = lo(a);
+      view.hi[a] = hi(a);
+    }
+    view.tag = tag();
+    return view;
+  }
 
   void reserve(u32 n) {
     size_t stride = (size_t(n) + padding + 3) & ~size_t(3);

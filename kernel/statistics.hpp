@@ -129,28 +129,48 @@ template <int D, class Source> Statistics<D> measure(const Source& items, u32 co
   return found;
 }
 
-/// A monotone map from a coordinate to a cell index in [0, cells): trunc(clamp(x * shrink * scale + offset)).
-/// `shrink` is a power of two that brings the extent near 1, so that neither denormal nor huge extents overflow.
+/// A monotone map from a coordinate to a cell index in [0, cells): the distance from `low`, scaled and clamped.
+/// Adding 2^23 leaves the nearest integer in the low bits of the float, which costs one addition where a
+/// conversion that must not trap costs many instructions. `shrink` is a power of two that brings the extent near
+/// 1, so that neither denormal nor huge extents overflow.
 struct Axis {
-  f32 shrink = 1, scale = 0, offset = 0, last = 0;
+  static constexpr f32 magic = 8388608;  // 2^23
+  f32 low = 0, shrink = 1, scale = 0, last = magic;
 
   static Axis make(f64 low, f64 high, u32 cells) {
     Axis axis;
+    axis.low = f32(low);
     f64 extent = high - low;
     if (!(extent > 0) || cells < 2) return axis;
     i32 exponent = i32(bits<u64>(extent) >> 52) - 1023;
     exponent = larger(-126, smaller(126, exponent));
     axis.shrink = bits<f32>(u32(127 - exponent) << 23);
-    f64 scale = cells / (extent * f64(axis.shrink));
-    axis.scale = f32(scale);
-    axis.offset = f32(-low * f64(axis.shrink) * scale);
-    axis.last = f32(cells - 1);
+    axis.scale = f32((cells - 1) / (extent * f64(axis.shrink)));
+    axis.last = magic + f32(cells - 1);
     return axis;
   }
 
   u32 operator()(f32 x) const {
-    f32 at = x * shrink * scale + offset;
-    at = at > 0 ? at : 0;  // NaN, from infinity times a scale of 0, too
-    return u32(at < last ? at : last);
+    f32 at = (x - low) * shrink * scale + magic;
+    at = at > magic ? at : magic;  // NaN, from infinity times a scale of 0, too
+    at = at < last ? at : last;
+    return bits<u32>(at) - bits<u32>(magic);
+  }
+};
+
+/// The same for four coordinates at once, each lane along an axis of its own.
+struct Axes {
+  f32x4 low, shrink, scale, last;
+
+  Axes(const Axis& a, const Axis& b, const Axis& c, const Axis& d)
+      : low{a.low, b.low, c.low, d.low},
+        shrink{a.shrink, b.shrink, c.shrink, d.shrink},
+        scale{a.scale, b.scale, c.scale, d.scale},
+        last{a.last, b.last, c.last, d.last} {}
+
+  u32x4 operator()(f32x4 x) const {
+    f32x4 at = (x - low) * shrink * scale + splat(Axis::magic);
+    at = min(max(at, splat(Axis::magic)), last);
+    return bits<u32x4>(at) - splat(bits<u32>(Axis::magic));
   }
 };

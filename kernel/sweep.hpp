@@ -6,35 +6,36 @@
 #pragma once
 #include "pairs.hpp"
 
-/// Which of the four items at `j` overlap the one whose bounds are given, as a bit mask.
+/// One item, ready to be tested against four.
 template <int D> struct Probe {
   f32x4 lo[D], hi[D];
   u32x4 slot, excluded;
 
-  Probe(const Lanes<D>& lanes, u32 i) {
+  Probe(const LaneView<D>& lanes, u32 i) {
     for (int axis = 0; axis < D; axis++) {
-      lo[axis] = splat(lanes.lo(axis)[i]);
-      hi[axis] = splat(lanes.hi(axis)[i]);
+      lo[axis] = splat(lanes.lo[axis][i]);
+      hi[axis] = splat(lanes.hi[axis][i]);
     }
-    u32 tag = lanes.tag()[i];
+    u32 tag = lanes.tag[i];
     slot = splat(tag & slot_mask);
     excluded = splat(tag & ~slot_mask);
   }
 
-  i32x4 overlaps(const Lanes<D>& lanes, u32 j, u32x4 tags) const {
-    i32x4 hits = bits<i32x4>((tags & excluded) == u32x4{});
+  /// Which of the items j … j + 3, with these tags, overlap this one and share no exclusion bit with it.
+  i32x4 hits(const LaneView<D>& lanes, u32 j, u32x4 tags) const {
+    i32x4 all = bits<i32x4>((tags & excluded) == u32x4{});
     for (int axis = 0; axis < D; axis++) {
-      hits &= load<f32x4>(lanes.lo(axis) + j) <= hi[axis];
-      hits &= load<f32x4>(lanes.hi(axis) + j) >= lo[axis];
+      all &= load<f32x4>(lanes.lo[axis] + j) <= hi[axis];
+      all &= load<f32x4>(lanes.hi[axis] + j) >= lo[axis];
     }
-    return hits;
+    return all;
   }
 };
 
 /// Tests item i of [first, last) against the items i + 1 … end[i] - 1 and appends the pairs.
 /// `exact_end`: what stands behind `end` may overlap, so lanes past it are masked out.
 template <int D, bool exact_end = false>
-inline void sweep(const Lanes<D>& lanes, const u32* end, u32 first, u32 last, Pairs& pairs) {
+inline void sweep(const LaneView<D> lanes, const u32* end, u32 first, u32 last, Pairs& pairs) {
   u64* out = pairs.list.data() + pairs.count;
   u64* limit = pairs.list.data() + pairs.list.capacity();
   for (u32 i = first; i < last; i++) {
@@ -45,8 +46,8 @@ inline void sweep(const Lanes<D>& lanes, const u32* end, u32 first, u32 last, Pa
     }
     Probe<D> probe(lanes, i);
     for (u32 j = i + 1; j < until; j += 4) {
-      u32x4 tags = load<u32x4>(lanes.tag() + j);
-      i32x4 hits = probe.overlaps(lanes, j, tags);
+      u32x4 tags = load<u32x4>(lanes.tag + j);
+      i32x4 hits = probe.hits(lanes, j, tags);
       if constexpr (exact_end) hits &= bits<i32x4>(u32x4{0, 1, 2, 3} + splat(j) < splat(until));
       out = append(out, probe.slot, tags & splat(slot_mask), bitmask(hits));
     }

@@ -81,15 +81,16 @@ export class BroadPhase {
   readonly dimensions: 2 | 3;
 
   #kernel: KernelExports;
-  readonly #io: number;
+  #io = new Float64Array();
+  #statsView = new Float64Array();
+  readonly #stagedViews: (Float32Array | Float64Array)[] = [];
   readonly #stackTop: number;
   readonly #width: number;
   readonly #stats: Stats = { technique: 'auto', tests: 0, candidates: 0, pairs: 0, cells: 0, entries: 0, bytes: 0 };
   readonly #pairViews: Uint32Array[] = [];
   #technique: TechniqueName;
-  /** What `boxes()` gave last, and whether no `update()` has read it since. */
+  /** What `boxes()` gave last, while it is in use. */
   #view: Float32Array | undefined;
-  #viewIsUnread = false;
 
   /**
    * @throws RangeError or TypeError that names the option
@@ -110,11 +111,10 @@ export class BroadPhase {
     this.#width = 2 * dimensions;
     this.#technique = technique;
     this.#kernel = instantiate();
-    this.#io = this.#kernel.io_address();
     this.#stackTop = this.#kernel.__stack_pointer.value;
     this.#kernel.open_space(dimensions);
     this.#kernel.set_technique(techniques.indexOf(technique));
-    const io = new Float64Array(this.#kernel.memory.buffer, this.#io, 8);
+    const io = this.#ioView();
     if (cells) {
       io.set(cells);
       this.#kernel.set_cell_size();
@@ -145,26 +145,33 @@ export class BroadPhase {
   set(id: number, minX: number, minY: number, maxX: number, maxY: number): this;
   set(id: number, minX: number, minY: number, minZ: number, maxX: number, maxY: number, maxZ: number): this;
   set(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
-    if (arguments.length !== this.#width + 1) badCount('set', arguments.length, this.dimensions);
-    if (id >>> 0 !== id || id > maxId) badId('set', id);
-    if (this.#width === 4) {
-      if (!(a <= c && b <= d) || !areNumbers(a, b, c, d)) badBox('set', id, [a, b, c, d], 2);
-      try {
-        this.#kernel.set_2(id, a, b, c, d);
-      } catch (error) {
-        this.#recover(error, 'set');
-      }
-    } else {
-      if (!(a <= d && b <= e! && c <= f!) || !areNumbers(a, b, c, d) || !areNumbers(e!, f!, 0, 0)) {
-        badBox('set', id, [a, b, c, d, e, f], 3);
-      }
-      try {
-        this.#kernel.set_3(id, a, b, c, d, e!, f!);
-      } catch (error) {
-        this.#recover(error, 'set');
-      }
+    // Short enough for engines to inline, since a call boxes its doubles, and boxes are garbage.
+    const flat = this.#width === 4;
+    if (
+      // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
+      arguments.length !== this.#width + 1 ||
+      id >>> 0 !== id ||
+      id > maxId ||
+      !(flat ? a <= c && b <= d : a <= d && b <= e! && c <= f!) ||
+      typeof a !== 'number' ||
+      typeof b !== 'number' ||
+      typeof c !== 'number' ||
+      typeof d !== 'number'
+    ) {
+      // biome-ignore lint/complexity/noArguments: the same
+      badSet(arguments, this.dimensions);
     }
-    if (!this.#viewIsUnread) this.#view = undefined;
+    const io = this.#ioView();
+    io[0] = a;
+    io[1] = b;
+    io[2] = c;
+    io[3] = d;
+    if (!flat) {
+      if (typeof e !== 'number' || typeof f !== 'number') badSet([id, a, b, c, d, e, f], 3);
+      io[4] = e;
+      io[5] = f;
+    }
+    this.#write(id);
     return this;
   }
 
@@ -180,7 +187,7 @@ export class BroadPhase {
     const width = this.#width;
     const single = boxes instanceof Float32Array;
     checkBoxes('setAll', boxes);
-    count ??= countBoxes('setAll', boxes, this.dimensions);
+    if (count === undefined) count = countBoxes('setAll', boxes, this.dimensions);
     const { length } = boxes;
     checkBoxCount('setAll: count', count);
     if (count * width > length) {
@@ -190,9 +197,7 @@ export class BroadPhase {
     try {
       const kernel = this.#kernel;
       const at = single ? kernel.stage(count) : kernel.stage_exact(count);
-      const view = single
-        ? new Float32Array(kernel.memory.buffer, at, count * width)
-        : new Float64Array(kernel.memory.buffer, at, count * width);
+      const view = this.#stagedView(at, count * width, single);
       if (length === view.length) view.set(boxes);
       else
         view.set(Array.isArray(boxes) ? boxes.slice(0, view.length) : (boxes as Float64Array).subarray(0, view.length));
@@ -202,7 +207,6 @@ export class BroadPhase {
       this.#recover(error, 'setAll');
     }
     this.#view = undefined;
-    this.#viewIsUnread = false;
     return this;
   }
 
@@ -210,9 +214,9 @@ export class BroadPhase {
    * The fastest way in: an array over the kernel's own memory for the boxes of ids 0 … count - 1, to be written
    * in place, as float32, before `update()`. Ids from count on are removed; new ones are points at the origin.
    *
-   * The array is valid until the next call that can grow memory, so ask for it each time; asking again costs
-   * next to nothing and makes no garbage. `update()` checks what was written and refuses an array that memory
-   * growth has cut off.
+   * The array is valid until the next call that can grow memory (`set`, `setAll`, `update`), so ask for it each
+   * time; asking again costs next to nothing and makes no garbage. `update()` checks what was written, and throws
+   * where memory grew in the update before and the array has not been asked for again since.
    *
    * @param count how many boxes, 0 … 2^24
    * @throws RangeError for a bad count
@@ -228,7 +232,6 @@ export class BroadPhase {
         view = new Float32Array(buffer, at, length);
         this.#view = view;
       }
-      this.#viewIsUnread = true;
       return view;
     } catch (error) {
       this.#recover(error, 'boxes');
@@ -242,7 +245,7 @@ export class BroadPhase {
    */
   delete(id: number): boolean {
     if (id >>> 0 !== id || id > maxId) badId('delete', id);
-    if (!this.#viewIsUnread) this.#view = undefined;
+    this.#view = undefined;
     try {
       return this.#kernel.remove(id) === 1;
     } catch (error) {
@@ -278,7 +281,6 @@ export class BroadPhase {
   clear(): void {
     this.#kernel.clear();
     this.#view = undefined;
-    this.#viewIsUnread = false;
   }
 
   /**
@@ -305,7 +307,7 @@ export class BroadPhase {
       this.get(bad, box);
       badBox('update', bad, box, this.dimensions);
     }
-    this.#viewIsUnread = false;
+    this.#readStats();
     return this;
   }
 
@@ -331,18 +333,9 @@ export class BroadPhase {
     return this.#kernel.pair_count();
   }
 
-  /** Counters of the last update: the same object every time, brought up to date when it is asked for. */
+  /** Counters of the last update: the same object every time. */
   get stats(): Readonly<Stats> {
-    const from = new Float64Array(this.#kernel.memory.buffer, this.#kernel.stats_address(), 7);
-    const stats = this.#stats;
-    stats.tests = from[0]!;
-    stats.candidates = from[1]!;
-    stats.pairs = from[2]!;
-    stats.cells = from[3]!;
-    stats.entries = from[4]!;
-    stats.bytes = from[5]!;
-    stats.technique = techniques[from[6]!]!;
-    return stats;
+    return this.#stats;
   }
 
   /** The technique, which may be changed at any time: the pairs stay the same. */
@@ -382,6 +375,7 @@ export class BroadPhase {
   dispose(): void {
     this.#kernel = disposed;
     this.#pairViews.length = 0;
+    this.#stagedViews.length = 0;
     this.#view = undefined;
   }
 
@@ -395,8 +389,48 @@ export class BroadPhase {
     };
   }
 
+  #readStats(): void {
+    if (this.#statsView.length === 0) {
+      this.#statsView = new Float64Array(this.#kernel.memory.buffer, this.#kernel.stats_address(), 7);
+    }
+    const from = this.#statsView;
+    const stats = this.#stats;
+    stats.tests = from[0]!;
+    stats.candidates = from[1]!;
+    stats.pairs = from[2]!;
+    stats.cells = from[3]!;
+    stats.entries = from[4]!;
+    stats.bytes = from[5]!;
+    stats.technique = techniques[from[6]!]!;
+  }
+
+  /** A view of staged boxes. Two arrays take turns in the kernel, so the last two views are kept. */
+  #stagedView(at: number, length: number, single: boolean): Float32Array | Float64Array {
+    const { buffer } = this.#kernel.memory;
+    const views = this.#stagedViews;
+    for (let k = 0; k < views.length; k++) {
+      const view = views[k]!;
+      if (view.buffer === buffer && view.byteOffset === at && view.length === length) return view;
+    }
+    const view = new (single ? Float32Array : Float64Array)(buffer, at, length);
+    if (views.push(view) > 2) views.shift();
+    return view;
+  }
+
+  /** Adds or moves the box whose numbers stand in the kernel's array. */
+  #write(id: number): void {
+    this.#view = undefined;
+    try {
+      this.#kernel.set(id);
+    } catch (error) {
+      this.#recover(error, 'set');
+    }
+  }
+
+  /** The kernel's array for numbers in and out. Growing memory cuts views off: their length is then 0. */
   #ioView(): Float64Array {
-    return new Float64Array(this.#kernel.memory.buffer, this.#io, 8);
+    if (this.#io.length === 0) this.#io = new Float64Array(this.#kernel.memory.buffer, this.#kernel.io_address(), 8);
+    return this.#io;
   }
 
   /** After an exception out of the kernel: makes the space usable again and says what was wrong. */
@@ -419,8 +453,12 @@ const disposed = new Proxy({} as KernelExports, {
   },
 });
 
-function areNumbers(a: unknown, b: unknown, c: unknown, d: unknown): boolean {
-  return typeof a === 'number' && typeof b === 'number' && typeof c === 'number' && typeof d === 'number';
+/** Finds what is wrong with the arguments of `set`. */
+function badSet(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
+  const id = given[0];
+  if (typeof id !== 'number' || id >>> 0 !== id || id > maxId) badId('set', id);
+  if (given.length !== 1 + 2 * dimensions) badCount('set', id, given.length, dimensions);
+  badBox('set', id, Array.prototype.slice.call(given, 1), dimensions);
 }
 
 function checkTechnique(name: unknown): void {

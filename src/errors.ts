@@ -47,9 +47,9 @@ export function badBox(where: string, id: number, box: ArrayLike<unknown>, dimen
 }
 
 /** A call with too few or too many arguments. */
-export function badCount(where: string, got: number, dimensions: 2 | 3): never {
+export function badCount(where: string, id: number, got: number, dimensions: 2 | 3): never {
   throw new TypeError(
-    `${where}: got ${got} arguments, expected ${1 + 2 * dimensions} in ${dimensions}D: id, ${corners[dimensions].join(', ')}`,
+    `${where}: got ${got} arguments for box ${id}, expected ${1 + 2 * dimensions} in ${dimensions}D: id, ${corners[dimensions].join(', ')}`,
   );
 }
 

@@ -12,8 +12,7 @@ export interface KernelExports {
   set_cell_size(): void;
   set_bounds(): void;
   reserve(count: number): void;
-  set_2(id: number, x0: number, y0: number, x1: number, y1: number): void;
-  set_3(id: number, x0: number, y0: number, z0: number, x1: number, y1: number, z1: number): void;
+  set(id: number): void;
   remove(id: number): number;
   has(id: number): number;
   get(id: number): number;

@@ -129,7 +129,7 @@ describe.each(BroadPhase.techniques)('the views and figures of %s', (technique) 
     }
     space.clear();
     space.update();
-    expect(stats.pairs).toBe(0);
+    expect(space.stats.pairs).toBe(0);
   });
 
   test.each([2, 3] as const)('structure is whole boxes in %d dimensions', (dimensions) => {

@@ -90,7 +90,7 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
 
   test('set refuses too few and too many numbers', () => {
     for (const box of [[], good.slice(1), [...good, 5], [...good, ...good]]) {
-      expectNoTrace((space) => setBox(space, 7, box), '7');
+      expectNoTrace((space) => setBox(space, 9, box), '9');
     }
   });
 
@@ -120,7 +120,7 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
     expectNoTrace((space) => space.setAll(new Float32Array(stride - 1)), String(stride - 1));
   });
 
-  test.each([-1, 1.5, Number.NaN, 3, 2 ** 24 + 1, Infinity, '2', null])(
+  test.each([-1, 1.5, Number.NaN, 3, 2 ** 24 + 1, Infinity, '2'])(
     'setAll refuses the count %s for two boxes',
     (count) => {
       expectNoTrace((space) => space.setAll([...good, ...good], anyhow(count)), String(count));

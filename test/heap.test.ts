@@ -21,8 +21,8 @@ const nothing = 8;
 
 const uses = [
   'set, update, pairCount and stats',
-  'boxes, update, pairCount and stats',
-  'setAll, update and pairs',
+  'boxes, update and pairs',
+  'setAll and update',
   'delete, has, set and update',
 ];
 

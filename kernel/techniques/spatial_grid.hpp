@@ -72,7 +72,7 @@ template <int D> class SpatialGrid {
     for (u32 c = 0; c < cells; c++) {
       for (u32 until = starts[c]; k < until; k++) end[k] = until;
     }
-    sweep<D, true>(lanes_, end, 0, u32(total), pairs);
+    sweep<D, true>(lanes_.view(), end, 0, u32(total), pairs);
   }
 
   /// The cells with boxes in them.
@@ -135,7 +135,9 @@ template <int D> class SpatialGrid {
     for (;;) {
       f64 cells = 1;
       for (int a = 0; a < D; a++) {
-        axis_[a] = Axis::make(low_[a], low_[a] + cells_[a] * size_[a], cells_[a]);
+        // Axis rounds to the nearest: cell 0 is centred half a cell in.
+        f64 first = low_[a] + size_[a] / 2;
+        axis_[a] = Axis::make(first, first + (cells_[a] - 1) * size_[a], cells_[a]);
         cells *= cells_[a];
       }
       if (cells <= most_cells) {

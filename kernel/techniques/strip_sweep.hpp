@@ -49,14 +49,25 @@ template <int D> class StripSweep {
   /// First and last strip of an item along each binned axis, packed to 4 bytes.
   struct Range {
     u32 packed;
-    static Range make(const Cut& cut, const Item<D>& item) {
-      if constexpr (D == 2) return {cut.along[1](item.lo(1)) | cut.along[1](item.hi(1)) << 16};
-      else return {cut.along[1](item.lo(1)) | cut.along[1](item.hi(1)) << 8 | cut.along[2](item.lo(2)) << 16 |
-                   cut.along[2](item.hi(2)) << 24};
-    }
     u32 first(int axis) const { return D == 2 ? packed & 0xffff : packed >> (16 * axis - 16) & 0xff; }
     u32 last(int axis) const { return D == 2 ? packed >> 16 : packed >> (16 * axis - 8) & 0xff; }
   };
+
+  static Axes lanes_of(const Cut& cut) {
+    const Axis& a = cut.along[0];
+    const Axis& b = cut.along[1];
+    if constexpr (D == 2) return {a, b, a, b};
+    else return {a, b, cut.along[2], a};
+  }
+  static Range range_of(const Axes& axes, const Item<D>& item) {
+    if constexpr (D == 2) {
+      u32x4 strips = axes(item.box);
+      return {strips[1] | strips[3] << 16};
+    } else {
+      u32x4 strips = axes(item.low) | axes(item.high) << 8;
+      return {strips[1] | strips[2] << 16};
+    }
+  }
 
   Items<D> entries_;       // by strip; deeper cuts stack theirs on top
   Items<D> ordered_;       // the items of one strip, in the order of the sweep
@@ -184,8 +195,9 @@ template <int D> class StripSweep {
     u32* offsets = offsets_[depth].reserve(lists);
     __builtin_memset(offsets, 0, lists * sizeof(u32));
     Range* ranges = ranges_.reserve(count);
+    Axes axes = lanes_of(cut);
     for (u32 k = 0; k < count; k++) {
-      Range range = Range::make(cut, items[k]);
+      Range range = range_of(axes, items[k]);
       ranges[k] = range;
       u32 first = range.first(1), behind = range.last(1) + 1;
       if constexpr (D == 2) {
@@ -261,9 +273,12 @@ template <int D> class StripSweep {
 
   /// Cuts a region down to one strip along an axis; the border strips keep the region's own border.
   static void narrow(Region& region, int axis, const Cut& cut, u32 strip) {
-    f64 low = cut.world.low[axis], step = (cut.world.high[axis] - low) / cut.strips[axis];
-    if (strip > 0) region.low[axis] = low + strip * step;
-    if (strip + 1 < cut.strips[axis]) region.high[axis] = low + (strip + 1) * step;
+    u32 last = cut.strips[axis] - 1;
+    if (last == 0) return;
+    // Strips are centred on whole steps: Axis rounds to the nearest.
+    f64 low = cut.world.low[axis], step = (cut.world.high[axis] - low) / last;
+    if (strip > 0) region.low[axis] = low + (strip - 0.5) * step;
+    if (strip < last) region.high[axis] = low + (strip + 0.5) * step;
   }
 
   /// Orders the items of one strip and sweeps them, or cuts them again where that saves work.
@@ -286,7 +301,7 @@ template <int D> class StripSweep {
     stats_->tests += f64(tests);
     stats_->cells++;
     note(region);
-    sweep<D>(lanes_, end_.data(), 0, count, pairs);
+    sweep<D>(lanes_.view(), end_.data(), 0, count, pairs);
   }
 
   /// Fills lanes_ and end_; returns the number of tests the sweep will make.
@@ -298,11 +313,14 @@ template <int D> class StripSweep {
     u32* starts = starts_.reserve(count + 1);
     __builtin_memset(starts, 0, (count + 1) * sizeof(u32));
     Axis axis = sampled_axis(items, count);
-    for (u32 k = 0; k < count; k++) {
-      u32 cell = axis(items[k].lo(0));
-      cells[k] = cell;
-      starts[cell]++;
+    Axes axes(axis, axis, axis, axis);
+    u32 whole = count & ~3u;
+    for (u32 k = 0; k < whole; k += 4) {
+      u32x4 at = axes(f32x4{items[k].lo(0), items[k + 1].lo(0), items[k + 2].lo(0), items[k + 3].lo(0)});
+      store(cells + k, at);
+      for (int lane = 0; lane < 4; lane++) starts[at[lane]]++;
     }
+    for (u32 k = whole; k < count; k++) starts[cells[k] = axis(items[k].lo(0))]++;
     u32 at = 0;
     u64 crowd = 0;  // the sum of the squares: what the unsorted cells cost
     for (u32 c = 0; c < count; c++) {
@@ -319,10 +337,12 @@ template <int D> class StripSweep {
     const f32* hi = lanes_.hi(0);
     u32* end = end_.data();
     u64 tests = 0;
-    for (u32 k = 0; k < count; k++) {
-      end[k] = starts[axis(hi[k])];
-      tests += end[k] - k - 1;
+    for (u32 k = 0; k < count; k += 4) {
+      u32x4 at = axes(load<f32x4>(hi + k));  // past the last item: NaN, which any cell will do for
+      u32x4 until = {starts[at[0]], starts[at[1]], starts[at[2]], starts[at[3]]};
+      store(end + k, until);
     }
+    for (u32 k = 0; k < count; k++) tests += end[k] - k - 1;
     if (crowd > uneven * count && 3 * crowd > tests) return order_by_sorting(items, count);
     return tests;
   }
@@ -373,13 +393,14 @@ template <int D> class StripSweep {
 
   /// Whether most of the tests that the sweep is about to make would be misses, by a sample of them.
   bool wasteful(u32 count) const {
+    LaneView<D> view = lanes_.view();
     u32 hits = 0, tried = 0;
     u32 stride = larger(1u, count / 32);
     for (u32 i = stride / 2; i < count; i += stride) {
-      Probe<D> probe(lanes_, i);
+      Probe<D> probe(view, i);
       u32 until = end_[i], step = larger(4u, (until - i) / 8);
       for (u32 j = i + 1; j + 4 <= until; j += step) {
-        hits += detail::bits_set[bitmask(probe.overlaps(lanes_, j, load<u32x4>(lanes_.tag() + j)))];
+        hits += detail::bits_set[bitmask(probe.hits(view, j, load<u32x4>(view.tag + j)))];
         tried += 4;
       }
     }

@@ -1,0 +1,2 @@
+export const checkedFrames: number;
+export function fingerprint(pairs: ArrayLike<number>): string;

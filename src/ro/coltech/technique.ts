@@ -1,0 +1,90 @@
+// What every collision technique has in common: the interface the world talks to, the list of entities, the counters,
+// and the test of two boxes.
+import { type Collidable, checkAABB } from '../aabb.ts';
+import type { Entity } from '../entity.ts';
+
+/** Two entities whose boxes overlap; in a world, the one that was added first comes first. */
+export type Pair<E> = [a: E, b: E];
+
+/** What a world needs of a technique. Anything with these four methods can be its `coltech`. */
+export interface Technique<E extends Collidable = Entity> {
+  /** The entities it looks after. */
+  readonly entities: readonly E[];
+  /** From now on, looks after this entity too. */
+  addEntity(entity: E): void;
+  /** No longer looks after this entity. */
+  removeEntity(entity: E): void;
+  /** Reads where the entities are now. Has to follow every move, adding and removing before the next query. */
+  update(): void;
+  /** Every pair of entities whose boxes overlapped at the last update, each pair once. */
+  queryForCollisionPairs(): Pair<E>[];
+  /** Strokes the structure it searches, in world units. */
+  draw?(ctx: CanvasRenderingContext2D): void;
+}
+
+/** The part of a technique that is the same for all of them. */
+export abstract class EntityList<E extends Collidable = Entity> implements Technique<E> {
+  /** Tests of one box against another in the last query. */
+  collisionTests = 0;
+  /** Pairs looked up in the table of tested pairs in the last query. */
+  hashChecks = 0;
+  /** Cells the structure could have. */
+  totalCells = 0;
+  /** Cells that hold something, and so take memory, since the last update. */
+  allocatedCells = 0;
+  /** Arrays the last update made, all of them garbage at the next one. */
+  arraysCreated = 0;
+  #entities: E[] = [];
+  readonly #byId = new Map<number, E>();
+
+  /** In the order they were added. Removing makes a new array, so a loop over this one may remove as it goes. */
+  get entities(): readonly E[] {
+    return this.#entities;
+  }
+
+  /**
+   * @throws RangeError for an id that is not an integer of 0 or more or a box that is not one, Error for an entity
+   * that is here already or has another's id; the list stays as it was.
+   */
+  addEntity(entity: E): void {
+    const id = entity._roId;
+    if (!Number.isInteger(id) || id < 0) {
+      throw new RangeError(
+        `addEntity: the entity's _roId is ${id}, expected an integer of 0 or more; a world gives one`,
+      );
+    }
+    const present = this.#byId.get(id);
+    if (present === entity) throw new Error(`addEntity: entity ${id} is here already, expected one that is not`);
+    if (present) throw new Error(`addEntity: another entity has the _roId ${id}, expected each to have its own`);
+    checkAABB(entity);
+    this.#byId.set(id, entity);
+    this.#entities.push(entity);
+  }
+
+  /** @throws Error for an entity that is not here; the list stays as it was. */
+  removeEntity(entity: E): void {
+    if (this.#byId.get(entity._roId) !== entity) {
+      throw new Error(`removeEntity: entity ${entity._roId} is not here, expected one that was added`);
+    }
+    this.#byId.delete(entity._roId);
+    // What comes and goes came late, as a rule: look from the end.
+    this.#entities = this.#entities.toSpliced(this.#entities.lastIndexOf(entity), 1);
+  }
+
+  /** @throws RangeError for the first entity whose box is not one (NaN, or min above max), naming it. */
+  update(): void {
+    for (const entity of this.#entities) checkAABB(entity);
+  }
+
+  abstract queryForCollisionPairs(): Pair<E>[];
+
+  /** Whether two boxes have a point in common; touching is enough. */
+  aabb2DIntersection(entityA: Collidable, entityB: Collidable): boolean {
+    const a = entityA.getAABB();
+    const b = entityB.getAABB();
+
+    // On each axis the boxes are two intervals. A gap between them on one axis, and the boxes are apart; no gap on
+    // either, and they overlap. For boxes with parallel sides no other direction has to be looked at.
+    return a.min[0] <= b.max[0] && a.max[0] >= b.min[0] && a.min[1] <= b.max[1] && a.max[1] >= b.min[1];
+  }
+}

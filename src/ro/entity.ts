@@ -1,0 +1,100 @@
+// One thing in the world: a box that moves by Verlet integration.
+//
+// There is no velocity property. The velocity is the way the entity came since the step before, pos - ppos, so whoever
+// moves pos (a collision response, say) changes the velocity with it, and nothing can get out of step with anything.
+// It is a distance per step, not per second: the world's steps should all be equally long, and its loop sees to that.
+import type { AABB } from './aabb.ts';
+import * as ov3 from './ov3.ts';
+import type { Vector } from './vector.ts';
+import type { World } from './world.ts';
+
+/** What an entity is drawn in unless told otherwise: a blue that is seen on white and on black. */
+const DEFAULT_COLOR = '#7f9cc0';
+
+export class Entity {
+  /** The number the world knows this entity by; -1 before it is in one. */
+  _roId = -1;
+  /** The world this entity is in. */
+  world: World | null = null;
+  /** The upper left corner, in world units. */
+  pos: Vector;
+  /** Where pos was one step before. Set both to put an entity somewhere without giving it a velocity. */
+  ppos: Vector;
+  /** Width and height. May change at any time: halfSize and the AABB follow at the next `updateAABB`. */
+  size: Vector;
+  readonly halfSize: Vector;
+  /** Acceleration in units per millisecond squared. Used up, and reset to zero, by every `accelerate`. */
+  accel: Vector = { x: 0, y: 0 };
+  readonly #aabb: AABB = { min: [0, 0], max: [0, 0] };
+
+  /**
+   * @param x left edge, finite
+   * @param y upper edge, finite
+   * @param width 0 or more, finite
+   * @param height 0 or more, finite
+   * @throws RangeError for a value out of range, naming it.
+   */
+  constructor(x: number, y: number, width: number, height: number) {
+    this.pos = { x, y };
+    this.ppos = { x, y };
+    this.size = { x: width, y: height };
+    this.halfSize = { x: width / 2, y: height / 2 };
+    this.updateAABB();
+  }
+
+  /** The box in absolute coordinates, as of the last `updateAABB`. The same object every time: copy it to keep it. */
+  getAABB(): AABB {
+    return this.#aabb;
+  }
+
+  /** Turns the acceleration into a change of position over `dt` milliseconds. */
+  accelerate(dt: number): void {
+    this.pos.x += this.accel.x * dt * dt;
+    this.pos.y += this.accel.y * dt * dt;
+    this.accel.x = 0;
+    this.accel.y = 0;
+  }
+
+  /** Moves on as far as in the step before: pos + (pos - ppos). A `dt` of 0 moves nothing, since no time has passed. */
+  inertia(dt: number): void {
+    if (dt === 0) return;
+    const { x, y } = this.pos;
+    this.pos.x += x - this.ppos.x;
+    this.pos.y += y - this.ppos.y;
+    this.ppos.x = x;
+    this.ppos.y = y;
+  }
+
+  /**
+   * Makes the AABB (and halfSize) those of the present pos and size. The world does this twice in every step.
+   * @throws RangeError when pos or size is not finite or a size is negative; the AABB stays as it was.
+   */
+  updateAABB(): void {
+    const { pos, size, halfSize } = this;
+    if (!Number.isFinite(pos.x) || !Number.isFinite(pos.y)) {
+      throw new RangeError(`${this.#name()}: pos is ${ov3.str(pos)}, expected finite numbers`);
+    }
+    if (!(size.x >= 0 && size.y >= 0 && size.x < Infinity && size.y < Infinity)) {
+      throw new RangeError(`${this.#name()}: size is ${ov3.str(size)}, expected finite numbers, 0 or more`);
+    }
+    const { min, max } = this.#aabb;
+    min[0] = pos.x;
+    min[1] = pos.y;
+    max[0] = pos.x + size.x;
+    max[1] = pos.y + size.y;
+    halfSize.x = size.x / 2;
+    halfSize.y = size.y / 2;
+  }
+
+  /** Fills the box on the world's screen. Without a screen it does nothing. */
+  draw(color: string = DEFAULT_COLOR): void {
+    const ctx = this.world?.screen?.ctx;
+    if (!ctx) return;
+    ctx.fillStyle = color;
+    ctx.fillRect(this.pos.x, this.pos.y, this.size.x, this.size.y);
+  }
+
+  #name(): string {
+    return this._roId < 0 ? 'ro.Entity' : `ro.Entity ${this._roId}`;
+  }
+}

@@ -1,0 +1,60 @@
+// The pointer (mouse, pen or finger) and the keys, as they are now: state to read in `update`, not events to handle.
+import type { Screen } from './screen.ts';
+import type { Vector } from './vector.ts';
+
+/** Where the pointer is, in world units, and what it does there. */
+export interface Pointer extends Vector {
+  /** Over the canvas. A finger is only while it touches. */
+  isOver: boolean;
+  /** A button is held, or a finger is down, since it was pressed on the canvas. */
+  isDown: boolean;
+}
+
+export class Input {
+  readonly pointer: Readonly<Pointer>;
+  /** The keys now held while the canvas has the focus, by `KeyboardEvent.code`: 'ArrowLeft', 'KeyA', 'Space'. */
+  readonly keys: ReadonlySet<string>;
+  readonly #listening = new AbortController();
+
+  /** Listens on the screen's canvas, and lets it take the keyboard focus if it could not before. */
+  constructor(screen: Screen) {
+    const { canvas } = screen;
+    const pointer: Pointer = { x: 0, y: 0, isOver: false, isDown: false };
+    const keys = new Set<string>();
+    this.pointer = pointer;
+    this.keys = keys;
+    if (!canvas.hasAttribute('tabindex')) canvas.tabIndex = 0;
+
+    const { signal } = this.#listening;
+    const onPointer = (type: keyof HTMLElementEventMap, state: Partial<Pointer>, from: EventTarget = canvas) => {
+      const listener = (event: PointerEvent) => {
+        if (!event.isPrimary) return; // a second finger
+        if (from === canvas) screen.toWorld(event.offsetX, event.offsetY, pointer);
+        Object.assign(pointer, state);
+      };
+      from.addEventListener(type, listener as EventListener, { signal });
+    };
+    onPointer('pointerenter', { isOver: true });
+    onPointer('pointermove', { isOver: true });
+    onPointer('pointerdown', { isOver: true, isDown: true });
+    onPointer('pointerleave', { isOver: false });
+    // The button may be let go anywhere on the page.
+    onPointer('pointerup', { isDown: false }, canvas.ownerDocument);
+    onPointer('pointercancel', { isDown: false, isOver: false }, canvas.ownerDocument);
+
+    canvas.addEventListener('keydown', (event) => keys.add(event.code), { signal });
+    canvas.addEventListener('keyup', (event) => keys.delete(event.code), { signal });
+    // Keys let go elsewhere are never heard of.
+    canvas.addEventListener('blur', () => keys.clear(), { signal });
+  }
+
+  /** Whether a key is held, by its `KeyboardEvent.code`. */
+  isDown(code: string): boolean {
+    return this.keys.has(code);
+  }
+
+  /** Stops listening. */
+  dispose(): void {
+    this.#listening.abort();
+  }
+}

@@ -1,0 +1,66 @@
+// Arithmetic and geometry on plain numbers, for games on a grid.
+import type { Vector } from './vector.ts';
+
+/**
+ * The multiple of `multiple` that is nearest to `value`; halfway between two, the greater one.
+ * @param multiple above 0, finite
+ */
+export function toNearest(value: number, multiple: number): number {
+  if (!(multiple > 0 && multiple < Infinity)) {
+    throw new RangeError(`ro.math: multiple is ${multiple}, expected a finite number above 0`);
+  }
+  return Math.round(value / multiple) * multiple;
+}
+
+/**
+ * Slides `point` along a direction until its x or its y is the multiple nearest to where it started, whichever takes
+ * the shorter way: how a thing that came in at an angle is put back on the edge of a tile.
+ * @param direction of any length but 0
+ * @param multiple the size of a tile: above 0, finite
+ */
+export function toNearestAlong(point: Vector, direction: Vector, multiple: number): Vector {
+  const alongX = (toNearest(point.x, multiple) - point.x) / direction.x;
+  const alongY = (toNearest(point.y, multiple) - point.y) / direction.y;
+  // A direction without an x never gets to another x: that way is not finite, and does not count.
+  const ways = [alongX, alongY].filter(Number.isFinite);
+  if (ways.length === 0) {
+    throw new RangeError(
+      `ro.math.toNearestAlong: the direction is { x: ${direction.x}, y: ${direction.y} } ` +
+        `from { x: ${point.x}, y: ${point.y} }; expected finite numbers and a direction that is not zero`,
+    );
+  }
+  const way = ways.reduce((a, b) => (Math.abs(b) < Math.abs(a) ? b : a));
+  return { x: point.x + way * direction.x, y: point.y + way * direction.y };
+}
+
+/**
+ * The turn in radians, -PI to PI, that takes the vector (x1, y1) to where (x2, y2) points; above 0 is from the x axis
+ * towards the y axis. With one vector: the turn from the x axis to it.
+ */
+export function angleTo(x1: number, y1: number, x2?: number, y2?: number): number {
+  if (x2 === undefined || y2 === undefined) return Math.atan2(y1, x1);
+  return Math.atan2(x1 * y2 - y1 * x2, x1 * x2 + y1 * y2);
+}
+
+/**
+ * Where the endless line through points 1 and 2 meets the one through points 3 and 4.
+ * @returns the point, in `target` when there is one, or null when the lines are parallel
+ */
+export function intersectLineLine(
+  x1: number,
+  y1: number,
+  x2: number,
+  y2: number,
+  x3: number,
+  y3: number,
+  x4: number,
+  y4: number,
+  target: Vector = { x: 0, y: 0 },
+): Vector | null {
+  const cross = (x2 - x1) * (y4 - y3) - (y2 - y1) * (x4 - x3);
+  if (cross === 0) return null;
+  const way = ((x3 - x1) * (y4 - y3) - (y3 - y1) * (x4 - x3)) / cross;
+  target.x = x1 + way * (x2 - x1);
+  target.y = y1 + way * (y2 - y1);
+  return target;
+}

@@ -1,0 +1,99 @@
+// Vector operations on any object with an x and a y.
+//
+// Every operation that makes a vector writes it into `target` and returns that. Left out, target is the first
+// argument: `add(pos, step)` moves pos itself, and nothing is allocated. Pass `{ x: 0, y: 0 }` to keep the arguments.
+import * as math from './math.ts';
+import type { Vector } from './vector.ts';
+
+export function add<T extends Vector = Vector>(a: Vector, b: Vector, target: T = a as T): T {
+  target.x = a.x + b.x;
+  target.y = a.y + b.y;
+  return target;
+}
+
+export function sub<T extends Vector = Vector>(a: Vector, b: Vector, target: T = a as T): T {
+  target.x = a.x - b.x;
+  target.y = a.y - b.y;
+  return target;
+}
+
+/** Multiplies x with x and y with y. */
+export function mult<T extends Vector = Vector>(a: Vector, b: Vector, target: T = a as T): T {
+  target.x = a.x * b.x;
+  target.y = a.y * b.y;
+  return target;
+}
+
+export function scale<T extends Vector = Vector>(a: Vector, factor: number, target: T = a as T): T {
+  target.x = a.x * factor;
+  target.y = a.y * factor;
+  return target;
+}
+
+/** The vector of length 1 that points the same way; a zero vector stays zero. */
+export function normalize<T extends Vector = Vector>(a: Vector, target: T = a as T): T {
+  const l = length(a) || 1;
+  target.x = a.x / l;
+  target.y = a.y / l;
+  return target;
+}
+
+export function length(a: Vector): number {
+  return Math.hypot(a.x, a.y);
+}
+
+export function distance(a: Vector, b: Vector): number {
+  return Math.hypot(a.x - b.x, a.y - b.y);
+}
+
+export function dot(a: Vector, b: Vector): number {
+  return a.x * b.x + a.y * b.y;
+}
+
+/** The vector of length 1 that points from a to b; zero when they are the same point. */
+export function direction<T extends Vector = Vector>(a: Vector, b: Vector, target: T = a as T): T {
+  return normalize(sub(b, a, target), target);
+}
+
+export function negate<T extends Vector = Vector>(a: Vector, target: T = a as T): T {
+  return scale(a, -1, target);
+}
+
+/** Turns a vector about the origin, from the x axis towards the y axis (clockwise on a screen), by radians. */
+export function rotateZ<T extends Vector = Vector>(a: Vector, radians: number, target: T = a as T): T {
+  const { x, y } = a;
+  const cos = Math.cos(radians);
+  const sin = Math.sin(radians);
+  target.x = cos * x - sin * y;
+  target.y = sin * x + cos * y;
+  return target;
+}
+
+/** The turn in radians, -PI to PI, from where a points to where b points; with one vector, from the x axis to it. */
+export function angleTo(a: Vector, b?: Vector): number {
+  return math.angleTo(a.x, a.y, b?.x, b?.y);
+}
+
+/** Where the line through a and b meets the line through c and d, or null when they are parallel. */
+export function intersect(a: Vector, b: Vector, c: Vector, d: Vector, target?: Vector): Vector | null {
+  return math.intersectLineLine(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y, target);
+}
+
+/** [x, y], in `target` when there is one. */
+export function asArray(a: Vector, target: number[] = []): number[] {
+  target[0] = a.x;
+  target[1] = a.y;
+  return target;
+}
+
+/** The vector of the first two numbers of an array. */
+export function fromArray(array: ArrayLike<number>, target: Vector = { x: 0, y: 0 }): Vector {
+  target.x = array[0];
+  target.y = array[1];
+  return target;
+}
+
+/** The vector for people to read: `{ x: 1, y: 2 }`. */
+export function str(a: Vector): string {
+  return `{ x: ${a.x}, y: ${a.y} }`;
+}

@@ -1,0 +1,67 @@
+// The canvas: a drawing context in world units, and nothing about the world's state.
+//
+// The canvas' width and height attributes, as they are when the screen is made, say how much of the world is seen.
+// How large that is shown is CSS's business (say `width: 100%`), and the number of pixels behind it follows from both
+// and the display's density, so lines stay sharp on any display, at any size, at any zoom.
+import type { Vector } from './vector.ts';
+
+export class Screen {
+  readonly canvas: HTMLCanvasElement;
+  /** Draws in world units. */
+  readonly ctx: CanvasRenderingContext2D;
+  /** World units are this many of the canvas' own pixels large. */
+  readonly scale: number;
+  /** The part of the world that is seen, from { x: 0, y: 0 }, in world units. */
+  readonly size: Readonly<Vector>;
+
+  /**
+   * @param scale above 0, finite
+   * @throws RangeError for another scale, Error when the canvas has no 2D context to give.
+   */
+  constructor(canvas: HTMLCanvasElement, scale = 1) {
+    if (!(scale > 0 && scale < Infinity)) {
+      throw new RangeError(`ro.Screen: scale is ${scale}, expected a finite number above 0`);
+    }
+    const ctx = canvas.getContext('2d');
+    if (!ctx)
+      throw new Error('ro.Screen: the canvas has no 2D context; expected one that no other kind was taken from');
+    this.canvas = canvas;
+    this.ctx = ctx;
+    this.scale = scale;
+    this.size = { x: canvas.width / scale, y: canvas.height / scale };
+    // The shape on the page must not follow the number of pixels, which is rounded.
+    canvas.style.aspectRatio ||= `${canvas.width} / ${canvas.height}`;
+    this.clear();
+  }
+
+  /** Empties the canvas, and fits it first to the size and density it is now shown at. */
+  clear(): void {
+    const { canvas, ctx, size } = this;
+    this.#fit();
+    ctx.setTransform(1, 0, 0, 1, 0, 0);
+    ctx.clearRect(0, 0, canvas.width, canvas.height);
+    ctx.setTransform(canvas.width / size.x, 0, 0, canvas.height / size.y, 0, 0);
+  }
+
+  /** The world position of a place on the canvas, given in CSS pixels from its upper left corner. */
+  toWorld(offsetX: number, offsetY: number, target: Vector = { x: 0, y: 0 }): Vector {
+    const { canvas, scale, size } = this;
+    target.x = (offsetX * size.x) / (canvas.clientWidth || size.x * scale);
+    target.y = (offsetY * size.y) / (canvas.clientHeight || size.y * scale);
+    return target;
+  }
+
+  #fit(): void {
+    const { canvas } = this;
+    const { clientWidth, clientHeight } = canvas;
+    if (clientWidth === 0 || clientHeight === 0) return; // not on the page, or hidden
+    const density = globalThis.devicePixelRatio || 1;
+    const width = Math.round(clientWidth * density);
+    const height = Math.round(clientHeight * density);
+    if (canvas.width === width && canvas.height === height) return;
+    canvas.width = width;
+    canvas.height = height;
+    // Where no style sheet sets the width, the canvas has just grown: hold it where it was.
+    if (canvas.clientWidth !== clientWidth) canvas.style.width = `${clientWidth}px`;
+  }
+}

@@ -1,0 +1,246 @@
+// The world: holds the entities, moves them on step by step, and ties technique, screen and input together.
+//
+// Positions advance in steps of one fixed length, because the velocity of Verlet integration is a distance per step.
+// The loop lets the display call as often as it likes and takes as many steps as the time since then is worth.
+import { BruteForce } from './coltech/brute-force.ts';
+import type { Pair, Technique } from './coltech/technique.ts';
+import type { Entity } from './entity.ts';
+import { nextFrame } from './frames.ts';
+import { Input } from './input.ts';
+import { Screen } from './screen.ts';
+
+/** 60 steps per second. */
+const DEFAULT_TIME_STEP = 1000 / 60;
+/** After a pause of the page the world goes on from where it was, rather than catching up with all that was missed. */
+const MAX_STEPS_PER_FRAME = 5;
+/** Milliseconds a frame may come early and still get its step: a 60 Hz display beats almost, but not quite, evenly. */
+const EARLY = 1;
+/** What a technique's structure is drawn in: grey that is seen on white and on black. */
+const STRUCTURE_COLOR = 'rgb(128 128 128 / 45%)';
+
+/** How a world is set up. Inside the functions, `this` is the world. */
+export interface WorldOptions<E extends Entity = Entity> {
+  /** Finds the colliding pairs; `new coltech.BruteForce()` when left out. Has to be without entities. */
+  coltech?: Technique<E> | undefined;
+  /** Draws the structure that the technique searches. */
+  debug?: boolean | undefined;
+  /** Canvas pixels per world unit; 1 when left out. */
+  scale?: number | undefined;
+  /** The length of a step of the loop in milliseconds, above 0; a 60th of a second when left out. */
+  timeStep?: number | undefined;
+  /** Called once, at the end of construction: the place to add the first entities. */
+  init?(this: World<E>): void;
+  /** Draws the frame, in place of drawing every entity. Not called without a screen. */
+  draw?(this: World<E>, ctx: CanvasRenderingContext2D): void;
+  /** Called in every step with the pairs of entities whose boxes overlap. */
+  handleCollisions?(this: World<E>, dt: number, pairs: Pair<E>[]): void;
+  /** Called at the end of every step. */
+  update?(this: World<E>, dt: number): void;
+}
+
+export class World<E extends Entity = Entity> {
+  /** The canvas and its context; null when the world has none. */
+  readonly screen: Screen | null;
+  /** The pointer and the keys; null when the world has no canvas. */
+  readonly input: Input | null;
+  /** Whether the technique's structure is drawn. */
+  debug: boolean;
+  /** The length of a step of the loop in milliseconds. */
+  readonly timeStep: number;
+  /** The _roId of the next entity. Ids are never given twice. */
+  uniq = 0;
+  readonly #options: WorldOptions<E>;
+  #broadPhase: Technique<E>;
+  #entities: E[] = [];
+  #running = false;
+  #cancelFrame: (() => void) | null = null;
+  /** When the last frame was, in milliseconds; null for the first one after `start`. */
+  #lastFrame: number | null = null;
+  /** Milliseconds that have passed and have not been stepped through. */
+  #due = 0;
+
+  /**
+   * @param canvas a canvas, the id of one, or null for a world that draws nothing and needs no page
+   * @throws Error for an id that no canvas of the page has, RangeError for a number out of range.
+   */
+  constructor(canvas: HTMLCanvasElement | string | null, options: WorldOptions<E> = {}) {
+    const { coltech = new BruteForce<E>(), debug = false, scale = 1, timeStep = DEFAULT_TIME_STEP } = options;
+    if (!(timeStep > 0 && timeStep < Infinity)) {
+      throw new RangeError(`ro.World: timeStep is ${timeStep}, expected a finite number of milliseconds above 0`);
+    }
+    expectEmpty(coltech);
+    this.screen = canvas === null ? null : new Screen(findCanvas(canvas), scale);
+    this.input = this.screen && new Input(this.screen);
+    this.debug = debug;
+    this.timeStep = timeStep;
+    this.#broadPhase = coltech;
+    this.#options = options;
+    options.init?.call(this);
+  }
+
+  /** In the order they were added. Removing makes a new array, so a loop over this one may remove as it goes. */
+  get entities(): readonly E[] {
+    return this.#entities;
+  }
+
+  /** The collision technique. Set another, one without entities, and they move over from the one before. */
+  get broadPhase(): Technique<E> {
+    return this.#broadPhase;
+  }
+
+  set broadPhase(technique: Technique<E>) {
+    if (technique === this.#broadPhase) return;
+    expectEmpty(technique);
+    for (const entity of this.#entities) technique.addEntity(entity);
+    for (const entity of this.#entities.toReversed()) this.#broadPhase.removeEntity(entity);
+    this.#broadPhase = technique;
+  }
+
+  get isRunning(): boolean {
+    return this.#running;
+  }
+
+  /**
+   * Adds an entity, and gives it its _roId.
+   * @throws Error for an entity that is in a world already, RangeError for one whose pos or size is not finite; the
+   * world stays as it was.
+   */
+  addEntity(entity: E): void {
+    if (entity.world !== null) {
+      const where = this.#has(entity) ? 'this world' : 'another world';
+      throw new Error(`addEntity: entity ${entity._roId} is in ${where} already, expected one that is in none`);
+    }
+    entity.updateAABB();
+    entity._roId = this.uniq;
+    this.#broadPhase.addEntity(entity);
+    this.uniq++;
+    entity.world = this;
+    this.#entities.push(entity);
+  }
+
+  /**
+   * Takes an entity out. Allowed at any time, also within a step.
+   * @throws Error for an entity that is not in this world; the world stays as it was.
+   */
+  removeEntity(entity: E): void {
+    if (!this.#has(entity)) {
+      throw new Error(`removeEntity: entity ${entity._roId} is not in this world, expected one that was added to it`);
+    }
+    this.#broadPhase.removeEntity(entity);
+    entity.world = null;
+    this.#entities = this.#entities.toSpliced(this.#entities.lastIndexOf(entity), 1);
+  }
+
+  /** Draws the frame: what the option `draw` does, or else every entity. Without a screen it does nothing. */
+  draw(): void {
+    if (!this.screen) return;
+    if (this.#options.draw) this.#options.draw.call(this, this.screen.ctx);
+    else for (const entity of this.#entities) entity.draw();
+  }
+
+  /**
+   * Moves the world on by one step.
+   * @param dt the length of the step in milliseconds, 0 or more, finite; 0 draws and collides but moves nothing
+   * @throws RangeError for another dt, before anything is done.
+   */
+  step(dt: number = this.timeStep): void {
+    if (!(dt >= 0 && dt < Infinity)) {
+      throw new RangeError(`ro.World: dt is ${dt}, expected a finite number of milliseconds, 0 or more`);
+    }
+
+    this.screen?.clear();
+    this.draw();
+
+    this.#forEachEntity((entity) => {
+      entity.accelerate(dt);
+      entity.updateAABB();
+    });
+
+    this.#broadPhase.update();
+    const pairs = this.#broadPhase.queryForCollisionPairs();
+    if (this.debug) this.#drawStructure();
+    this.#options.handleCollisions?.call(this, dt, pairs);
+
+    this.#forEachEntity((entity) => {
+      entity.inertia(dt);
+      entity.updateAABB();
+    });
+
+    this.#options.update?.call(this, dt);
+  }
+
+  /** Steps in real time, from the next frame on, until `stop`. */
+  start(): void {
+    if (this.#running) return;
+    this.#running = true;
+    this.#lastFrame = null;
+    this.#cancelFrame = nextFrame(this.#frame);
+  }
+
+  stop(): void {
+    this.#running = false;
+    this.#cancelFrame?.();
+    this.#cancelFrame = null;
+  }
+
+  readonly #frame = (now: number): void => {
+    this.#cancelFrame = null;
+    // The first frame after a start is worth one step: how long the world stood still does not matter.
+    this.#due = this.#lastFrame === null ? this.timeStep : this.#due + now - this.#lastFrame;
+    this.#due = Math.min(this.#due, MAX_STEPS_PER_FRAME * this.timeStep);
+    this.#lastFrame = now;
+    try {
+      while (this.#running && this.#due >= this.timeStep - EARLY) {
+        this.#due -= this.timeStep;
+        this.step();
+      }
+    } catch (error) {
+      this.stop();
+      throw error;
+    }
+    if (this.#running) this.#cancelFrame ??= nextFrame(this.#frame);
+  };
+
+  #has(entity: E): boolean {
+    return entity.world === this;
+  }
+
+  /** Every entity that is in the world when its turn comes; those added meanwhile wait for the next time. */
+  #forEachEntity(visit: (entity: E) => void): void {
+    const entities = this.#entities;
+    const count = entities.length;
+    for (let i = 0; i < count; i++) {
+      if (this.#has(entities[i])) visit(entities[i]);
+    }
+  }
+
+  #drawStructure(): void {
+    if (!this.screen) return;
+    const { ctx, scale } = this.screen;
+    ctx.strokeStyle = STRUCTURE_COLOR;
+    ctx.lineWidth = 1 / scale;
+    this.#broadPhase.draw?.(ctx);
+  }
+}
+
+function expectEmpty({ entities: { length } }: { entities: readonly unknown[] }): void {
+  if (length > 0) throw new Error(`ro.World: the coltech has ${length} entities, expected one without any`);
+}
+
+function findCanvas(canvas: HTMLCanvasElement | string): HTMLCanvasElement {
+  const element = typeof canvas === 'string' ? byId(canvas) : canvas;
+  if (typeof (element as Partial<HTMLCanvasElement> | undefined)?.getContext !== 'function') {
+    const what = typeof canvas === 'string' ? `the element with the id "${canvas}"` : String(canvas);
+    throw new TypeError(`ro.World: ${what} is no canvas; expected a <canvas>, the id of one, or null for no screen`);
+  }
+  return element as HTMLCanvasElement;
+}
+
+function byId(id: string): HTMLElement {
+  if (typeof document === 'undefined') {
+    throw new Error(`ro.World: there is no page to look for the canvas "${id}" on; expected null for no screen`);
+  }
+  const element = document.getElementById(id);
+  if (!element) throw new Error(`ro.World: no element has the id "${id}"; expected the id of a <canvas>`);
+  return element;
+}

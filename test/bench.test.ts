@@ -1,0 +1,29 @@
+// The benchmark's own parts that a wrong figure could hide in: the fingerprint of a set of pairs, and the statistics.
+import { expect, test } from 'vitest';
+import { fingerprint } from '../bench/fingerprint.mjs';
+import { summary } from '../bench/statistics.mjs';
+
+test('a fingerprint depends on the pairs, not on their order', () => {
+  const pairs = [0, 1, 5, 9, 2, 2 ** 24 - 1, 7, 3];
+  expect(fingerprint([3, 7, 1, 0, 2 ** 24 - 1, 2, 9, 5])).toBe(fingerprint(pairs));
+  for (const other of [
+    [0, 1, 5, 9, 2, 2 ** 24 - 1, 7, 4],
+    [0, 1, 5, 9, 2, 2 ** 24 - 1],
+    [...pairs, 0, 1],
+    [0, 9, 5, 1, 2, 2 ** 24 - 1, 7, 3],
+  ]) {
+    expect(fingerprint(other)).not.toBe(fingerprint(pairs));
+  }
+  expect(fingerprint([0, 1, 0, 1])).not.toBe(fingerprint([5, 9, 5, 9]));
+});
+
+test('the headline is the median of the rounds, the rest is over all frames', () => {
+  expect(
+    summary([
+      [1, 3],
+      [10, 30],
+      [2, 2],
+    ]),
+  ).toEqual({ median: 2, mean: 8, p95: 30, worst: 30, frames: 6 });
+  expect(summary([[1], [3]]).median).toBe(2);
+});
