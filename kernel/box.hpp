@@ -49,6 +49,7 @@ template <> struct Item<2> {
   f32x4 box;  // min sweep, min binned, max sweep, max binned
   u32 tag;
 
+  f32x4 first() const { return box; }  // the vector whose lane 0 is the minimum along the sweep axis
   f32 lo(int axis) const { return box[axis]; }
   f32 hi(int axis) const { return box[2 + axis]; }
 };
@@ -57,6 +58,7 @@ template <> struct Item<3> {
   f32x4 low;   // min sweep, min binned 1, min binned 2, the tag's bits
   f32x4 high;  // max sweep, max binned 1, max binned 2, unused
 
+  f32x4 first() const { return low; }
   f32 lo(int axis) const { return low[axis]; }
   f32 hi(int axis) const { return high[axis]; }
 };

@@ -46,23 +46,25 @@ extern "C" u8 __heap_base;
 inline u8* top = nullptr;       // first byte never handed out
 inline u8* waiting[112] = {};   // per size class, the given-back blocks, each holding the address of the next
 
-inline void* take(u32 c) {
-  if (u8* block = waiting[c]) {
-    waiting[c] = load<u8*>(block);
-    used += class_bytes(c);
-    return block;
-  }
+/// Makes the memory reach to `bytes` behind `top`; false where it cannot.
+inline bool reach(u64 bytes) {
   if (!top) top = reinterpret_cast<u8*>((reinterpret_cast<size_t>(&__heap_base) + least - 1) / least * least);
-  u64 end = u64(reinterpret_cast<size_t>(top)) + class_bytes(c);
+  u64 end = u64(reinterpret_cast<size_t>(top)) + bytes;
   u64 have = u64(__builtin_wasm_memory_size(0)) << 16;
-  if (end > have) {
-    u64 pages = (end - have + 0xffff) >> 16;
-    if (end >= (u64(1) << 32) || __builtin_wasm_memory_grow(0, size_t(pages)) == size_t(-1)) {
-      fail(Fault::out_of_memory, f64(class_bytes(c)));
-    }
+  if (end <= have) return true;
+  if (end >= (u64(1) << 32)) return false;
+  return __builtin_wasm_memory_grow(0, size_t((end - have + 0xffff) >> 16)) != size_t(-1);
+}
+
+inline void* take(u32 c) {
+  u8* block = waiting[c];
+  if (block) {
+    waiting[c] = load<u8*>(block);
+  } else {
+    if (!reach(class_bytes(c))) fail(Fault::out_of_memory, f64(class_bytes(c)));
+    block = top;
+    top += class_bytes(c);
   }
-  u8* block = top;
-  top = reinterpret_cast<u8*>(size_t(end));
   used += class_bytes(c);
   return block;
 }
@@ -80,17 +82,10 @@ inline void give(void* block, u32 c) {
 /// The last block can become larger where it stands.
 inline bool extend(void* block, u32 from, u32 to) {
   if (static_cast<u8*>(block) + class_bytes(from) != top) return false;
-  u8* old_top = top;
-  u64 end = u64(reinterpret_cast<size_t>(block)) + class_bytes(to);
-  u64 have = u64(__builtin_wasm_memory_size(0)) << 16;
-  if (end > have) {
-    u64 pages = (end - have + 0xffff) >> 16;
-    if (end >= (u64(1) << 32) || __builtin_wasm_memory_grow(0, size_t(pages)) == size_t(-1)) {
-      fail(Fault::out_of_memory, f64(class_bytes(to)));
-    }
-  }
-  top = old_top + (class_bytes(to) - class_bytes(from));
-  used += class_bytes(to) - class_bytes(from);
+  u64 more = class_bytes(to) - class_bytes(from);
+  if (!reach(more)) fail(Fault::out_of_memory, f64(class_bytes(to)));
+  top += more;
+  used += more;
   return true;
 }
 #else
@@ -105,6 +100,7 @@ inline void give(void* block, u32 c) {
   std::free(block);
 }
 inline bool extend(void*, u32, u32) { return false; }
+inline bool reach(u64) { return true; }
 #endif
 
 }  // namespace heap

@@ -19,6 +19,9 @@ template <int D> class Space {
   // Below this many boxes testing all against all costs less than looking at them first.
   static constexpr u32 handful = 24;
 
+  // Bytes a box, pairs included, that an update takes in ordinary scenes.
+  static constexpr u32 usual_bytes = D == 2 ? 192 : 288;
+
   Ids& ids_;
   const GridOptions& options_;
   Buffer<f32> boxes_, staged_;
@@ -147,6 +150,9 @@ template <int D> class Space {
     }
     rounding_ = false;
     exposed_ = true;
+    // Growing later would cut the caller's view off, so take now what an update usually needs. Memory that is
+    // not touched costs nothing.
+    heap::reach(u64(count) * usual_bytes);
     return boxes_.data();
   }
 

@@ -504,7 +504,7 @@ export function countBoxes(where: string, boxes: Boxes, dimensions: 2 | 3): numb
   if (boxes.length % width !== 0) {
     badValue(`${where}: length`, boxes.length, `a multiple of ${width}, the numbers of a box in ${dimensions}D`);
   }
-  return boxes.length / width;
+  return (boxes.length / width) | 0; // as an integer: a double out of a call would be garbage
 }
 
 /** Each number of the first `count` boxes of an array really is one; what it is worth the kernel checks. */

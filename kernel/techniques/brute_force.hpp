@@ -29,7 +29,7 @@ template <int D> class BruteForce {
       end_[k] = n;
     }
     lanes_.fill(items, n);
-    sweep<D>(lanes_.view(), end_.data(), 0, n, pairs);
+    sweep<D>(lanes_, end_.data(), 0, n, pairs);
     stats.tests = f64(n) * (n - 1) / 2;
     stats.cells = 1;
     stats.entries = n;

@@ -72,7 +72,7 @@ template <int D> class SpatialGrid {
     for (u32 c = 0; c < cells; c++) {
       for (u32 until = starts[c]; k < until; k++) end[k] = until;
     }
-    sweep<D, true>(lanes_.view(), end, 0, u32(total), pairs);
+    sweep<D, true>(lanes_, end, 0, u32(total), pairs);
   }
 
   /// The cells with boxes in them.

@@ -29,6 +29,8 @@ template <int D> class StripSweep {
   static constexpr u32 deepest = 4;
   // A strip is looked at again where it has this many candidates an item, and this many in all.
   static constexpr u64 again_factor = 24, again_least = 8192;
+  // A cut that would make more entries than this for each item is not made.
+  static constexpr u32 most_copies = 4;
   // Cells hold one item on average; above this many squared they are given up for a sort.
   static constexpr u64 uneven = 6;
 
@@ -104,8 +106,8 @@ template <int D> class StripSweep {
       everywhere.low[a] = -__builtin_inf();
       everywhere.high[a] = __builtin_inf();
     }
-    if (cut.lists() == 1) list(items, scene.count, everywhere, 0, 0, pairs);
-    else divide(items, scene.count, cut, everywhere, 0, 0, pairs);
+    if (cut.lists() > 1 && divide(items, scene.count, cut, everywhere, 0, 0, pairs)) return;
+    list(items, scene.count, everywhere, 0, 0, pairs);
   }
 
   /// The strips of the last update, as boxes in the world's axes; unbounded sides are infinite.
@@ -186,8 +188,10 @@ template <int D> class StripSweep {
   }
 
   /// Puts items into the strips of a cut, behind the `base` entries of the cuts further out, and sweeps each.
+  /// Does nothing and returns false where the cut would not pay: boxes that overlap nearly all others enter every
+  /// strip, and cutting strips again and again would multiply them without end.
   template <class Source>
-  void divide(Source items, u32 count, const Cut& cut, const Region& region, u32 base, u32 depth, Pairs& pairs) {
+  bool divide(Source items, u32 count, const Cut& cut, const Region& region, u32 base, u32 depth, Pairs& pairs) {
     // Counting by differences: +1 where an item's range of strips begins, -1 behind its end, then prefix sums.
     // One more strip along each axis takes the -1 of the last; it stays empty.
     u32 across = D == 2 ? 1 : cut.strips[D - 1] + 1;
@@ -218,11 +222,14 @@ template <int D> class StripSweep {
     }
     for (u32 l = across; l < lists; l++) offsets[l] += offsets[l - across];
     u64 total = base;
+    f64 tests = 0;  // relative to those of the uncut items
     for (u32 l = 0; l < lists; l++) {
       u32 size = offsets[l];
       offsets[l] = u32(total);
       total += size;
+      tests += f64(size) * size;
     }
+    if (total - base > u64(most_copies) * count || tests * 2 > f64(count) * count) return false;
     size_t source = place(items);
     entries_.grow(total, base);
     move(items, source);
@@ -263,6 +270,7 @@ template <int D> class StripSweep {
       }
       begin = end;
     }
+    return true;
   }
 
   // Items that are cut again stand in entries_ themselves, which may move when it grows.
@@ -293,15 +301,12 @@ template <int D> class StripSweep {
         part.size[a] = smaller(part.size[a], larger(0.0, part.high[a] - part.low[a]));
       }
       Cut cut = choose(part, count);
-      if (cut.lists() > 1) {
-        divide(items, count, cut, region, base, depth, pairs);
-        return;
-      }
+      if (cut.lists() > 1 && divide(items, count, cut, region, base, depth, pairs)) return;
     }
     stats_->tests += f64(tests);
     stats_->cells++;
     note(region);
-    sweep<D>(lanes_.view(), end_.data(), 0, count, pairs);
+    sweep<D>(lanes_, end_.data(), 0, count, pairs);
   }
 
   /// Fills lanes_ and end_; returns the number of tests the sweep will make.
@@ -312,7 +317,7 @@ template <int D> class StripSweep {
     u32* cells = cells_.reserve(count);
     u32* starts = starts_.reserve(count + 1);
     __builtin_memset(starts, 0, (count + 1) * sizeof(u32));
-    Axis axis = sampled_axis(items, count);
+    Axis axis = axis_of(items, count);
     Axes axes(axis, axis, axis, axis);
     u32 whole = count & ~3u;
     for (u32 k = 0; k < whole; k += 4) {
@@ -378,17 +383,26 @@ template <int D> class StripSweep {
     return tests;
   }
 
-  /// Cells along the sweep axis, as many as there are items, over the range of a sample of them.
-  template <class Source> static Axis sampled_axis(const Source& items, u32 count) {
-    u32 stride = larger(1u, count / 64);
-    f32 least = __builtin_inff(), most = -__builtin_inff();
-    for (u32 k = 0; k < count; k += stride) {
-      f32 x = items[k].lo(0);
-      if (!detail::is_finite(x)) continue;
-      least = smaller(x, least);
-      most = larger(x, most);
+  /// Cells along the sweep axis, as many as there are items, over the range of those that are finite.
+  template <class Source> static Axis axis_of(const Source& items, u32 count) {
+    f32x4 least = items[0].first(), most = least;
+    for (u32 k = 1; k < count; k++) {
+      f32x4 x = items[k].first();
+      least = min(least, x);
+      most = max(most, x);
     }
-    return Axis::make(least, most, count);
+    f32 low = least[0], high = most[0];
+    if (!detail::is_finite(low) || !detail::is_finite(high)) {
+      low = __builtin_inff();
+      high = -low;
+      for (u32 k = 0; k < count; k++) {
+        f32 x = items[k].lo(0);
+        if (!detail::is_finite(x)) continue;
+        low = smaller(low, x);
+        high = larger(high, x);
+      }
+    }
+    return Axis::make(low, high, count);
   }
 
   /// Whether most of the tests that the sweep is about to make would be misses, by a sample of them.
