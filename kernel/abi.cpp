@@ -4,10 +4,11 @@
 
 namespace {
 
-Ids ids;
-GridOptions options;
-Space<2> flat(ids, options);
-Space<3> solid(ids, options);
+// constinit: nothing runs when the module is instantiated.
+constinit Ids ids;
+constinit GridOptions options;
+constinit Space<2> flat(ids, options);
+constinit Space<3> solid(ids, options);
 bool is_flat = true;
 f64 io[8];
 

@@ -7,6 +7,13 @@
 #pragma once
 #include "simd.hpp"
 
+// Code that runs once in a while: small rather than fast, and out of the way of the code that runs often.
+#if defined(__clang__)
+#define COLD __attribute__((noinline, minsize))
+#else
+#define COLD __attribute__((noinline, cold))
+#endif
+
 enum class Fault : u32 { none = 0, out_of_memory = 1 };
 
 #if defined(__wasm__)
@@ -105,69 +112,80 @@ inline bool reach(u64) { return true; }
 
 }  // namespace heap
 
-/// An array of plain values that grows. Not copied; memory is given back by `release` or the destructor.
-template <class T> class Buffer {
-  T* at_ = nullptr;
+/// A block of the heap that can become larger. One copy of this code serves the arrays of every type.
+class Block {
+ protected:
+  void* at_ = nullptr;
   u32 class_ = 0;
 
+  u64 bytes() const { return at_ ? heap::class_bytes(class_) : 0; }
+
+  /// At least that many bytes; what was inside is lost when it has to grow.
+  COLD void reserve_bytes(u64 wanted) {
+    u32 to = checked_class(wanted);
+    release();
+    at_ = heap::take(to);
+    class_ = to;
+  }
+
+  /// At least that many bytes, and half as many again as before; the first `keep` stay what they are.
+  COLD void grow_bytes(u64 wanted, u64 keep) {
+    u32 to = checked_class(larger(wanted, bytes() + bytes() / 2));
+    if (at_ && heap::extend(at_, class_, to)) {
+      class_ = to;
+      return;
+    }
+    void* moved = heap::take(to);
+    if (keep) __builtin_memcpy(moved, at_, keep);
+    release();
+    at_ = moved;
+    class_ = to;
+  }
+
+  static u32 checked_class(u64 wanted) {
+    if (wanted >= u64(1) << 32) fail(Fault::out_of_memory, f64(wanted));
+    return heap::size_class(wanted);
+  }
+
  public:
-  Buffer() = default;
-  Buffer(const Buffer&) = delete;
-  Buffer& operator=(const Buffer&) = delete;
+  constexpr Block() = default;
+  Block(const Block&) = delete;
+  Block& operator=(const Block&) = delete;
 #if !defined(__wasm__)
-  ~Buffer() { release(); }  // the wasm's arrays are all global: they go with its memory
+  ~Block() { release(); }  // the wasm's arrays are all global: they go with its memory
 #endif
 
-  T* data() const { return at_; }
-  T& operator[](size_t i) const { return at_[i]; }
-  u64 capacity() const { return at_ ? heap::class_bytes(class_) / sizeof(T) : 0; }
-
-  void release() {
+  COLD void release() {
     if (at_) heap::give(at_, class_);
     at_ = nullptr;
   }
 
-  /// Room for n values; what was inside is lost when it has to grow.
-  T* reserve(u64 n) {
-    if (n > capacity()) {
-      check(n);
-      u32 wanted = heap::size_class(n * sizeof(T));
-      release();
-      at_ = static_cast<T*>(heap::take(wanted));
-      class_ = wanted;
-    }
-    return at_;
-  }
-
-  /// Room for n values, of which the first `keep` stay what they are. Grows by half at least.
-  T* grow(u64 n, u64 keep) {
-    if (n <= capacity()) return at_;
-    u64 wish = larger(n, capacity() + capacity() / 2);
-    check(wish);
-    u32 wanted = heap::size_class(wish * sizeof(T));
-    if (at_ && heap::extend(at_, class_, wanted)) {
-      class_ = wanted;
-      return at_;
-    }
-    T* to = static_cast<T*>(heap::take(wanted));
-    if (keep) __builtin_memcpy(to, at_, keep * sizeof(T));
-    release();
-    at_ = to;
-    class_ = wanted;
-    return at_;
-  }
-
-  void swap(Buffer& other) {
-    T* at = at_;
+  void swap(Block& other) {
+    void* at = at_;
     u32 c = class_;
     at_ = other.at_;
     class_ = other.class_;
     other.at_ = at;
     other.class_ = c;
   }
+};
 
- private:
-  static void check(u64 n) {
-    if (n >= (u64(1) << 32) / sizeof(T)) fail(Fault::out_of_memory, f64(n) * sizeof(T));
+/// An array of plain values that grows. Not copied.
+template <class T> class Buffer : public Block {
+ public:
+  T* data() const { return static_cast<T*>(at_); }
+  T& operator[](size_t i) const { return data()[i]; }
+  u64 capacity() const { return bytes() / sizeof(T); }
+
+  /// Room for n values; what was inside is lost when it has to grow.
+  T* reserve(u64 n) {
+    if (n * sizeof(T) > bytes() || !at_) reserve_bytes(n * sizeof(T));
+    return data();
+  }
+
+  /// Room for n values, of which the first `keep` stay what they are.
+  T* grow(u64 n, u64 keep) {
+    if (n * sizeof(T) > bytes() || !at_) grow_bytes(n * sizeof(T), keep * sizeof(T));
+    return data();
   }
 };

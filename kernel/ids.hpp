@@ -8,7 +8,7 @@
 
 class Ids {
   static constexpr u32 page_size = 4096, page_count = 4096;
-  bool same_ = true;  // slot == id for all
+  bool named_ = false;  // ids are kept; else slot == id for all (all zero, so that it takes no room in the wasm)
   u32 count_ = 0;
   Buffer<u32> id_of_;              // per slot
   Buffer<u32> pages_[page_count];  // per 4,096 ids: slot + 1 of each, 0 where the id is free
@@ -30,26 +30,26 @@ class Ids {
       id_of_[id] = id;
       page(id)[id % page_size] = id + 1;
     }
-    same_ = false;
+    named_ = true;
   }
 
  public:
   static constexpr u32 none = 0xffffffff;
 
   u32 count() const { return count_; }
-  bool same() const { return same_; }
-  u32 id(u32 slot) const { return same_ ? slot : id_of_[slot]; }
+  bool same() const { return !named_; }
+  u32 id(u32 slot) const { return !named_ ? slot : id_of_[slot]; }
 
   u32 slot(u32 id) const {
-    if (same_) return id < count_ ? id : none;
+    if (!named_) return id < count_ ? id : none;
     const u32* page = pages_[id / page_size].data();
     return page ? page[id % page_size] - 1 : none;
   }
 
   /// Gives an id that is not there yet the next slot.
   u32 insert(u32 id) {
-    if (same_ && id != count_) spell_out();
-    if (!same_) {
+    if (!named_ && id != count_) spell_out();
+    if (named_) {
       u32* of = page(id);
       id_of_.grow(u64(count_) + 1, count_);
       id_of_[count_] = id;
@@ -60,9 +60,9 @@ class Ids {
 
   /// Takes an id away. Its slot goes to the id of the last slot, whose content the caller moves.
   void erase(u32 id) {
-    if (same_ && id != count_ - 1) spell_out();
+    if (!named_ && id != count_ - 1) spell_out();
     count_--;
-    if (same_) return;
+    if (!named_) return;
     u32& gap = pages_[id / page_size][id % page_size];
     u32 moved = id_of_[count_];
     id_of_[gap - 1] = moved;
@@ -72,11 +72,11 @@ class Ids {
 
   /// From now on the ids are 0 … count - 1, in this order.
   void reset(u32 count) {
-    if (!same_) {
+    if (named_) {
       for (auto& page : pages_) page.release();
       id_of_.release();
     }
-    same_ = true;
+    named_ = false;
     count_ = count;
   }
 

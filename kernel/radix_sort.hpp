@@ -54,7 +54,7 @@ class RadixSort {
 
   u32 index(u32 rank) const { return from_[rank].index; }
 
-  void release() {
+  COLD void release() {
     from_.release();
     to_.release();
     counts_.release();

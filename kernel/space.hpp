@@ -43,10 +43,10 @@ template <int D> class Space {
   u32 cell_count = 0;
   Technique technique = Technique::automatic;
 
-  Space(Ids& ids, const GridOptions& options) : ids_(ids), options_(options) {}
+  constexpr Space(Ids& ids, const GridOptions& options) : ids_(ids), options_(options) {}
 
   /// Memory for that many boxes, so that it need not grow while they are added.
-  void reserve(u32 count) {
+  COLD void reserve(u32 count) {
     if (count > ids_.count()) make_room(count, ids_.count());
   }
 
@@ -73,7 +73,7 @@ template <int D> class Space {
   }
 
   /// Takes a box away; false where there is none.
-  bool remove(u32 id) {
+  COLD bool remove(u32 id) {
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
     ids_.erase(id);
@@ -89,21 +89,21 @@ template <int D> class Space {
   }
 
   /// The numbers a box was given with; false where there is none.
-  bool get(u32 id, f64* box) const {
+  COLD bool get(u32 id, f64* box) const {
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
     for (u32 k = 0; k < width; k++) box[k] = number(slot, k);
     return true;
   }
 
-  void clear() {
+  COLD void clear() {
     ids_.reset(0);
     exposed_ = rounding_ = excluding_ = false;
   }
 
   /// Memory into which the next `replace` expects its boxes, as float32 or as doubles.
-  f32* stage(u32 count) { return staged_.reserve(u64(count) * width + padding); }
-  f64* stage_exact(u32 count) {
+  COLD f32* stage(u32 count) { return staged_.reserve(u64(count) * width + padding); }
+  COLD f64* stage_exact(u32 count) {
     stage(count);
     staged_rounded_.reserve(count);
     return staged_exact_.reserve(u64(count) * width);
@@ -130,7 +130,7 @@ template <int D> class Space {
 
   /// The boxes of ids 0 … count - 1, to be written in place. Ids from count on are removed, new ones are points
   /// at the origin.
-  f32* expose(u32 count) {
+  COLD f32* expose(u32 count) {
     u32 had = ids_.count();
     if (!ids_.same()) {
       f32* to = stage(count);
@@ -152,12 +152,12 @@ template <int D> class Space {
     exposed_ = true;
     // Growing later would cut the caller's view off, so take now what an update usually needs. Memory that is
     // not touched costs nothing.
-    heap::reach(u64(count) * usual_bytes);
+    heap::reach(u64(count) * usual_bytes + (1 << 18));
     return boxes_.data();
   }
 
   /// Sets or clears an exclusion bit of a box.
-  void exclude(u32 slot, u32 bit, bool on) {
+  COLD void exclude(u32 slot, u32 bit, bool on) {
     if (!excluding_) {
       if (!on) return;
       excluded_.reserve(boxes_.capacity() / width);
@@ -198,7 +198,7 @@ template <int D> class Space {
 
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
   /// all finite boxes.
-  void structure() {
+  COLD void structure() {
     switch (ran_) {
       case Technique::brute_force: brute_force_.structure(cells, cell_count, stats); break;
       case Technique::spatial_grid: spatial_grid_.structure(cells, cell_count, stats); break;
@@ -225,7 +225,7 @@ template <int D> class Space {
   }
 
   /// After memory has run out in the middle of an update: no pairs, and all that an update needs built anew.
-  void recover() {
+  COLD void recover() {
     release_techniques();
     pairs.list.release();
     pairs.count = 0;
@@ -234,7 +234,7 @@ template <int D> class Space {
   }
 
   /// Gives the techniques' memory back: on a switch, and after memory has run out in the middle of one.
-  void release_techniques() {
+  COLD void release_techniques() {
     brute_force_.release();
     spatial_grid_.release();
     strip_sweep_.release();
@@ -243,7 +243,7 @@ template <int D> class Space {
   }
 
   /// The number of the first invariant that does not hold (see src/broad-phase.ts), or 0; `detail`: where.
-  u32 validate(u32& detail) const {
+  COLD u32 validate(u32& detail) const {
     detail = 0;
     if (!ids_.valid()) return 1;
     if (!exposed_) {
@@ -292,7 +292,7 @@ template <int D> class Space {
   }
 
   /// Room for `count` boxes in every array that has one entry a box.
-  void make_room(u64 count, u32 keep) {
+  COLD void make_room(u64 count, u32 keep) {
     if (count > max_slots) fail(Fault::out_of_memory, f64(count) * width * sizeof(f32));
     boxes_.grow(count * width + padding, u64(keep) * width);
     if (excluding_) excluded_.grow(count, keep);
@@ -303,7 +303,7 @@ template <int D> class Space {
   }
 
   /// From now on the doubles are kept too.
-  void start_rounding() {
+  COLD void start_rounding() {
     u32 n = ids_.count();
     exact_.reserve(u64(n) * width);
     rounded_.reserve(n);
@@ -313,7 +313,7 @@ template <int D> class Space {
   }
 
   /// The ids become 0 … count - 1; those that were there keep their exclusion bits.
-  void renumber(u32 count) {
+  COLD void renumber(u32 count) {
     if (excluding_) {
       u32 had = ids_.count();
       if (ids_.same()) {

@@ -26,7 +26,7 @@ inline f32 sample[6][most_samples];  // per axis the minima, then per axis the m
 inline f32 sorted[most_samples];
 
 /// The k-th smallest of n values, which are reordered (quickselect with the median of three).
-inline f32 select(f32* v, i32 n, i32 k) {
+COLD inline f32 select(f32* v, i32 n, i32 k) {
   i32 from = 0, to = n - 1;
   while (from < to) {
     f32 a = v[from], b = v[(from + to) / 2], c = v[to];
@@ -51,7 +51,7 @@ inline f32 select(f32* v, i32 n, i32 k) {
 inline bool is_finite(f32 x) { return x - x == 0; }
 
 /// Extents of the finite ones among n values, without outliers.
-inline void extents(const f32* v, u32 n, f64& low, f64& high) {
+COLD inline void extents(const f32* v, u32 n, f64& low, f64& high) {
   // Finite values near the largest float would overflow in float32; none does in double.
   f64 least = __builtin_inf(), most = -__builtin_inf(), sum = 0, squares = 0;
   for (u32 k = 0; k < n; k++) {
@@ -137,7 +137,7 @@ struct Axis {
   static constexpr f32 magic = 8388608;  // 2^23
   f32 low = 0, shrink = 1, scale = 0, last = magic;
 
-  static Axis make(f64 low, f64 high, u32 cells) {
+  COLD static Axis make(f64 low, f64 high, u32 cells) {
     Axis axis;
     axis.low = f32(low);
     f64 extent = high - low;

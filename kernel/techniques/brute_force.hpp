@@ -36,13 +36,13 @@ template <int D> class BruteForce {
   }
 
   /// One cell, which is everything.
-  void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     count = u32(stats.cells);
     boxes.reserve(2 * D);
     for (int k = 0; k < 2 * D; k++) boxes[k] = k < D ? -__builtin_inff() : __builtin_inff();
   }
 
-  void release() {
+  COLD void release() {
     items_.release();
     lanes_.release();
     end_.release();

@@ -32,8 +32,8 @@ template <int D> class SpatialGrid {
   Buffer<u32> starts_;  // per cell, where its entries begin, later: end
   Buffer<u32> end_;     // per entry, the end of its cell
   Axis axis_[D];
-  u32 cells_[D];
-  f64 low_[D], size_[D];
+  u32 cells_[D] = {};
+  f64 low_[D] = {}, size_[D] = {};
 
  public:
   static constexpr const char* name = "spatial-grid";
@@ -76,7 +76,7 @@ template <int D> class SpatialGrid {
   }
 
   /// The cells with boxes in them.
-  void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     count = 0;
     boxes.reserve(u64(stats.cells) * 2 * D);
     if (stats.cells == 0) return;
@@ -95,7 +95,7 @@ template <int D> class SpatialGrid {
     }
   }
 
-  void release() {
+  COLD void release() {
     ordered_.release();
     lanes_.release();
     starts_.release();
@@ -166,15 +166,15 @@ template <int D> class SpatialGrid {
       last[a] = axis_[a](item.hi(a));
     }
     for (u32 x = first[0]; x <= last[0]; x++) {
-      u32 marks_x = x > first[0] ? continues_1 : 0;
+      u32 marks_x = x > first[0] ? u32(continues_1) : 0;
       for (u32 y = first[1]; y <= last[1]; y++) {
         u32 cell = x * cells_[1] + y;
-        u32 marks = marks_x | (y > first[1] ? continues_2 : 0);
+        u32 marks = marks_x | (y > first[1] ? u32(continues_2) : 0);
         if constexpr (D == 2) {
           at(cell, marks);
         } else {
           for (u32 z = first[2]; z <= last[2]; z++) {
-            at(cell * cells_[2] + z, marks | (z > first[2] ? continues_3 : 0));
+            at(cell * cells_[2] + z, marks | (z > first[2] ? u32(continues_3) : 0));
           }
         }
       }

@@ -40,7 +40,7 @@ template <int D> class StripSweep {
     Axis along[D];
     u32 strips[D];
 
-    u32 lists() const { return D == 2 ? strips[1] : strips[1] * strips[2]; }
+    u32 lists() const { return strips[1] * (D == 2 ? 1 : strips[D - 1]); }
   };
 
   /// A part of the world, along the item's axes; unbounded at its borders.
@@ -81,7 +81,7 @@ template <int D> class StripSweep {
   Buffer<u32> end_;        // per ordered item, how far to look
   RadixSort sort_;
   Buffer<Region> leaves_;  // the strips in use
-  AxisOrder<D> order_;
+  AxisOrder<D> order_ = {};
   Stats* stats_ = nullptr;
 
  public:
@@ -107,11 +107,15 @@ template <int D> class StripSweep {
       everywhere.high[a] = __builtin_inf();
     }
     if (cut.lists() > 1 && divide(items, scene.count, cut, everywhere, 0, 0, pairs)) return;
-    list(items, scene.count, everywhere, 0, 0, pairs);
+    entries_.grow(scene.count, 0);
+    ItemsAt<D> all(entries_, 0);
+    for (u32 k = 0; k < scene.count; k++) all.put(k, items[k]);
+    stats.entries = scene.count;
+    list(all, scene.count, everywhere, scene.count, 0, pairs);
   }
 
   /// The strips of the last update, as boxes in the world's axes; unbounded sides are infinite.
-  void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     count = u32(stats.cells);
     boxes.reserve(u64(count) * 2 * D);
     for (u32 k = 0; k < count; k++) {
@@ -122,7 +126,7 @@ template <int D> class StripSweep {
     }
   }
 
-  void release() {
+  COLD void release() {
     entries_.release();
     ordered_.release();
     lanes_.release();
@@ -137,7 +141,7 @@ template <int D> class StripSweep {
 
  private:
   /// The axis along which the world is longest, measured in boxes.
-  static int longest(const Statistics<D>& world) {
+  COLD static int longest(const Statistics<D>& world) {
     int best = 0;
     f64 most = -1;
     for (int a = 0; a < D; a++) {
@@ -153,7 +157,7 @@ template <int D> class StripSweep {
 
   /// Strip widths that balance entries against candidates: a strip w boxes wide makes 1 / w more entries and
   /// tests w times the neighbours along the sweep axis.
-  static Cut choose(const Statistics<D>& world, u32 count) {
+  COLD static Cut choose(const Statistics<D>& world, u32 count) {
     f64 relative[D];  // mean size as a share of the extent
     for (int a = 0; a < D; a++) {
       f64 extent = world.high[a] - world.low[a];
@@ -280,7 +284,7 @@ template <int D> class StripSweep {
   void move(ItemsAt<D>& items, size_t first) const { items = ItemsAt<D>(entries_, first); }
 
   /// Cuts a region down to one strip along an axis; the border strips keep the region's own border.
-  static void narrow(Region& region, int axis, const Cut& cut, u32 strip) {
+  COLD static void narrow(Region& region, int axis, const Cut& cut, u32 strip) {
     u32 last = cut.strips[axis] - 1;
     if (last == 0) return;
     // Strips are centred on whole steps: Axis rounds to the nearest.
@@ -290,8 +294,7 @@ template <int D> class StripSweep {
   }
 
   /// Orders the items of one strip and sweeps them, or cuts them again where that saves work.
-  template <class Source>
-  void list(const Source& items, u32 count, const Region& region, u32 base, u32 depth, Pairs& pairs) {
+  void list(const ItemsAt<D>& items, u32 count, const Region& region, u32 base, u32 depth, Pairs& pairs) {
     u64 tests = order_by_cells(items, count);
     if (depth < deepest && tests > again_factor * count && tests > again_least && wasteful(count)) {
       Statistics<D> part = measure<D>(items, count);
@@ -310,7 +313,7 @@ template <int D> class StripSweep {
   }
 
   /// Fills lanes_ and end_; returns the number of tests the sweep will make.
-  template <class Source> u64 order_by_cells(const Source& items, u32 count) {
+  u64 order_by_cells(const ItemsAt<D>& items, u32 count) {
     lanes_.reserve(count);
     ordered_.grow(count, 0);
     end_.reserve(count + 4);
@@ -353,7 +356,7 @@ template <int D> class StripSweep {
   }
 
   /// The same by a full sort: for strips where cells of one size do not fit.
-  template <class Source> u64 order_by_sorting(const Source& items, u32 count) {
+  u64 order_by_sorting(const ItemsAt<D>& items, u32 count) {
     sort_.begin(count);
     for (u32 k = 0; k < count; k++) sort_.put(k, items[k].lo(0));
     sort_.sort(count);
@@ -384,7 +387,7 @@ template <int D> class StripSweep {
   }
 
   /// Cells along the sweep axis, as many as there are items, over the range of those that are finite.
-  template <class Source> static Axis axis_of(const Source& items, u32 count) {
+  static Axis axis_of(const ItemsAt<D>& items, u32 count) {
     f32x4 least = items[0].first(), most = least;
     for (u32 k = 1; k < count; k++) {
       f32x4 x = items[k].first();
@@ -406,7 +409,7 @@ template <int D> class StripSweep {
   }
 
   /// Whether most of the tests that the sweep is about to make would be misses, by a sample of them.
-  bool wasteful(u32 count) const {
+  COLD bool wasteful(u32 count) const {
     LaneView<D> view = lanes_.view();
     u32 hits = 0, tried = 0;
     u32 stride = larger(1u, count / 32);
@@ -421,7 +424,7 @@ template <int D> class StripSweep {
     return hits * 4 < tried;
   }
 
-  void note(const Region& region) {
+  COLD void note(const Region& region) {
     u64 leaf = u64(stats_->cells) - 1;
     leaves_.grow(leaf + 1, leaf);
     leaves_[leaf] = region;
