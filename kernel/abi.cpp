@@ -6,7 +6,7 @@ namespace {
 
 // constinit: nothing runs when the module is instantiated.
 constinit Ids ids;
-constinit GridOptions options;
+constinit Settings options;
 constinit Space<2> flat(ids, options);
 constinit Space<3> solid(ids, options);
 bool is_flat = true;

@@ -6,12 +6,7 @@
 // Every change allocates before it writes: when memory ends, the space is as it was.
 #pragma once
 #include "ids.hpp"
-#include "techniques/brute_force.hpp"
-#include "techniques/spatial_grid.hpp"
-#include "techniques/strip_sweep.hpp"
-
-/// In the order of BroadPhase.techniques.
-enum class Technique : u32 { brute_force, spatial_grid, strip_sweep, automatic };
+#include "techniques.hpp"
 
 template <int D> class Space {
   static constexpr u32 width = 2 * D;  // numbers in a box
@@ -23,7 +18,7 @@ template <int D> class Space {
   static constexpr u32 usual_bytes = D == 2 ? 192 : 288;
 
   Ids& ids_;
-  const GridOptions& options_;
+  const Settings& options_;
   Buffer<f32> boxes_, staged_;
   Buffer<f64> exact_, staged_exact_;  // the doubles given, while `rounding_`
   Buffer<u8> rounded_, staged_rounded_;  // per slot, while `rounding_`: whether float32 cannot hold the box
@@ -31,9 +26,7 @@ template <int D> class Space {
   bool exposed_ = false;  // `boxes()` has handed out the memory: look for bad numbers at the next update
   Buffer<u32> excluded_;  // per slot its exclusion bits, while `excluding_`
   bool excluding_ = false;
-  BruteForce<D> brute_force_;
-  SpatialGrid<D> spatial_grid_;
-  StripSweep<D> strip_sweep_;
+  Techniques<D> techniques_;
   Technique ran_ = Technique::brute_force;
 
  public:
@@ -43,7 +36,7 @@ template <int D> class Space {
   u32 cell_count = 0;
   Technique technique = Technique::automatic;
 
-  constexpr Space(Ids& ids, const GridOptions& options) : ids_(ids), options_(options) {}
+  constexpr Space(Ids& ids, const Settings& options) : ids_(ids), options_(options) {}
 
   /// Memory for that many boxes, so that it need not grow while they are added.
   COLD void reserve(u32 count) {
@@ -182,11 +175,7 @@ template <int D> class Space {
     }
     if (chosen != ran_) release_techniques();
     ran_ = chosen;
-    switch (ran_) {
-      case Technique::brute_force: brute_force_.update(scene, pairs, stats); break;
-      case Technique::spatial_grid: spatial_grid_.update(scene, options_, pairs, stats); break;
-      default: strip_sweep_.update(scene, pairs, stats);
-    }
+    techniques_.with(ran_, [&](auto& chosen) { chosen.update(scene, options_, pairs, stats); });
     stats.candidates = f64(pairs.count);
     if (rounding_) retest();
     if (!ids_.same()) name_pairs();
@@ -199,11 +188,7 @@ template <int D> class Space {
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
   /// all finite boxes.
   COLD void structure() {
-    switch (ran_) {
-      case Technique::brute_force: brute_force_.structure(cells, cell_count, stats); break;
-      case Technique::spatial_grid: spatial_grid_.structure(cells, cell_count, stats); break;
-      default: strip_sweep_.structure(cells, cell_count, stats);
-    }
+    techniques_.with(ran_, [&](auto& used) { used.structure(cells, cell_count, stats); });
     f32 least[D], most[D];
     for (int a = 0; a < D; a++) {
       least[a] = __builtin_inff();
@@ -235,9 +220,7 @@ template <int D> class Space {
 
   /// Gives the techniques' memory back: on a switch, and after memory has run out in the middle of one.
   COLD void release_techniques() {
-    brute_force_.release();
-    spatial_grid_.release();
-    strip_sweep_.release();
+    techniques_.with(ran_, [](auto& used) { used.release(); });
     cells.release();
     cell_count = 0;
   }

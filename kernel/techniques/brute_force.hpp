@@ -5,6 +5,7 @@
 // Wins for a handful of boxes. Loses for all else; kept as the answer that every other technique must give.
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, approach 1.
 #pragma once
+#include "settings.hpp"
 #include "stats.hpp"
 #include "sweep.hpp"
 
@@ -14,9 +15,7 @@ template <int D> class BruteForce {
   Buffer<u32> end_;
 
  public:
-  static constexpr const char* name = "brute-force";
-
-  void update(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     if (n < 2) return;
     lanes_.reserve(n);

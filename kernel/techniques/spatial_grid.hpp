@@ -11,15 +11,10 @@
 // reference cell is from Dittrich & Seeger, "Data Redundancy and Duplicate Detection in Spatial Join
 // Processing", ICDE 2000.
 #pragma once
+#include "settings.hpp"
 #include "statistics.hpp"
 #include "stats.hpp"
 #include "sweep.hpp"
-
-/// What the options of the constructor say about grids.
-struct GridOptions {
-  f64 cell_size[3] = {};  // per axis; 0: chosen from the boxes
-  f64 bounds[6] = {};     // minima, then maxima, of the world; all 0: chosen from the boxes
-};
 
 template <int D> class SpatialGrid {
   static constexpr f64 boxes_per_cell = 3;  // aimed at; measured to be nearly flat from 2 to 5
@@ -36,9 +31,7 @@ template <int D> class SpatialGrid {
   f64 low_[D] = {}, size_[D] = {};
 
  public:
-  static constexpr const char* name = "spatial-grid";
-
-  void update(const Scene<D>& scene, const GridOptions& options, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
     if (scene.count == 0) return;
     SceneItems<D> items{scene, AxisOrder<D>::make(0)};
     u64 total = choose(items, scene.count, options);
@@ -110,7 +103,7 @@ template <int D> class SpatialGrid {
   }
 
   /// Sets the grid; returns the number of entries the boxes will have in it.
-  u64 choose(const SceneItems<D>& items, u32 count, const GridOptions& options) {
+  u64 choose(const SceneItems<D>& items, u32 count, const Settings& options) {
     Statistics<D> world = measure<D>(items, count);
     f64 extent[D], chosen[D];
     bool bounded = false;

@@ -15,6 +15,7 @@
 #pragma once
 #include "radix_sort.hpp"
 #include "statistics.hpp"
+#include "settings.hpp"
 #include "stats.hpp"
 #include "sweep.hpp"
 
@@ -85,9 +86,7 @@ template <int D> class StripSweep {
   Stats* stats_ = nullptr;
 
  public:
-  static constexpr const char* name = "strip-sweep";
-
-  void update(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     stats_ = &stats;
     if (scene.count < 2) return;
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};

@@ -1,0 +1,8 @@
+// What the options of the constructor say about the techniques.
+#pragma once
+#include "simd.hpp"
+
+struct Settings {
+  f64 cell_size[3] = {};  // per axis; 0: chosen from the boxes
+  f64 bounds[6] = {};     // minima, then maxima, of the grid's world; all 0: chosen from the boxes
+};

@@ -1,0 +1,24 @@
+// The techniques of one space, by name. A new one is a header in techniques/, and four lines here.
+#pragma once
+#include "techniques/brute_force.hpp"
+#include "techniques/spatial_grid.hpp"
+#include "techniques/strip_sweep.hpp"
+
+/// In the order of BroadPhase.techniques.
+enum class Technique : u32 { brute_force, spatial_grid, strip_sweep, automatic };
+
+template <int D> class Techniques {
+  BruteForce<D> brute_force_;
+  SpatialGrid<D> spatial_grid_;
+  StripSweep<D> strip_sweep_;
+
+ public:
+  /// Calls `what` with the technique of that name, which must not be `automatic`.
+  template <class What> void with(Technique name, What what) {
+    switch (name) {
+      case Technique::brute_force: return what(brute_force_);
+      case Technique::spatial_grid: return what(spatial_grid_);
+      default: return what(strip_sweep_);
+    }
+  }
+};
