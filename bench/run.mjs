@@ -8,6 +8,7 @@ import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { bundle } from '../scripts/bundle.mjs';
+import { compile } from '../scripts/compile.mjs';
 import { summary } from './statistics.mjs';
 import { table } from './table.mjs';
 
@@ -39,12 +40,15 @@ if (!existsSync(`${here}node_modules`)) {
   execFileSync('npm', ['ci', '--no-audit', '--no-fund'], { cwd: here, stdio: ['ignore', 'ignore', 'inherit'] });
 }
 const { BroadPhase, sceneNames } = await import(await bundle('bench/library.ts', 'build/bench/library.mjs'));
+writeFileSync(`${here}../build/bench/sort.wasm`, await compile('bench/floors/sort.cpp'));
 
 const techniques = options.techniques === undefined ? BroadPhase.techniques : list(options.techniques);
+/** Above this many boxes brute force takes seconds a frame: it then runs only where it is asked for by name. */
+const mostForBruteForce = 20_000;
 const contenders = [
   ...techniques.map((technique) => ({ name: technique, module: './peers/broadphase.mjs', technique })),
   ...list(options.peers).map((name) => ({ name, module: `./peers/${name}.mjs` })),
-  { name: 'sort floor (JS)', module: './floors/sort-js.mjs' },
+  { name: 'radix sort floor', module: './floors/sort.mjs' },
 ];
 refuseUnknown('technique', techniques, BroadPhase.techniques);
 refuseUnknown('peer', list(options.peers), peerNames);
@@ -88,6 +92,7 @@ async function race(scene, count) {
   const running = [];
   const results = [];
   for (const contender of contenders) {
+    if (contender.technique === 'brute-force' && !options.techniques && count > mostForBruteForce) continue;
     const runner = start(contender);
     const result = { name: contender.name };
     results.push(result);

@@ -27,11 +27,11 @@ template <int D> class StripSweep {
   // Strips longer than this leave the cache near the core.
   static constexpr f64 cached_items = 8192;
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
-  static constexpr u32 deepest = 4;
+  static constexpr u32 deepest = 6;
   // A strip is looked at again where it has this many candidates an item, and this many in all.
   static constexpr u64 again_factor = 24, again_least = 8192;
-  // A cut that would make more entries than this for each item is not made.
-  static constexpr u32 most_copies = 4;
+  // A cut after which there would be more entries than this for each box is not made.
+  static constexpr u64 most_copies = 8;
   // Cells hold one item on average; above this many squared they are given up for a sort.
   static constexpr u64 uneven = 6;
 
@@ -83,11 +83,13 @@ template <int D> class StripSweep {
   RadixSort sort_;
   Buffer<Region> leaves_;  // the strips in use
   AxisOrder<D> order_ = {};
+  u32 boxes_ = 0;
   Stats* stats_ = nullptr;
 
  public:
   void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     stats_ = &stats;
+    boxes_ = scene.count;
     if (scene.count < 2) return;
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     Statistics<D> world = measure<D>(plain, scene.count);
@@ -232,7 +234,10 @@ template <int D> class StripSweep {
       total += size;
       tests += f64(size) * size;
     }
-    if (total - base > u64(most_copies) * count || tests * 2 > f64(count) * count) return false;
+    // It pays when it saves half of the tests, or when it copies little: then it closes in on a crowd, for the
+    // next cut to spread it.
+    bool pays = tests * 2 < f64(count) * count || (total - base) * 2 < count * 3;
+    if (!pays || total > most_copies * boxes_) return false;
     size_t source = place(items);
     entries_.grow(total, base);
     move(items, source);
