@@ -313,7 +313,8 @@ export class BroadPhase {
 
   /**
    * Each overlapping pair of ids once, `[a0, b0, a1, b1, …]` with a < b, as of the last update. The order
-   * depends only on the calls made. A view of the kernel's memory: valid until the next `update()`.
+   * depends only on the calls made. A view of the kernel's memory: valid until the next `update()`, or until adding
+   * boxes makes memory grow.
    */
   get pairs(): Uint32Array {
     const at = this.#kernel.pairs_address();
