@@ -136,6 +136,26 @@ template <int D, class Source> Statistics<D> measure(const Source& items, u32 co
   return found;
 }
 
+/// The same for a few items, in one pass: extents with their outliers, and no crowding.
+template <int D, class Source> Statistics<D> glance(const Source& items, u32 count) {
+  Statistics<D> found;
+  found.crowding = 1;
+  for (int a = 0; a < D; a++) {
+    f32 least = __builtin_inff(), most = -least, sum = 0;
+    for (u32 k = 0; k < count; k++) {
+      Item<D> item = items[k];
+      f32 low = item.lo(a);
+      least = smaller(least, low);
+      most = larger(most, low);
+      sum += item.hi(a) - low;
+    }
+    found.low[a] = least;
+    found.high[a] = most;
+    found.size[a] = sum / f32(count);
+  }
+  return found;
+}
+
 /// A monotone map from a coordinate to a cell index in [0, cells): the distance from `low`, scaled and clamped.
 /// Adding 2^23 leaves the nearest integer in the low bits of the float, which costs one addition where a
 /// conversion that must not trap costs many instructions. `shrink` is a power of two that brings the extent near

@@ -26,6 +26,8 @@ template <int D> class StripSweep {
   static constexpr f64 free_candidates = 1.5;
   // Strips longer than this leave the cache near the core.
   static constexpr f64 cached_items = 8192;
+  static constexpr f64 least_items = 100;  // in a strip, on average: shorter ones cost more than they save
+  static constexpr u32 few = 400;  // boxes that are not worth cutting into strips
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
   static constexpr u32 deepest = 6;
   // A strip is looked at again where it has this many candidates an item, and this many in all.
@@ -92,22 +94,25 @@ template <int D> class StripSweep {
     boxes_ = scene.count;
     if (scene.count < 2) return;
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
-    Statistics<D> world = measure<D>(plain, scene.count);
+    bool one_strip = scene.count < few;
+    Statistics<D> world = one_strip ? glance<D>(plain, scene.count) : measure<D>(plain, scene.count);
     order_ = AxisOrder<D>::make(longest(world));
-    Statistics<D> turned = world;
-    for (int a = 0; a < D; a++) {
-      turned.low[a] = world.low[order_.axis[a]];
-      turned.high[a] = world.high[order_.axis[a]];
-      turned.size[a] = world.size[order_.axis[a]];
-    }
-    Cut cut = choose(turned, scene.count);
     SceneItems<D> items{scene, order_};
     Region everywhere;
     for (int a = 0; a < D; a++) {
       everywhere.low[a] = -__builtin_inf();
       everywhere.high[a] = __builtin_inf();
     }
-    if (cut.lists() > 1 && divide(items, scene.count, cut, everywhere, 0, 0, pairs)) return;
+    if (!one_strip) {
+      Statistics<D> turned = world;
+      for (int a = 0; a < D; a++) {
+        turned.low[a] = world.low[order_.axis[a]];
+        turned.high[a] = world.high[order_.axis[a]];
+        turned.size[a] = world.size[order_.axis[a]];
+      }
+      Cut cut = choose(turned, scene.count);
+      if (cut.lists() > 1 && divide(items, scene.count, cut, everywhere, 0, 0, pairs)) return;
+    }
     entries_.grow(scene.count, 0);
     ItemsAt<D> all(entries_, 0);
     for (u32 k = 0; k < scene.count; k++) all.put(k, items[k]);
@@ -171,7 +176,7 @@ template <int D> class StripSweep {
       return larger(balanced, free_candidates / neighbours);
     };
     if constexpr (D == 2) {
-      width[1] = smaller(one_axis(1), cached_items / count);
+      width[1] = larger(smaller(one_axis(1), cached_items / count), least_items / count);
     } else {
       f64 boxes = cube_root(entry_cost / (neighbours * relative[1] * relative[2]));
       boxes = larger(boxes, __builtin_sqrt(free_candidates / (neighbours * relative[1] * relative[2])));
@@ -180,6 +185,14 @@ template <int D> class StripSweep {
       // Where one axis is not worth cutting the world is flat: balance the other alone.
       if (width[1] >= 1) width[2] = one_axis(2);
       else if (width[2] >= 1) width[1] = one_axis(1);
+    }
+    if constexpr (D == 3) {
+      f64 share = width[1] * width[2] * count / least_items;
+      if (share < 1) {
+        f64 factor = __builtin_sqrt(1 / share);
+        width[1] *= factor;
+        width[2] *= factor;
+      }
     }
     Cut cut;
     cut.world = world;
