@@ -318,11 +318,17 @@ template <int D> class Space {
 
   /// The first of `count` boxes with a NaN or with a minimum above its maximum, or -1.
   static i32 first_bad(const f32* boxes, u32 count) {
+    constexpr u32 all = D == 2 ? 3 : 7;
     for (u32 s = 0; s < count; s++) {
-      const f32* box = boxes + u64(s) * width;
-      bool good = true;
-      for (int a = 0; a < D; a++) good &= box[a] <= box[D + a];
-      if (!good) return i32(s);
+      f32x4 low = load<f32x4>(boxes + u64(s) * width);
+      f32x4 high;
+      if constexpr (D == 2) {
+        high = __builtin_shufflevector(low, low, 2, 3, 2, 3);
+      } else {
+        f32x4 tail = load<f32x4>(boxes + u64(s) * width + 2);
+        high = __builtin_shufflevector(tail, tail, 1, 2, 3, 3);
+      }
+      if ((bitmask(low <= high) & all) != all) return i32(s);
     }
     return -1;
   }
