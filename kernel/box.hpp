@@ -87,6 +87,14 @@ template <int D> struct SceneItems {
   }
 };
 
+/// Items of the scene in another order.
+template <int D> struct PickedItems {
+  SceneItems<D> items;
+  const u32* slots;
+
+  Item<D> operator[](size_t k) const { return items[slots[k]]; }
+};
+
 /// Items stored one after the other, in the order a technique has put them.
 template <int D> struct Items {
   Buffer<f32x4> boxes;
@@ -167,7 +175,7 @@ template <int D> class Lanes {
   }
 
   /// Transposes n items, four at a time.
-  void fill(ItemsAt<D> items, u32 n) const {
+  template <class Source> void fill(const Source& items, u32 n) const {
     u32 k = 0;
     for (; k + 4 <= n; k += 4) put4(k, items[k], items[k + 1], items[k + 2], items[k + 3]);
     Item<D> none = nothing();

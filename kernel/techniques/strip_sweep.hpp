@@ -91,7 +91,7 @@ template <int D> class StripSweep {
     if (scene.count < 2) return;
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     Statistics<D> world = measure<D>(plain, scene.count);
-    order_ = AxisOrder<D>::make(longest(world));
+    order_ = AxisOrder<D>::make(world.longest());
     Statistics<D> turned = world;
     for (int a = 0; a < D; a++) {
       turned.low[a] = world.low[order_.axis[a]];
@@ -139,21 +139,6 @@ template <int D> class StripSweep {
   }
 
  private:
-  /// The axis along which the world is longest, measured in boxes.
-  COLD static int longest(const Statistics<D>& world) {
-    int best = 0;
-    f64 most = -1;
-    for (int a = 0; a < D; a++) {
-      f64 extent = world.high[a] - world.low[a];
-      f64 length = extent > 0 ? extent / larger(world.size[a], extent * 1e-7) : 0;
-      if (length > most) {
-        most = length;
-        best = a;
-      }
-    }
-    return best;
-  }
-
   /// Strip widths that balance entries against candidates: a strip w boxes wide makes 1 / w more entries and
   /// tests w times the neighbours along the sweep axis.
   COLD static Cut choose(const Statistics<D>& world, u32 count) {
