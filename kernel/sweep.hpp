@@ -56,6 +56,42 @@ inline void sweep(const Lanes<D>& from, const u32* end, u32 first, u32 last, Pai
   pairs.count = u64(out - pairs.list.data());
 }
 
+/// Items that stand together, to be tested against one that stands elsewhere or before them.
+struct Run {
+  u32 item, from, until;
+};
+
+/// Appends a run, unless it is empty.
+inline Run* add(Run* out, u32 item, u32 from, u32 until) {
+  *out = {item, from, until};
+  return out + (from < until);
+}
+
+/// Tests all items of each run against its one and appends the pairs. Returns the number of tests.
+template <int D> NOINLINE f64 sweep_runs(const Lanes<D>& from, const Run* runs, const Run* end, Pairs& pairs) {
+  const LaneView<D> lanes = from.view();
+  u64* out = pairs.list.data() + pairs.count;
+  u64* limit = pairs.list.data() + pairs.list.capacity();
+  u64 tests = 0;
+  for (; runs < end; runs++) {
+    Run run = *runs;
+    u32 length = run.until - run.from;
+    tests += length;
+    if (out + length + Pairs::slack > limit) {
+      out = pairs.room(out, length);
+      limit = pairs.list.data() + pairs.list.capacity();
+    }
+    Probe<D> probe(lanes, run.item);
+    for (u32 j = run.from; j < run.until; j += 4) {
+      u32x4 tags = load<u32x4>(lanes.tag + j);
+      i32x4 hits = probe.hits(lanes, j, tags) & bits<i32x4>(u32x4{0, 1, 2, 3} + splat(j) < splat(run.until));
+      out = append(out, probe.slot, tags & splat(slot_mask), bitmask(hits));
+    }
+  }
+  pairs.count = u64(out - pairs.list.data());
+  return f64(tests);
+}
+
 /// Tests each of `count` items, which stand in ascending order of their minima along the sweep axis, against those
 /// that start before it ends, and appends the pairs. For long sweeps in which few tests hit: eight items at a time
 /// pass without being looked at closer, and tags are read only where something is hit. Returns the number of tests.

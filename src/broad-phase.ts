@@ -18,7 +18,14 @@ export interface BroadPhaseOptions {
   capacity?: number;
 }
 
-const techniques = ['brute-force', 'spatial-grid', 'sweep-and-prune', 'strip-sweep', 'auto'] as const;
+const techniques = [
+  'brute-force',
+  'spatial-grid',
+  'hierarchical-grid',
+  'sweep-and-prune',
+  'strip-sweep',
+  'auto',
+] as const;
 
 /** The name of a technique. */
 export type TechniqueName = (typeof techniques)[number];
