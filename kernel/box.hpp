@@ -87,6 +87,14 @@ template <int D> struct SceneItems {
   }
 };
 
+/// Items of the scene in another order.
+template <int D> struct PickedItems {
+  SceneItems<D> items;
+  const u32* slots;
+
+  Item<D> operator[](size_t k) const { return items[slots[k]]; }
+};
+
 /// Items stored one after the other, in the order a technique has put them.
 template <int D> struct Items {
   Buffer<f32x4> boxes;
@@ -167,15 +175,12 @@ template <int D> class Lanes {
   }
 
   /// Transposes n items, four at a time.
-  void fill(ItemsAt<D> items, u32 n) const {
-    u32 k = 0;
-    for (; k + 4 <= n; k += 4) put4(k, items[k], items[k + 1], items[k + 2], items[k + 3]);
-    Item<D> none = nothing();
-    if (k < n) {
-      put4(k, items[k], k + 1 < n ? items[k + 1] : none, k + 2 < n ? items[k + 2] : none, none);
-      k += 4;
+  template <class Source> NOINLINE void fill(const Source& items, u32 n) const {
+    for (u32 k = 0; k + 4 <= n + padding; k += 4) {
+      Item<D> four[4];
+      for (u32 lane = 0; lane < 4; lane++) four[lane] = k + lane < n ? items[k + lane] : nothing();
+      put4(k, four);
     }
-    for (u32 end = n + padding; k + 4 <= end; k += 4) put4(k, none, none, none, none);
   }
 
  private:
@@ -185,23 +190,23 @@ template <int D> class Lanes {
     else return {nan, nan};
   }
 
-  void put4(u32 k, Item<D> a, Item<D> b, Item<D> c, Item<D> d) const {
+  void put4(u32 k, const Item<D> (&item)[4]) const {
     if constexpr (D == 2) {
-      f32x4 row[4] = {a.box, b.box, c.box, d.box};
+      f32x4 row[4] = {item[0].box, item[1].box, item[2].box, item[3].box};
       transpose(row);
       store(lo(0) + k, row[0]);
       store(lo(1) + k, row[1]);
       store(hi(0) + k, row[2]);
       store(hi(1) + k, row[3]);
-      store(tag() + k, u32x4{a.tag, b.tag, c.tag, d.tag});
+      store(tag() + k, u32x4{item[0].tag, item[1].tag, item[2].tag, item[3].tag});
     } else {
-      f32x4 row[4] = {a.low, b.low, c.low, d.low};
+      f32x4 row[4] = {item[0].low, item[1].low, item[2].low, item[3].low};
       transpose(row);
       store(lo(0) + k, row[0]);
       store(lo(1) + k, row[1]);
       store(lo(2) + k, row[2]);
       store(tag() + k, row[3]);
-      f32x4 top[4] = {a.high, b.high, c.high, d.high};
+      f32x4 top[4] = {item[0].high, item[1].high, item[2].high, item[3].high};
       transpose(top);
       store(hi(0) + k, top[0]);
       store(hi(1) + k, top[1]);

@@ -14,6 +14,9 @@
 #define COLD __attribute__((noinline, cold))
 #endif
 
+// One copy of what several callers share.
+#define NOINLINE __attribute__((noinline))
+
 enum class Fault : u32 { none = 0, out_of_memory = 1 };
 
 #if defined(__wasm__)

@@ -18,7 +18,15 @@ export interface BroadPhaseOptions {
   capacity?: number;
 }
 
-const techniques = ['brute-force', 'spatial-grid', 'strip-sweep', 'auto'] as const;
+const techniques = [
+  'brute-force',
+  'spatial-grid',
+  'home-cell-grid',
+  'hierarchical-grid',
+  'sweep-and-prune',
+  'strip-sweep',
+  'auto',
+] as const;
 
 /** The name of a technique. */
 export type TechniqueName = (typeof techniques)[number];

@@ -96,7 +96,7 @@ template <int D> class StripSweep {
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     bool one_strip = scene.count < few;
     Statistics<D> world = one_strip ? glance<D>(plain, scene.count) : measure<D>(plain, scene.count);
-    order_ = AxisOrder<D>::make(longest(world));
+    order_ = AxisOrder<D>::make(world.longest());
     SceneItems<D> items{scene, order_};
     Region everywhere;
     for (int a = 0; a < D; a++) {
@@ -146,21 +146,6 @@ template <int D> class StripSweep {
   }
 
  private:
-  /// The axis along which the world is longest, measured in boxes.
-  COLD static int longest(const Statistics<D>& world) {
-    int best = 0;
-    f64 most = -1;
-    for (int a = 0; a < D; a++) {
-      f64 extent = world.high[a] - world.low[a];
-      f64 length = extent > 0 ? extent / larger(world.size[a], extent * 1e-7) : 0;
-      if (length > most) {
-        most = length;
-        best = a;
-      }
-    }
-    return best;
-  }
-
   /// Strip widths that balance entries against candidates: a strip w boxes wide makes 1 / w more entries and
   /// tests w times the neighbours along the sweep axis.
   COLD static Cut choose(const Statistics<D>& world, u32 count) {
