@@ -18,7 +18,7 @@ export interface BroadPhaseOptions {
   capacity?: number;
 }
 
-const techniques = ['brute-force', 'spatial-grid', 'strip-sweep', 'bsp-tree', 'auto'] as const;
+const techniques = ['brute-force', 'spatial-grid', 'strip-sweep', 'bsp-tree', 'r-tree', 'auto'] as const;
 
 /** The name of a technique. */
 export type TechniqueName = (typeof techniques)[number];

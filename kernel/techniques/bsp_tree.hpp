@@ -114,7 +114,7 @@ template <int D> class BspTree {
   }
 
   /// Where to cut, by a sample of the items.
-  static Cut choose(const ItemsAt<D>& items, u32 count, f32 spare) {
+  COLD static Cut choose(const ItemsAt<D>& items, u32 count, f32 spare) {
     static f32 starts[D][samples];
     static f32 sizes[D][samples];
     u32 stride = count / samples, jitter = count;
