@@ -140,6 +140,18 @@ template <int D> struct LaneView {
   const u32* tag;
 };
 
+/// Four rows of four, turned into columns.
+inline void transpose(f32x4 (&row)[4]) {
+  f32x4 ab_low = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
+  f32x4 ab_high = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
+  f32x4 cd_low = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
+  f32x4 cd_high = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
+  row[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+  row[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+  row[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+  row[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+}
+
 /// Items as structure of arrays, for tests of one against four: lo and hi per axis, and the tags.
 /// Followed by a block of NaN boxes, which overlap nothing: reading past the end is harmless.
 template <int D> class Lanes {
@@ -147,7 +159,7 @@ template <int D> class Lanes {
   size_t stride_ = 0;
 
  public:
-  static constexpr u32 padding = 12;
+  static constexpr u32 padding = 16;
 
   f32* lo(int axis) const { return values_.data() + size_t(axis) * stride_; }
   f32* hi(int axis) const { return values_.data() + size_t(D + axis) * stride_; }
@@ -176,7 +188,12 @@ template <int D> class Lanes {
 
   /// Transposes n items, four at a time.
   template <class Source> NOINLINE void fill(const Source& items, u32 n) const {
-    for (u32 k = 0; k + 4 <= n + padding; k += 4) {
+    u32 k = 0;
+    for (; k + 4 <= n; k += 4) {
+      Item<D> four[4] = {items[k], items[k + 1], items[k + 2], items[k + 3]};
+      put4(k, four);
+    }
+    for (; k + 4 <= n + padding; k += 4) {
       Item<D> four[4];
       for (u32 lane = 0; lane < 4; lane++) four[lane] = k + lane < n ? items[k + lane] : nothing();
       put4(k, four);
@@ -212,16 +229,5 @@ template <int D> class Lanes {
       store(hi(1) + k, top[1]);
       store(hi(2) + k, top[2]);
     }
-  }
-
-  static void transpose(f32x4 (&row)[4]) {
-    f32x4 ab_low = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
-    f32x4 ab_high = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
-    f32x4 cd_low = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
-    f32x4 cd_high = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
-    row[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
-    row[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
-    row[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
-    row[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
   }
 };

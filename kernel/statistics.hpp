@@ -119,28 +119,13 @@ COLD inline f64 common_size(int axis, int dimensions, u32 count, f64 share) {
   return kept ? select(sorted, kept, i32((kept - 1) * share)) : 0;
 }
 
-}  // namespace detail
-
-/// Statistics of `count` items (Source: SceneItems or ItemsAt), along the axes as the source gives them.
-template <int D, class Source> Statistics<D> measure(const Source& items, u32 count) {
-  using detail::sample;
-  u32 n = detail::samples_of(count);
-  u32 stride = count / n;
-  u32 jitter = 0x9e3779b9;
-  for (u32 k = 0; k < n; k++) {
-    jitter = jitter * 1664525 + 1013904223;
-    Item<D> item = items[k * stride + u32((u64(jitter) * stride) >> 32)];
-    for (int a = 0; a < D; a++) {
-      sample[a][k] = item.lo(a);
-      sample[D + a][k] = item.hi(a);
-    }
-  }
-
+/// Statistics of the n items sampled.
+template <int D> SHARED Statistics<D> judge(u32 n) {
   Statistics<D> found;
   constexpr u32 side = D == 2 ? 64 : 16;
-  static u16 cell[detail::most_samples];
+  static u16 cell[most_samples];
   for (int a = 0; a < D; a++) {
-    detail::extents(sample[a], n, found.low[a], found.high[a]);
+    extents(sample[a], n, found.low[a], found.high[a]);
     f64 extent = found.high[a] - found.low[a];
     f64 sum = 0;
     for (u32 k = 0; k < n; k++) {
@@ -163,6 +148,25 @@ template <int D, class Source> Statistics<D> measure(const Source& items, u32 co
   for (u32 k = 0; k < n; k++) meetings += 2 * histogram[cell[k]]++;
   found.crowding = n < 64 ? 1 : larger(1.0, meetings * cells / (f64(n) * (n - 1)));
   return found;
+}
+
+}  // namespace detail
+
+/// Statistics of `count` items (Source: SceneItems or ItemsAt), along the axes as the source gives them.
+template <int D, class Source> SHARED Statistics<D> measure(const Source& items, u32 count) {
+  using detail::sample;
+  u32 n = detail::samples_of(count);
+  u32 stride = count / n;
+  u32 jitter = 0x9e3779b9;
+  for (u32 k = 0; k < n; k++) {
+    jitter = jitter * 1664525 + 1013904223;
+    Item<D> item = items[k * stride + u32((u64(jitter) * stride) >> 32)];
+    for (int a = 0; a < D; a++) {
+      sample[a][k] = item.lo(a);
+      sample[D + a][k] = item.hi(a);
+    }
+  }
+  return detail::judge<D>(n);
 }
 
 /// The same for a few items, in one pass: extents with their outliers, and no crowding.
@@ -218,6 +222,7 @@ struct Axis {
 struct Axes {
   f32x4 low, shrink, scale, last;
 
+  Axes() = default;
   Axes(const Axis& a, const Axis& b, const Axis& c, const Axis& d)
       : low{a.low, b.low, c.low, d.low},
         shrink{a.shrink, b.shrink, c.shrink, d.shrink},

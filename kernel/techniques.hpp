@@ -1,8 +1,10 @@
 // The techniques of one space, by name. A new one is a header in techniques/, and four lines here.
 #pragma once
 #include "techniques/brute_force.hpp"
+#include "techniques/bsp_tree.hpp"
 #include "techniques/hierarchical_grid.hpp"
 #include "techniques/home_cell_grid.hpp"
+#include "techniques/r_tree.hpp"
 #include "techniques/spatial_grid.hpp"
 #include "techniques/strip_sweep.hpp"
 #include "techniques/sweep_and_prune.hpp"
@@ -15,6 +17,8 @@ enum class Technique : u32 {
   hierarchical_grid,
   sweep_and_prune,
   strip_sweep,
+  bsp_tree,
+  r_tree,
   automatic,
 };
 
@@ -25,6 +29,8 @@ template <int D> class Techniques {
   HierarchicalGrid<D> hierarchical_grid_;
   SweepAndPrune<D> sweep_and_prune_;
   StripSweep<D> strip_sweep_;
+  BspTree<D> bsp_tree_;
+  RTree<D> r_tree_;
 
  public:
   /// Calls `what` with the technique of that name, which must not be `automatic`.
@@ -35,6 +41,8 @@ template <int D> class Techniques {
       case Technique::home_cell_grid: return what(home_cell_grid_);
       case Technique::hierarchical_grid: return what(hierarchical_grid_);
       case Technique::sweep_and_prune: return what(sweep_and_prune_);
+      case Technique::bsp_tree: return what(bsp_tree_);
+      case Technique::r_tree: return what(r_tree_);
       default: return what(strip_sweep_);
     }
   }

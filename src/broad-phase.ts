@@ -25,6 +25,8 @@ const techniques = [
   'hierarchical-grid',
   'sweep-and-prune',
   'strip-sweep',
+  'bsp-tree',
+  'r-tree',
   'auto',
 ] as const;
 
