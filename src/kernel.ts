@@ -18,6 +18,8 @@ export interface KernelExports {
   get(id: number): number;
   size(): number;
   clear(): void;
+  set_filter(id: number, layer: number, mask: number): number;
+  set_static(id: number, on: number): number;
   stage(count: number): number;
   stage_exact(count: number): number;
   replace(count: number, doubles: number): number;
