@@ -101,6 +101,32 @@ EXPORT(pairs_address)() -> u64* {
 EXPORT(pair_count)() -> u32 {
   return with_space([](auto& space) { return u32(space.pairs.count); });
 }
+/// From now on the pairs that began and ended are kept with every update.
+EXPORT(set_events)() -> void {
+  with_space([](auto& space) { space.keeps_events = true; });
+}
+EXPORT(began_address)() -> u64* {
+  return with_space([](auto& space) { return space.events.began.list.data(); });
+}
+EXPORT(began_count)() -> u32 {
+  return with_space([](auto& space) { return u32(space.events.began.count); });
+}
+EXPORT(ended_address)() -> u64* {
+  return with_space([](auto& space) { return space.events.ended.list.data(); });
+}
+EXPORT(ended_count)() -> u32 {
+  return with_space([](auto& space) { return u32(space.events.ended.count); });
+}
+EXPORT(is_pair)(u32 a, u32 b) -> u32 {
+  return with_space([&](auto& space) { return space.is_pair(a, b); });
+}
+/// The number of answers, which are ids.
+EXPORT(partners)(u32 id) -> u32 {
+  return with_space([&](auto& space) { return space.partners(id); });
+}
+EXPORT(answers_address)() -> u32* {
+  return with_space([](auto& space) { return space.answers.data(); });
+}
 EXPORT(stats_address)() -> Stats* {
   return with_space([](auto& space) { return &space.stats; });
 }

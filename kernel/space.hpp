@@ -5,7 +5,9 @@
 // re-tested in double where one of the two was rounded. Boxes that float32 holds pay nothing.
 // Every change allocates before it writes: when memory ends, the space is as it was.
 #pragma once
+#include "events.hpp"
 #include "filters.hpp"
+#include "neighbours.hpp"
 #include "techniques.hpp"
 
 template <int D> class Space {
@@ -27,9 +29,16 @@ template <int D> class Space {
   Filters filters_;
   Techniques<D> techniques_;
   Technique ran_ = Technique::brute_force;
+  // Made of the pairs at the first question after an update.
+  PairTable table_;
+  Neighbours neighbours_;
+  bool neighbours_made_ = false;
 
  public:
   Pairs pairs;
+  Events events;  // while `keeps_events`
+  bool keeps_events = false;
+  Buffer<u32> answers;  // ids, of the last question
   Stats stats;
   Buffer<f32> cells;  // what structure() has written
   u32 cell_count = 0;
@@ -68,6 +77,7 @@ template <int D> class Space {
   COLD bool remove(u32 id) {
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
+    if (keeps_events) events.forget(id);
     ids_.erase(id);
     u32 last = ids_.count();
     if (filters_.active()) filters_.move(last, slot);
@@ -89,6 +99,7 @@ template <int D> class Space {
   }
 
   COLD void clear() {
+    forget_from(0);
     ids_.reset(0);
     filters_.clear();
     exposed_ = rounding_ = false;
@@ -187,10 +198,26 @@ template <int D> class Space {
     if (filters_.active()) filters_.finish(pairs);
     if (rounding_) retest();
     if (!ids_.same()) name_pairs();
+    if (keeps_events) events.follow(pairs, table_);
+    table_.made = neighbours_made_ = false;
     stats.pairs = f64(pairs.count);
     stats.bytes = f64(heap::used);
     stats.technique = f64(u32(ran_));
     return -1;
+  }
+
+  /// Whether two ids are a pair of the last update.
+  COLD bool is_pair(u32 a, u32 b) {
+    if (pairs.count == 0) return false;
+    if (!table_.made) table_.make(pairs);
+    return table_.find(pairs, u64(smaller(a, b)) | u64(larger(a, b)) << 32) != PairTable::none;
+  }
+
+  /// Writes the ids that were in a pair with this one in the last update to `answers`; returns how many.
+  COLD u32 partners(u32 id) {
+    if (!neighbours_made_) neighbours_.build(pairs);
+    neighbours_made_ = true;
+    return neighbours_.of(id, answers);
   }
 
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
@@ -221,7 +248,8 @@ template <int D> class Space {
   COLD void recover() {
     release_techniques();
     pairs.list.release();
-    pairs.count = 0;
+    pairs.count = events.began.count = events.ended.count = 0;
+    table_.made = neighbours_made_ = false;
     stats = Stats{};
     stats.bytes = f64(heap::used);
   }
@@ -309,8 +337,16 @@ template <int D> class Space {
     return filters_.change(slot);
   }
 
+  /// The boxes of ids from this one on are about to go.
+  COLD void forget_from(u32 first) {
+    for (u32 s = 0; keeps_events && s < ids_.count(); s++) {
+      if (ids_.id(s) >= first) events.forget(ids_.id(s));
+    }
+  }
+
   /// The ids become 0 … count - 1; those that were there keep their filters.
   COLD void renumber(u32 count) {
+    forget_from(count);
     if (filters_.active()) filters_.renumber(ids_, count);
     ids_.reset(count);
   }

@@ -2,7 +2,7 @@
 // All state lives in the kernel's memory (kernel/space.hpp); this file checks what comes in, passes it on, and
 // gives views of what comes out. Nothing here runs once per box or per pair of an update.
 import { badBox, badCount, badId, badValue, checkBits, maxId, noBox } from './errors.ts';
-import { Space } from './space.ts';
+import { Queries } from './queries.ts';
 
 /** Options of {@link BroadPhase}, all optional. */
 export interface BroadPhaseOptions {
@@ -14,6 +14,8 @@ export interface BroadPhaseOptions {
   cellSize?: number | readonly number[];
   /** For `spatial-grid`: the world that is cut into cells, minima then maxima. Boxes outside are found all the same. */
   bounds?: readonly number[];
+  /** Whether every update finds out which pairs began and ended, for {@link BroadPhase.began}. Default false. */
+  events?: boolean;
   /** A hint: how many boxes there will be, 0 … 2^24. Saves growing while they are added. */
   capacity?: number;
 }
@@ -70,7 +72,7 @@ export let splitColours: (space: BroadPhase, red: number) => void;
  * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
  * space.pairs; // Uint32Array [7, 9]
  */
-export class BroadPhase extends Space {
+export class BroadPhase extends Queries {
   /** The names of the techniques, in order. */
   static readonly techniques: readonly TechniqueName[] = techniques;
 
@@ -78,6 +80,9 @@ export class BroadPhase extends Space {
   readonly #stagedViews: (Float32Array | Float64Array)[] = [];
   readonly #stats: Stats = { technique: 'auto', tests: 0, candidates: 0, pairs: 0, cells: 0, entries: 0, bytes: 0 };
   readonly #pairViews: Uint32Array[] = [];
+  readonly #beganViews: Uint32Array[] = [];
+  readonly #endedViews: Uint32Array[] = [];
+  readonly #events: boolean;
   #technique: TechniqueName;
   /** What `boxes()` gave last, while it is in use. */
   #view: Float32Array | undefined;
@@ -90,9 +95,10 @@ export class BroadPhase extends Space {
     if (typeof options !== 'object' || options === null) {
       badValue('new BroadPhase', options, 'an object of options', true);
     }
-    const { dimensions = 2, technique = 'auto', cellSize, bounds, capacity = 0 } = options;
+    const { dimensions = 2, technique = 'auto', cellSize, bounds, events = false, capacity = 0 } = options;
     if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
     checkTechnique(technique);
+    if (typeof events !== 'boolean') badValue('events', events, 'true or false', true);
     checkBoxCount('capacity', capacity);
     const cells = cellSize === undefined ? undefined : checkCellSize(cellSize, dimensions);
     if (bounds !== undefined) checkBounds(bounds, dimensions);
@@ -100,6 +106,8 @@ export class BroadPhase extends Space {
     super(dimensions);
     this.#technique = technique;
     this.kernel.set_technique(techniques.indexOf(technique));
+    this.#events = events;
+    if (events) this.kernel.set_events();
     const io = this.io();
     if (cells) {
       io.set(cells);
@@ -348,6 +356,31 @@ export class BroadPhase extends Space {
     return this.kernel.pair_count();
   }
 
+  /**
+   * The pairs that the last update found and the one before did not, as in `pairs` and in their order: with `events:
+   * true` only. A view of the kernel's memory: valid until the next `update()`.
+   *
+   * A pair whose box was deleted has ended with the next update, and has begun with it too where the id was set again
+   * and overlaps again: it is another box. Boxes that `setAll`, `boxes` and `clear` take away were deleted.
+   *
+   * @throws Error without `events: true`
+   */
+  get began(): Uint32Array {
+    if (!this.#events) noEvents('began');
+    return this.pairView(this.#beganViews, this.kernel.began_address(), this.kernel.began_count());
+  }
+
+  /**
+   * The pairs that the update before the last found and the last did not, or whose boxes were deleted in between: see
+   * {@link BroadPhase.began}. In the order that they had in `pairs`.
+   *
+   * @throws Error without `events: true`
+   */
+  get ended(): Uint32Array {
+    if (!this.#events) noEvents('ended');
+    return this.pairView(this.#endedViews, this.kernel.ended_address(), this.kernel.ended_count());
+  }
+
   /** Counters of the last update: the same object every time. */
   get stats(): Readonly<Stats> {
     return this.#stats;
@@ -389,7 +422,7 @@ export class BroadPhase extends Space {
   /** Lets go of the memory at once; it also goes with the object. Any call after this throws. */
   override dispose(): void {
     super.dispose();
-    this.#pairViews.length = 0;
+    this.#pairViews.length = this.#beganViews.length = this.#endedViews.length = 0;
     this.#stagedViews.length = 0;
     this.#view = undefined;
   }
@@ -449,6 +482,10 @@ function badSet(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
   if (typeof id !== 'number' || id >>> 0 !== id || id > maxId) badId('set', id);
   if (given.length !== 1 + 2 * dimensions) badCount('set', id, given.length, dimensions);
   badBox('set', id, Array.prototype.slice.call(given, 1), dimensions);
+}
+
+function noEvents(what: string): never {
+  throw new Error(`${what}: this space keeps no events, expected one made with new BroadPhase({ events: true })`);
 }
 
 function checkTechnique(name: unknown): void {

@@ -69,3 +69,8 @@ export function checkBits(where: string, bits: unknown): void {
   if ((bits as number) >>> 0 === bits) return;
   badValue(where, bits, 'an integer from 0 to 4294967295 (of signed bits, write bits >>> 0)', typeof bits !== 'number');
 }
+
+/** Where answers are written to. */
+export function checkOut(where: string, out: unknown): void {
+  if (!Array.isArray(out)) badValue(`${where}: out`, out, 'an array', true);
+}

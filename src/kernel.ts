@@ -30,6 +30,14 @@ export interface KernelExports {
   update(): number;
   pairs_address(): number;
   pair_count(): number;
+  set_events(): void;
+  began_address(): number;
+  began_count(): number;
+  ended_address(): number;
+  ended_count(): number;
+  is_pair(a: number, b: number): number;
+  partners(id: number): number;
+  answers_address(): number;
   stats_address(): number;
   structure(): number;
   structure_count(): number;
