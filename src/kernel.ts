@@ -18,6 +18,8 @@ export interface KernelExports {
   get(id: number): number;
   size(): number;
   clear(): void;
+  set_filter(id: number, layer: number, mask: number): number;
+  set_static(id: number, on: number): number;
   stage(count: number): number;
   stage_exact(count: number): number;
   replace(count: number, doubles: number): number;
@@ -28,6 +30,14 @@ export interface KernelExports {
   update(): number;
   pairs_address(): number;
   pair_count(): number;
+  set_events(): void;
+  began_address(): number;
+  began_count(): number;
+  ended_address(): number;
+  ended_count(): number;
+  is_pair(a: number, b: number): number;
+  partners(id: number): number;
+  answers_address(): number;
   stats_address(): number;
   structure(): number;
   structure_count(): number;
