@@ -22,7 +22,7 @@ template <int D> struct Torus {
     u32 log[D], sum = 0;
     for (int a = 0; a < D; a++) {
       log[a] = 0;
-      while (log[a] < 22 && f64(1u << log[a]) < wanted[a]) log[a]++;
+      while (log[a] < 20 && f64(1u << log[a]) < wanted[a]) log[a]++;
       // Of two cells each would be on both sides of the other.
       if (log[a] == 1) log[a] = 2;
       sum += log[a];
