@@ -180,6 +180,8 @@ template <int D> class Space {
     if (rounding_) retest();
     if (!ids_.same()) name_pairs();
     stats.pairs = f64(pairs.count);
+    // Growing later would cut the views of the pairs off: what the ids take at the first gap is taken now.
+    heap::reach(u64(ids_.count()) * 2 * sizeof(u32) + (1 << 16));
     stats.bytes = f64(heap::used);
     stats.technique = f64(u32(ran_));
     return -1;

@@ -64,6 +64,9 @@ COLD inline f32 select(f32* v, i32 n, i32 k) {
   return v[k];
 }
 
+/// How many of so many boxes are looked at.
+inline u32 samples_of(u32 count) { return smaller(count, smaller(larger(count / 64, 256u), most_samples)); }
+
 inline bool is_finite(f32 x) { return x - x == 0; }
 
 /// Extents of the finite ones among n values, without outliers.
@@ -99,12 +102,22 @@ COLD inline void extents(const f32* v, u32 n, f64& low, f64& high) {
   high = select(sorted, kept, kept - 1 - cut);
 }
 
+/// After `measure` of `count` items: the size along an axis that this share of the sample does not exceed.
+COLD inline f64 common_size(int axis, int dimensions, u32 count, f64 share) {
+  i32 n = i32(samples_of(count)), kept = 0;
+  for (i32 k = 0; k < n; k++) {
+    f32 size = sample[dimensions + axis][k] - sample[axis][k];
+    if (is_finite(size)) sorted[kept++] = size;
+  }
+  return kept ? select(sorted, kept, i32((kept - 1) * share)) : 0;
+}
+
 }  // namespace detail
 
 /// Statistics of `count` items (Source: SceneItems or ItemsAt), along the axes as the source gives them.
 template <int D, class Source> Statistics<D> measure(const Source& items, u32 count) {
   using detail::sample;
-  u32 n = smaller(count, smaller(larger(count / 64, 256u), detail::most_samples));
+  u32 n = detail::samples_of(count);
   u32 stride = count / n;
   u32 jitter = 0x9e3779b9;
   for (u32 k = 0; k < n; k++) {

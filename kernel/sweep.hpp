@@ -92,16 +92,16 @@ template <int D> NOINLINE f64 sweep_runs(const Lanes<D>& from, const Run* runs, 
   return f64(tests);
 }
 
-/// Tests each of `count` items, which stand in ascending order of their minima along the sweep axis, against those
-/// that start before it ends, and appends the pairs. For long sweeps in which few tests hit: eight items at a time
+/// Tests each item of [i, last), which stand in ascending order of their minima along the sweep axis and are the last
+/// of all, against those that start before it ends, and appends the pairs. For long sweeps in which few tests hit: eight items at a time
 /// pass without being looked at closer, and tags are read only where something is hit. Returns the number of tests.
-template <int D> inline u64 sweep_ascending(const Lanes<D>& from, u32 count, Pairs& pairs) {
+template <int D> NOINLINE u64 sweep_ascending(const Lanes<D>& from, u32 i, u32 last, Pairs& pairs) {
   const LaneView<D> lanes = from.view();
   u64* out = pairs.list.data() + pairs.count;
   u64* limit = pairs.list.data() + pairs.list.capacity();
   u64 tests = 0;
-  u32 i = 0, j = 1;
-  while (i < count) {
+  u32 j = i + 1;
+  while (i < last) {
     Probe<D> probe(lanes, i);
     // What starts after the probe cannot end before it starts: along the sweep axis one comparison is enough.
     auto passes = [&](u32 at) {

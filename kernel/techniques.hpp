@@ -2,6 +2,7 @@
 #pragma once
 #include "techniques/brute_force.hpp"
 #include "techniques/hierarchical_grid.hpp"
+#include "techniques/home_cell_grid.hpp"
 #include "techniques/spatial_grid.hpp"
 #include "techniques/strip_sweep.hpp"
 #include "techniques/sweep_and_prune.hpp"
@@ -10,6 +11,7 @@
 enum class Technique : u32 {
   brute_force,
   spatial_grid,
+  home_cell_grid,
   hierarchical_grid,
   sweep_and_prune,
   strip_sweep,
@@ -19,6 +21,7 @@ enum class Technique : u32 {
 template <int D> class Techniques {
   BruteForce<D> brute_force_;
   SpatialGrid<D> spatial_grid_;
+  HomeCellGrid<D> home_cell_grid_;
   HierarchicalGrid<D> hierarchical_grid_;
   SweepAndPrune<D> sweep_and_prune_;
   StripSweep<D> strip_sweep_;
@@ -29,6 +32,7 @@ template <int D> class Techniques {
     switch (name) {
       case Technique::brute_force: return what(brute_force_);
       case Technique::spatial_grid: return what(spatial_grid_);
+      case Technique::home_cell_grid: return what(home_cell_grid_);
       case Technique::hierarchical_grid: return what(hierarchical_grid_);
       case Technique::sweep_and_prune: return what(sweep_and_prune_);
       default: return what(strip_sweep_);

@@ -45,7 +45,7 @@ template <int D> class SweepAndPrune {
       for (u32 k = 0; k < n; k++) order_[k] = sort_.index(k);
     }
     lanes_.fill(PickedItems<D>{{scene, AxisOrder<D>::make(axis_)}, order_.data()}, n);
-    stats.tests = f64(sweep_ascending<D>(lanes_, n, pairs));
+    stats.tests = f64(sweep_ascending<D>(lanes_, 0, n, pairs));
     stats.cells = stats.entries = n;
   }
 
