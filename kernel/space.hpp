@@ -178,7 +178,7 @@ template <int D> class Space {
   i32 update() {
     if (exposed_) {
       i32 bad = first_bad(boxes_.data(), ids_.count());
-      if (bad >= 0) return bad;
+      if (bad >= 0) return i32(ids_.id(u32(bad)));  // since it was written, a removal may have moved it
     }
     Scene<D> scene{boxes_.data(), ids_.count(), nullptr};
     if (filters_.active()) {
@@ -281,7 +281,7 @@ template <int D> class Space {
         f64 given = exact_[u64(s) * width + k];
         f64 held = boxes_[u64(s) * width + k];
         if (k < D ? held > given : held < given) return 3;
-        exact &= held == given;
+        exact &= !(held < given || held > given);  // a NaN written in place is for the next update to find
       }
       if (exact == bool(rounded_[s])) return 4;
     }
