@@ -35,7 +35,7 @@ template <int D> struct Probe {
 /// Tests item i of [first, last) against the items i + 1 … end[i] - 1 and appends the pairs.
 /// `exact_end`: what stands behind `end` may overlap, so lanes past it are masked out.
 template <int D, bool exact_end = false>
-inline void sweep(const Lanes<D>& from, const u32* end, u32 first, u32 last, Pairs& pairs) {
+NOINLINE void sweep(const Lanes<D>& from, const u32* end, u32 first, u32 last, Pairs& pairs) {
   const LaneView<D> lanes = from.view();  // on the stack nothing aliases it
   u64* out = pairs.list.data() + pairs.count;
   u64* limit = pairs.list.data() + pairs.list.capacity();

@@ -21,6 +21,7 @@ export interface BroadPhaseOptions {
 const techniques = [
   'brute-force',
   'spatial-grid',
+  'retained-grid',
   'home-cell-grid',
   'hierarchical-grid',
   'sweep-and-prune',
