@@ -68,6 +68,14 @@ inline Item<3> with_tag(Item<3> item, u32 more) {
   return {bits<f32x4>(bits<u32x4>(item.low) | u32x4{0, 0, 0, more}), item.high};
 }
 
+/// Whether two items are the same, bit by bit.
+inline bool same(const Item<2>& a, const Item<2>& b) {
+  return a.tag == b.tag && !any(bits<i32x4>(a.box) ^ bits<i32x4>(b.box));
+}
+inline bool same(const Item<3>& a, const Item<3>& b) {
+  return !any((bits<i32x4>(a.low) ^ bits<i32x4>(b.low)) | (bits<i32x4>(a.high) ^ bits<i32x4>(b.high)));
+}
+
 /// Items read straight from the scene.
 template <int D> struct SceneItems {
   Scene<D> scene;
@@ -87,12 +95,12 @@ template <int D> struct SceneItems {
   }
 };
 
-/// Items of the scene in another order.
+/// Items of the scene in another order: slots, with marks of their own.
 template <int D> struct PickedItems {
   SceneItems<D> items;
   const u32* slots;
 
-  Item<D> operator[](size_t k) const { return items[slots[k]]; }
+  Item<D> operator[](size_t k) const { return with_tag(items[slots[k] & slot_mask], slots[k] & ~slot_mask); }
 };
 
 /// Items stored one after the other, in the order a technique has put them.

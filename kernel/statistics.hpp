@@ -195,11 +195,10 @@ template <int D, class Source> Statistics<D> glance(const Source& items, u32 cou
 /// 1, so that neither denormal nor huge extents overflow.
 struct Axis {
   static constexpr f32 magic = 8388608;  // 2^23
-  f32 low = 0, shrink = 1, scale = 0, last = magic;
+  f32 low = 0, shrink = 0, scale = 0, last = 0;
 
   COLD static Axis make(f64 low, f64 high, u32 cells) {
-    Axis axis;
-    axis.low = f32(low);
+    Axis axis{f32(low), 1, 0, magic};
     f64 extent = high - low;
     if (!(extent > 0) || cells < 2) return axis;
     i32 exponent = i32(bits<u64>(extent) >> 52) - 1023;

@@ -35,7 +35,7 @@ template <int D> struct Probe {
 /// Tests item i of [first, last) against the items i + 1 … end[i] - 1 and appends the pairs.
 /// `exact_end`: what stands behind `end` may overlap, so lanes past it are masked out.
 template <int D, bool exact_end = false>
-inline void sweep(const Lanes<D>& from, const u32* end, u32 first, u32 last, Pairs& pairs) {
+NOINLINE void sweep(const Lanes<D>& from, const u32* end, u32 first, u32 last, Pairs& pairs) {
   const LaneView<D> lanes = from.view();  // on the stack nothing aliases it
   u64* out = pairs.list.data() + pairs.count;
   u64* limit = pairs.list.data() + pairs.list.capacity();
@@ -77,7 +77,7 @@ template <int D> NOINLINE f64 sweep_runs(const Lanes<D>& from, const Run* runs, 
     Run run = *runs;
     u32 length = run.until - run.from;
     tests += length;
-    if (out + length + Pairs::slack > limit) {
+    if (u64(limit - out) < length + Pairs::slack) {
       out = pairs.room(out, length);
       limit = pairs.list.data() + pairs.list.capacity();
     }
@@ -117,7 +117,7 @@ template <int D> NOINLINE u64 sweep_ascending(const Lanes<D>& from, u32 i, u32 l
     while (more) {
       i32x4 near = passes(j), far = passes(j + 4);
       if (any(near | far)) {
-        if (out + 8 + Pairs::slack > limit) break;
+        if (u64(limit - out) < 8 + Pairs::slack) break;
         u32x4 tags = load<u32x4>(lanes.tag + j);
         near &= bits<i32x4>((tags & probe.excluded) == u32x4{});
         out = append(out, probe.slot, tags & splat(slot_mask), bitmask(near));

@@ -5,6 +5,7 @@
 #include "techniques/hierarchical_grid.hpp"
 #include "techniques/home_cell_grid.hpp"
 #include "techniques/r_tree.hpp"
+#include "techniques/retained_grid.hpp"
 #include "techniques/spatial_grid.hpp"
 #include "techniques/strip_sweep.hpp"
 #include "techniques/sweep_and_prune.hpp"
@@ -13,6 +14,7 @@
 enum class Technique : u32 {
   brute_force,
   spatial_grid,
+  retained_grid,
   home_cell_grid,
   hierarchical_grid,
   sweep_and_prune,
@@ -25,6 +27,7 @@ enum class Technique : u32 {
 template <int D> class Techniques {
   BruteForce<D> brute_force_;
   SpatialGrid<D> spatial_grid_;
+  RetainedGrid<D> retained_grid_;
   HomeCellGrid<D> home_cell_grid_;
   HierarchicalGrid<D> hierarchical_grid_;
   SweepAndPrune<D> sweep_and_prune_;
@@ -38,6 +41,7 @@ template <int D> class Techniques {
     switch (name) {
       case Technique::brute_force: return what(brute_force_);
       case Technique::spatial_grid: return what(spatial_grid_);
+      case Technique::retained_grid: return what(retained_grid_);
       case Technique::home_cell_grid: return what(home_cell_grid_);
       case Technique::hierarchical_grid: return what(hierarchical_grid_);
       case Technique::sweep_and_prune: return what(sweep_and_prune_);

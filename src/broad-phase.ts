@@ -23,6 +23,7 @@ export interface BroadPhaseOptions {
 const techniques = [
   'brute-force',
   'spatial-grid',
+  'retained-grid',
   'home-cell-grid',
   'hierarchical-grid',
   'sweep-and-prune',
