@@ -438,6 +438,7 @@ export class BroadPhase {
     if (!(error instanceof WebAssembly.RuntimeError)) throw error;
     this.#kernel.__stack_pointer.value = this.#stackTop;
     if (this.#kernel.recover() === 0) throw error;
+    this.#readStats();
     throw new RangeError(
       `${where}: out of memory: ${this.#ioView()[0]} bytes more for ${this.size} boxes and their pairs, expected no ` +
         'more than WebAssembly allows (4 GiB) or this host can give',
