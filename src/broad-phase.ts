@@ -343,7 +343,11 @@ export class BroadPhase extends Queries {
     try {
       bad = this.kernel.update();
     } catch (error) {
-      this.recover(error, 'update');
+      try {
+        this.recover(error, 'update');
+      } finally {
+        this.#readStats();
+      }
     }
     if (bad >= 0) {
       const box = new Float32Array(this.width);
