@@ -2,13 +2,13 @@
 // on with fewer boxes; a view that growing memory has cut off is never written to unnoticed.
 import { BroadPhase, init } from 'broadphase';
 import { beforeAll, describe, expect, test } from 'vitest';
-import { kernelBase64 } from '../src/generated/kernel-wasm.ts';
+import { kernelHex } from '../src/generated/kernel-wasm.ts';
 
 const mebibyte = 2 ** 20;
 
 /** The kernel, with a limit to its memory, so that running out of it takes milliseconds. */
 function kernelWith(bytes: number): Uint8Array<ArrayBuffer> {
-  const wasm = Uint8Array.from(Buffer.from(kernelBase64, 'base64'));
+  const wasm = Uint8Array.from(Buffer.from(kernelHex, 'hex'));
   const read = (at: number): [value: number, next: number] => {
     let value = 0;
     for (let shift = 0; ; shift += 7) {
