@@ -1,5 +1,6 @@
 // The techniques of one space, by name. A new one is a header in techniques/, and four lines here.
 #pragma once
+#include "techniques/aabb_tree.hpp"
 #include "techniques/brute_force.hpp"
 #include "techniques/bsp_tree.hpp"
 #include "techniques/r_tree.hpp"
@@ -7,7 +8,7 @@
 #include "techniques/strip_sweep.hpp"
 
 /// In the order of BroadPhase.techniques.
-enum class Technique : u32 { brute_force, spatial_grid, strip_sweep, bsp_tree, r_tree, automatic };
+enum class Technique : u32 { brute_force, spatial_grid, strip_sweep, bsp_tree, r_tree, aabb_tree, automatic };
 
 template <int D> class Techniques {
   BruteForce<D> brute_force_;
@@ -15,6 +16,7 @@ template <int D> class Techniques {
   StripSweep<D> strip_sweep_;
   BspTree<D> bsp_tree_;
   RTree<D> r_tree_;
+  AabbTree<D> aabb_tree_;
 
  public:
   /// Calls `what` with the technique of that name, which must not be `automatic`.
@@ -24,6 +26,7 @@ template <int D> class Techniques {
       case Technique::spatial_grid: return what(spatial_grid_);
       case Technique::bsp_tree: return what(bsp_tree_);
       case Technique::r_tree: return what(r_tree_);
+      case Technique::aabb_tree: return what(aabb_tree_);
       default: return what(strip_sweep_);
     }
   }

@@ -14,11 +14,13 @@ export interface BroadPhaseOptions {
   cellSize?: number | readonly number[];
   /** For `spatial-grid`: the world that is cut into cells, minima then maxima. Boxes outside are found all the same. */
   bounds?: readonly number[];
+  /** For `aabb-tree`: how far a box may move before the tree changes, above 0. Left out: from the motion seen. */
+  margin?: number;
   /** A hint: how many boxes there will be, 0 … 2^24. Saves growing while they are added. */
   capacity?: number;
 }
 
-const techniques = ['brute-force', 'spatial-grid', 'strip-sweep', 'bsp-tree', 'r-tree', 'auto'] as const;
+const techniques = ['brute-force', 'spatial-grid', 'strip-sweep', 'bsp-tree', 'r-tree', 'aabb-tree', 'auto'] as const;
 
 /** The name of a technique. */
 export type TechniqueName = (typeof techniques)[number];
@@ -100,12 +102,13 @@ export class BroadPhase {
     if (typeof options !== 'object' || options === null) {
       badValue('new BroadPhase', options, 'an object of options', true);
     }
-    const { dimensions = 2, technique = 'auto', cellSize, bounds, capacity = 0 } = options;
+    const { dimensions = 2, technique = 'auto', cellSize, bounds, margin, capacity = 0 } = options;
     if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
     checkTechnique(technique);
     checkBoxCount('capacity', capacity);
     const cells = cellSize === undefined ? undefined : checkCellSize(cellSize, dimensions);
     if (bounds !== undefined) checkBounds(bounds, dimensions);
+    if (margin !== undefined) checkMargin(margin);
 
     this.dimensions = dimensions;
     this.#width = 2 * dimensions;
@@ -119,6 +122,7 @@ export class BroadPhase {
       io.set(cells);
       this.#kernel.set_cell_size();
     }
+    if (margin !== undefined) this.#kernel.set_margin(margin);
     if (bounds) {
       io.set(bounds);
       this.#kernel.set_bounds();
@@ -482,6 +486,12 @@ function checkCellSize(cellSize: number | readonly number[], dimensions: 2 | 3):
     if (!(size > 0 && size < Number.POSITIVE_INFINITY)) badValue('cellSize', cellSize, expected);
   }
   return sizes as number[];
+}
+
+function checkMargin(margin: unknown): void {
+  const expected = 'a number above 0';
+  if (typeof margin !== 'number') badValue('margin', margin, expected, true);
+  if (!(margin > 0 && margin < Number.POSITIVE_INFINITY)) badValue('margin', margin, expected);
 }
 
 function checkBounds(bounds: readonly number[], dimensions: 2 | 3): void {
