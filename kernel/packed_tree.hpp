@@ -80,11 +80,16 @@ template <int D> class HilbertCurve {
 
 namespace detail {
 
+// Where one of the two is nothing (NaN) the result is the other.
 struct Least {
-  f32x4 operator()(f32x4 x, f32x4 y) const { return min(y, x); }  // x where y is nothing (NaN)
+  f32x4 operator()(f32x4 x, f32x4 y) const { return choose(x, min(y, x), y); }
+  static f32x4 choose(f32x4 x, f32x4 both, f32x4 y) {
+    i32x4 some = x == x;
+    return bits<f32x4>((bits<i32x4>(both) & some) | (bits<i32x4>(y) & ~some));
+  }
 };
 struct Most {
-  f32x4 operator()(f32x4 x, f32x4 y) const { return max(y, x); }
+  f32x4 operator()(f32x4 x, f32x4 y) const { return Least::choose(x, max(y, x), y); }
 };
 struct Common {
   f32x4 operator()(f32x4 x, f32x4 y) const { return bits<f32x4>(bits<u32x4>(x) & bits<u32x4>(y)); }
@@ -118,8 +123,9 @@ template <int D> class PackedTree {
   u32 levels_ = 0;
 
  public:
-  /// Orders the boxes of a scene that is not empty, and builds all levels over them.
-  void build(const Scene<D>& scene) {
+  /// Orders the boxes of a scene that is not empty, and builds all levels over them. Behind the last box stay
+  /// `spare` places for others.
+  SHARED void build(const Scene<D>& scene, u32 spare) {
     u32 n = scene.count;
     SceneItems<D> items{scene, AxisOrder<D>::make(0)};
     HilbertCurve<D> curve(measure<D>(items, n));
@@ -134,7 +140,7 @@ template <int D> class PackedTree {
     sort_.sort(n);
     u32 total = 0;
     levels_ = 0;
-    for (u32 size = n;; size = (size + 3) / 4) {
+    for (u32 size = n + spare;; size = (size + 3) / 4) {
       first_[levels_] = total;
       sizes_[levels_++] = size;
       total += padded(size);
@@ -146,15 +152,38 @@ template <int D> class PackedTree {
     ItemsAt<D> ordered(ordered_, 0);
     for (u32 k = 0; k < n; k++) ordered.put(k, items[sort_.index(k)]);
     lanes_.fill(ordered, n);
+    for (u32 k = n + 1; k <= padded(n + spare); k++) clear(k - 1);
     refit();
   }
 
   /// The slot of the k-th item, as of the last `build`.
   u32 slot(u32 k) const { return sort_.index(k); }
-  const Lanes<D>& lanes() const { return lanes_; }
+  COLD u32 nodes() const {
+    u32 sum = 0;
+    for (u32 l = 1; l < levels_; l++) sum += sizes_[l];
+    return sum;
+  }
+
+  /// Puts an item in a place, or nothing. Then refit.
+  SHARED void put(u32 place, const f32* box, u32 tag) {
+    for (int a = 0; a < D; a++) {
+      lanes_.lo(a)[place] = box[a];
+      lanes_.hi(a)[place] = box[D + a];
+    }
+    lanes_.tag()[place] = tag;
+  }
+  COLD void clear(u32 place) {
+    f32 nothing[2 * D];
+    for (f32& x : nothing) x = __builtin_nanf("");
+    put(place, nothing, 0xffffffff);
+  }
+  /// Gives all items an exclusion bit.
+  void mark(u32 bit) {
+    for (u32 k = 0; k < sizes_[0]; k++) lanes_.tag()[k] |= bit;
+  }
 
   /// Bounds and tags of all nodes, from the items up.
-  void refit() {
+  SHARED void refit() {
     for (u32 l = 1; l < levels_; l++) {
       u32 from = first_[l - 1], to = first_[l], size = padded(sizes_[l - 1]), room = padded(sizes_[l]);
       for (int a = 0; a < D; a++) {
@@ -167,10 +196,8 @@ template <int D> class PackedTree {
   }
 
   /// Every two items that overlap and share no exclusion bit.
-  void join(Pairs& pairs, Stats& stats) {
+  SHARED void join(Pairs& pairs, Stats& stats) {
     for (u32 l = levels_; l-- > 0;) siblings(l, pairs, stats);
-    for (u32 l = 1; l < levels_; l++) stats.cells += sizes_[l];
-    stats.entries = sizes_[0];
   }
 
   /// The nodes.

@@ -1,5 +1,6 @@
 // The techniques of one space, by name. A new one is a header in techniques/, and four lines here.
 #pragma once
+#include "techniques/aabb_tree.hpp"
 #include "techniques/brute_force.hpp"
 #include "techniques/bsp_tree.hpp"
 #include "techniques/hierarchical_grid.hpp"
@@ -21,6 +22,7 @@ enum class Technique : u32 {
   strip_sweep,
   bsp_tree,
   r_tree,
+  aabb_tree,
   automatic,
 };
 
@@ -34,6 +36,7 @@ template <int D> class Techniques {
   StripSweep<D> strip_sweep_;
   BspTree<D> bsp_tree_;
   RTree<D> r_tree_;
+  AabbTree<D> aabb_tree_;
 
  public:
   /// Calls `what` with the technique of that name, which must not be `automatic`.
@@ -47,6 +50,7 @@ template <int D> class Techniques {
       case Technique::sweep_and_prune: return what(sweep_and_prune_);
       case Technique::bsp_tree: return what(bsp_tree_);
       case Technique::r_tree: return what(r_tree_);
+      case Technique::aabb_tree: return what(aabb_tree_);
       default: return what(strip_sweep_);
     }
   }

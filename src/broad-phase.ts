@@ -16,6 +16,8 @@ export interface BroadPhaseOptions {
   bounds?: readonly number[];
   /** Whether every update finds out which pairs began and ended, for {@link BroadPhase.began}. Default false. */
   events?: boolean;
+  /** For `aabb-tree`: how far a box may move before the tree changes, above 0. Left out: from the motion seen. */
+  margin?: number;
   /** A hint: how many boxes there will be, 0 … 2^24. Saves growing while they are added. */
   capacity?: number;
 }
@@ -30,6 +32,7 @@ const techniques = [
   'strip-sweep',
   'bsp-tree',
   'r-tree',
+  'aabb-tree',
   'auto',
 ] as const;
 
@@ -106,13 +109,14 @@ export class BroadPhase extends Queries {
     if (typeof options !== 'object' || options === null) {
       badValue('new BroadPhase', options, 'an object of options', true);
     }
-    const { dimensions = 2, technique = 'auto', cellSize, bounds, events = false, capacity = 0 } = options;
+    const { dimensions = 2, technique = 'auto', cellSize, bounds, margin, events = false, capacity = 0 } = options;
     if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
     checkTechnique(technique);
     if (typeof events !== 'boolean') badValue('events', events, 'true or false', true);
     checkBoxCount('capacity', capacity);
     const cells = cellSize === undefined ? undefined : checkCellSize(cellSize, dimensions);
     if (bounds !== undefined) checkBounds(bounds, dimensions);
+    if (margin !== undefined) checkMargin(margin);
 
     super(dimensions);
     this.#technique = technique;
@@ -124,6 +128,7 @@ export class BroadPhase extends Queries {
       io.set(cells);
       this.kernel.set_cell_size();
     }
+    if (margin !== undefined) this.kernel.set_margin(margin);
     if (bounds) {
       io.set(bounds);
       this.kernel.set_bounds();
@@ -525,6 +530,12 @@ function checkCellSize(cellSize: number | readonly number[], dimensions: 2 | 3):
     if (!(size > 0 && size < Number.POSITIVE_INFINITY)) badValue('cellSize', cellSize, expected);
   }
   return sizes as number[];
+}
+
+function checkMargin(margin: unknown): void {
+  const expected = 'a number above 0';
+  if (typeof margin !== 'number') badValue('margin', margin, expected, true);
+  if (!(margin > 0 && margin < Number.POSITIVE_INFINITY)) badValue('margin', margin, expected);
 }
 
 function checkBounds(bounds: readonly number[], dimensions: 2 | 3): void {

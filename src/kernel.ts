@@ -10,6 +10,7 @@ export interface KernelExports {
   io_address(): number;
   open_space(dimensions: number): void;
   set_cell_size(): void;
+  set_margin(margin: number): void;
   set_bounds(): void;
   reserve(count: number): void;
   set(id: number): void;

@@ -18,8 +18,10 @@ template <int D> class RTree {
  public:
   void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     if (scene.count == 0) return tree_.release();
-    tree_.build(scene);
+    tree_.build(scene, 0);
     tree_.join(pairs, stats);
+    stats.cells = tree_.nodes();
+    stats.entries = scene.count;
   }
 
   COLD void structure(Buffer<f32>& boxes, u32& count, const Stats&) const { tree_.structure(boxes, count); }
