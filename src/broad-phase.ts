@@ -196,7 +196,7 @@ export class BroadPhase {
     if (!single) checkNumbers(boxes, count, this.dimensions);
     try {
       const kernel = this.#kernel;
-      const at = single ? kernel.stage(count) : kernel.stage_exact(count);
+      const at = (single ? kernel.stage(count) : kernel.stage_exact(count)) >>> 0;
       const view = this.#stagedView(at, count * width, single);
       if (length === view.length) view.set(boxes);
       else
@@ -224,7 +224,7 @@ export class BroadPhase {
   boxes(count: number): Float32Array {
     checkBoxCount('boxes: count', count);
     try {
-      const at = this.#kernel.expose(count);
+      const at = this.#kernel.expose(count) >>> 0;
       const { buffer } = this.#kernel.memory;
       const length = count * this.#width;
       let view = this.#view;
@@ -316,7 +316,7 @@ export class BroadPhase {
    * depends only on the calls made. A view of the kernel's memory: valid until the next `update()`.
    */
   get pairs(): Uint32Array {
-    const at = this.#kernel.pairs_address();
+    const at = this.#kernel.pairs_address() >>> 0;
     const count = this.#kernel.pair_count();
     const { buffer } = this.#kernel.memory;
     const views = this.#pairViews;
@@ -354,7 +354,7 @@ export class BroadPhase {
    */
   structure(): Float32Array {
     try {
-      const at = this.#kernel.structure();
+      const at = this.#kernel.structure() >>> 0;
       return new Float32Array(this.#kernel.memory.buffer, at, this.#kernel.structure_count() * this.#width);
     } catch (error) {
       this.#recover(error, 'structure');
