@@ -41,7 +41,7 @@ NOINLINE void sweep(const Lanes<D>& from, const u32* end, u32 first, u32 last, P
   u64* limit = pairs.list.data() + pairs.list.capacity();
   for (u32 i = first; i < last; i++) {
     u32 until = end[i];
-    if (u64(limit - out) < (until - i) + Pairs::slack) {
+    if (Pairs::between(out, limit) < (until - i) + Pairs::slack) {
       out = pairs.room(out, until - i);
       limit = pairs.list.data() + pairs.list.capacity();
     }
@@ -53,7 +53,7 @@ NOINLINE void sweep(const Lanes<D>& from, const u32* end, u32 first, u32 last, P
       out = append(out, probe.slot, tags & splat(slot_mask), bitmask(hits));
     }
   }
-  pairs.count = u64(out - pairs.list.data());
+  pairs.count = Pairs::between(pairs.list.data(), out);
 }
 
 /// Items that stand together, to be tested against one that stands elsewhere or before them.

@@ -201,7 +201,7 @@ export class BroadPhase extends Queries {
     if (!single) checkNumbers(boxes, count, this.dimensions);
     try {
       const kernel = this.kernel;
-      const at = single ? kernel.stage(count) : kernel.stage_exact(count);
+      const at = (single ? kernel.stage(count) : kernel.stage_exact(count)) >>> 0;
       const view = this.#stagedView(at, count * width, single);
       if (length === view.length) view.set(boxes);
       else
@@ -229,7 +229,7 @@ export class BroadPhase extends Queries {
   boxes(count: number): Float32Array {
     checkBoxCount('boxes: count', count);
     try {
-      const at = this.kernel.expose(count);
+      const at = this.kernel.expose(count) >>> 0;
       const { buffer } = this.kernel.memory;
       const length = count * this.width;
       let view = this.#view;

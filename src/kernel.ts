@@ -3,7 +3,7 @@
 // everywhere without waiting; `init` is for hosts that forbid that or want to load the bytes themselves.
 import { kernelHex } from './generated/kernel-wasm.ts';
 
-/** The exported functions of kernel/abi.cpp. */
+/** The exported functions of kernel/abi.cpp. Addresses come as signed numbers: `>>> 0` those that can be beyond 2 GiB. */
 export interface KernelExports {
   memory: WebAssembly.Memory;
   __stack_pointer: WebAssembly.Global;

@@ -43,7 +43,8 @@ export abstract class Space {
   }
 
   /** A view of pairs in the kernel's memory, from among those made before if possible. @internal */
-  protected pairView(views: Uint32Array[], at: number, count: number): Uint32Array {
+  protected pairView(views: Uint32Array[], address: number, count: number): Uint32Array {
+    const at = address >>> 0; // a WebAssembly address is signed to JavaScript
     const { buffer } = this.kernel.memory;
     let view = views[count % viewsKept];
     if (view?.buffer !== buffer || view.byteOffset !== at || view.length !== 2 * count) {

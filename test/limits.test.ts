@@ -100,6 +100,26 @@ describe('with 64 MiB of memory', () => {
   });
 });
 
+// Takes 4 GiB and half a minute, so only where it is asked for: LARGE_MEMORY=1.
+describe.runIf(process.env.LARGE_MEMORY)('with all memory that WebAssembly allows', () => {
+  beforeAll(() => init(Buffer.from(kernelBase64, 'base64')));
+
+  test('pairs and boxes are found beyond the first 2 GiB', { timeout: 300_000 }, () => {
+    const count = 25_000;
+    const space = new BroadPhase({ technique: 'brute-force' }).setAll(identical(count, 2)).update();
+    expect(space.pairCount).toBe((count * (count - 1)) / 2);
+    expect(space.stats.pairs).toBe(space.pairCount);
+    const { pairs } = space;
+    expect(pairs.byteLength).toBeGreaterThan(2 ** 31);
+    expect(Array.from(pairs.subarray(-2))).toEqual([count - 2, count - 1]);
+    space.validate();
+    space.boxes(100_000).set(identical(100_000, 2)); // stands behind the pairs
+    expect(() => space.update()).toThrow(/^update: out of memory: \d+ bytes more for 100000 boxes/);
+    space.boxes(1000).set(identical(1000, 2));
+    expect(space.update().validate().pairCount).toBe((1000 * 999) / 2);
+  });
+});
+
 describe('views of memory', () => {
   beforeAll(() => init(kernelWith(1024 * mebibyte)));
 
