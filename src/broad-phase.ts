@@ -409,11 +409,13 @@ export class BroadPhase {
   #stagedView(at: number, length: number, single: boolean): Float32Array | Float64Array {
     const { buffer } = this.#kernel.memory;
     const views = this.#stagedViews;
+    const kind = single ? Float32Array : Float64Array;
     for (let k = 0; k < views.length; k++) {
       const view = views[k]!;
-      if (view.buffer === buffer && view.byteOffset === at && view.length === length) return view;
+      if (view.buffer === buffer && view.byteOffset === at && view.length === length && view instanceof kind)
+        return view;
     }
-    const view = new (single ? Float32Array : Float64Array)(buffer, at, length);
+    const view = new kind(buffer, at, length);
     if (views.push(view) > 2) views.shift();
     return view;
   }
