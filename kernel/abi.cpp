@@ -49,6 +49,10 @@ EXPORT(clear)() -> void {
   with_space([](auto& space) { space.clear(); });
 }
 
+EXPORT(contents)() -> void {
+  with_space([](auto& space) { space.contents(io); });
+}
+
 EXPORT(stage)(u32 count) -> f32* {
   return with_space([&](auto& space) { return space.stage(count); });
 }

@@ -3,6 +3,7 @@
 // gives views of what comes out. Nothing here runs once per box or per pair of an update.
 import { badBox, badCount, badId, badValue, maxId } from './errors.ts';
 import { instantiate, type KernelExports } from './kernel.ts';
+import { type Watcher, watch } from './watch.ts';
 
 /** Options of {@link BroadPhase}, all optional. */
 export interface BroadPhaseOptions {
@@ -91,6 +92,7 @@ export class BroadPhase {
   #technique: TechniqueName;
   /** What `boxes()` gave last, while it is in use. */
   #view: Float32Array | undefined;
+  #watcher: Watcher | undefined;
 
   /**
    * @throws RangeError or TypeError that names the option
@@ -308,6 +310,7 @@ export class BroadPhase {
       badBox('update', bad, box, this.dimensions);
     }
     this.#readStats();
+    if (this.#watcher !== undefined) this.#show(this.#watcher);
     return this;
   }
 
@@ -380,6 +383,15 @@ export class BroadPhase {
     this.#view = undefined;
   }
 
+  /**
+   * For broadphase/trace: calls `watcher` after each update from now on; without one, no longer.
+   * @internal
+   */
+  [watch](watcher?: Watcher): void {
+    if (watcher && this.#watcher) throw new Error('this BroadPhase is being recorded already');
+    this.#watcher = watcher;
+  }
+
   static {
     splitColours = (space, red) => {
       try {
@@ -388,6 +400,17 @@ export class BroadPhase {
         space.#recover(error, 'findPairsBetween');
       }
     };
+  }
+
+  #show(watcher: Watcher): void {
+    this.#kernel.contents();
+    const [ids, boxes, doubles] = this.#ioView();
+    const { buffer } = this.#kernel.memory;
+    const length = this.size * this.#width;
+    watcher(
+      doubles ? new Float64Array(buffer, doubles, length) : new Float32Array(buffer, boxes, length),
+      ids ? new Uint32Array(buffer, ids, this.size) : undefined,
+    );
   }
 
   #readStats(): void {

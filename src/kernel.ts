@@ -18,6 +18,7 @@ export interface KernelExports {
   get(id: number): number;
   size(): number;
   clear(): void;
+  contents(): void;
   stage(count: number): number;
   stage_exact(count: number): number;
   replace(count: number, doubles: number): number;
