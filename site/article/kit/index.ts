@@ -11,15 +11,17 @@
 // runWhileAttended  start and stop by hover, focus, tap (hover does not start under reduced motion)
 // makeDraggable     drag by mouse, finger and arrow keys
 // button, choice, slider, counters, sayer, row   the controls; each is appended to the root it is given
-// listing, excerpt  real source (import it with `?raw`), with one line lit
+// listing, excerpt, passage   real source (import it with `?raw`), with one line lit
 // createStepper     Back, Step, Play and a slider over a recorded run
+// fitWorld, gridOn, boxOn, lookOf, text   world units to a view's pixels, and the grids and boxes drawn there
 // columns           two places side by side on a wide screen, one above the other on a phone
 export { type Attended, prefersStill, runWhileAttended } from './attend.ts';
 export { button, type Counters, choice, counters, row, type Slider, sayer, slider } from './controls.ts';
 export { element, uniqueId } from './dom.ts';
 export { makeDraggable } from './drag.ts';
+export { boxOn, type Fit, fitWorld, gridOn, lookOf, text } from './drawing.ts';
 export { columns } from './layout.ts';
-export { excerpt, type Listing, listing } from './listing.ts';
+export { excerpt, type Listing, listing, passage } from './listing.ts';
 export { createStepper, type Stepper } from './stepper.ts';
 export { type Colors, onThemeChange, themeColors } from './theme.ts';
 export { createView, type View, worldCanvas } from './view.ts';

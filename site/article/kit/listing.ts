@@ -20,11 +20,21 @@ export function excerpt(source: string, start: string): string {
     for (const character of lines[last]) depth += character === '{' ? 1 : character === '}' ? -1 : 0;
     if (depth <= 0 && lines[last].includes('}')) break;
   }
-  const indent = lines[first].search(/\S/);
-  return lines
-    .slice(first, last + 1)
-    .map((line) => line.slice(Math.min(indent, Math.max(0, line.search(/\S/)))))
-    .join('\n');
+  return dedent(lines.slice(first, last + 1));
+}
+
+/** The lines of a source from the first that contains `first` to the next that contains `last`. */
+export function passage(source: string, first: string, last: string): string {
+  const lines = source.split('\n');
+  const from = lines.findIndex((line) => line.includes(first));
+  const to = lines.findIndex((line, i) => i >= from && line.includes(last));
+  if (from < 0 || to < 0) throw new Error(`the source has no lines from ${first} to ${last}`);
+  return dedent(lines.slice(from, to + 1));
+}
+
+function dedent(lines: string[]): string {
+  const indent = lines[0].search(/\S/);
+  return lines.map((line) => line.slice(Math.min(indent, Math.max(0, line.search(/\S/))))).join('\n');
 }
 
 const tokens =

@@ -5,6 +5,8 @@ import { button, row, type Slider, slider } from './controls.ts';
 export interface Stepper<S> {
   /** Shows another run, from its first step. */
   load(steps: readonly S[]): void;
+  /** Plays on from where it is. */
+  play(): void;
   /** Stops playing. */
   stop(): void;
 }
@@ -90,6 +92,7 @@ export function createStepper<S>(root: HTMLElement, options: StepperOptions<S>):
       makeTrack();
       go(0);
     },
+    play: () => play(true),
     stop: () => play(false),
   };
 }
