@@ -1,8 +1,8 @@
-// A grid in which every entity is at home in one cell, the one under its centre; its neighbours are looked up in a query.
+// A grid in which every entity is at home in one cell, that of its upper left corner; neighbours are looked up in a query.
 //
-// Building it is one entry per entity, however large. The query pays: a partner may be at home outside the cells that a
-// box covers, as far away as half the largest box is wide. So every search is that much wider than the box, and a
-// single giant makes all of them wide.
+// Building it is one entry per entity, however large. The query pays: a partner that reaches in from the left or from
+// above may be at home as far away as the largest box is wide or high. So every search goes that much beyond the box,
+// and a single giant makes all of them wide.
 import { coltech, type Entity } from 'broadphase/ro';
 
 export class HomeCellGrid extends coltech.EntityList {
@@ -10,8 +10,8 @@ export class HomeCellGrid extends coltech.EntityList {
   lookUps = 0;
   readonly cellSize: number;
   readonly #cells = new Map<string, Entity[]>();
-  /** Half the width of the widest box and half the height of the tallest. */
-  #reach: [x: number, y: number] = [0, 0];
+  /** The width of the widest box and the height of the tallest. */
+  #largest: [width: number, height: number] = [0, 0];
 
   constructor(cellSize: number) {
     super();
@@ -21,17 +21,17 @@ export class HomeCellGrid extends coltech.EntityList {
   override update(): void {
     super.update();
     this.#cells.clear();
-    this.#reach = [0, 0];
+    this.#largest = [0, 0];
 
     for (const entity of this.entities) {
       const { min, max } = entity.getAABB();
-      const name = this.#nameOf(this.#cellAt((min[0] + max[0]) / 2), this.#cellAt((min[1] + max[1]) / 2));
+      const name = this.#nameOf(this.#cellAt(min[0]), this.#cellAt(min[1]));
       const cell = this.#cells.get(name);
       if (cell) cell.push(entity);
       else this.#cells.set(name, [entity]);
 
-      this.#reach[0] = Math.max(this.#reach[0], (max[0] - min[0]) / 2);
-      this.#reach[1] = Math.max(this.#reach[1], (max[1] - min[1]) / 2);
+      this.#largest[0] = Math.max(this.#largest[0], max[0] - min[0]);
+      this.#largest[1] = Math.max(this.#largest[1], max[1] - min[1]);
     }
 
     this.allocatedCells = this.#cells.size;
@@ -40,8 +40,8 @@ export class HomeCellGrid extends coltech.EntityList {
   /** The cells in which a partner of this entity may be at home: first and last column, first and last row. */
   searchArea(entity: Entity): [left: number, top: number, right: number, bottom: number] {
     const { min, max } = entity.getAABB();
-    const [x, y] = this.#reach;
-    return [this.#cellAt(min[0] - x), this.#cellAt(min[1] - y), this.#cellAt(max[0] + x), this.#cellAt(max[1] + y)];
+    const [width, height] = this.#largest;
+    return [this.#cellAt(min[0] - width), this.#cellAt(min[1] - height), this.#cellAt(max[0]), this.#cellAt(max[1])];
   }
 
   /** The entities at home in a cell. */

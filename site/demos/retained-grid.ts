@@ -22,8 +22,8 @@ interface Cell {
 export class RetainedGrid extends coltech.EntityList {
   /** Entities that the last update took out of a cell or put into one. */
   moved = 0;
-  /** How often it did so: entries of entities in cells, added or taken away. */
-  entriesChanged = 0;
+  /** The cells it did that to, once for each entity put in or taken out. */
+  changes: Cell[] = [];
   /** The entries there are: what a grid that is built anew writes in every update. */
   entries = 0;
   readonly cellSize: number;
@@ -35,11 +35,6 @@ export class RetainedGrid extends coltech.EntityList {
     this.cellSize = cellSize;
   }
 
-  /** The cells that hold something. */
-  get cells(): Iterable<Readonly<Cell>> {
-    return this.#cells.values();
-  }
-
   override removeEntity(entity: Entity): void {
     super.removeEntity(entity);
     const stretch = this.#stretches.get(entity);
@@ -49,7 +44,8 @@ export class RetainedGrid extends coltech.EntityList {
 
   override update(): void {
     super.update();
-    this.moved = this.entriesChanged = 0;
+    this.moved = 0;
+    this.changes = [];
 
     for (const entity of this.entities) {
       const before = this.#stretches.get(entity);
@@ -121,16 +117,16 @@ export class RetainedGrid extends coltech.EntityList {
     }
     cell.entities.push(entity);
     this.entries++;
-    this.entriesChanged++;
+    this.changes.push(cell);
   }
 
   #leave(entity: Entity, column: number, row: number): void {
     const name = `${column}:${row}`;
-    const { entities } = this.#cells.get(name)!;
-    entities.splice(entities.indexOf(entity), 1);
-    if (entities.length === 0) this.#cells.delete(name);
+    const cell = this.#cells.get(name)!;
+    cell.entities.splice(cell.entities.indexOf(entity), 1);
+    if (cell.entities.length === 0) this.#cells.delete(name);
     this.entries--;
-    this.entriesChanged++;
+    this.changes.push(cell);
   }
 }
 

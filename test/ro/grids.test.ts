@@ -49,32 +49,30 @@ describe('RetainedGrid', () => {
     const grid = new RetainedGrid(20);
     const world = squares(grid, 3, (i) => [i * 40 + 5, 5]);
     world.step();
-    expect([grid.moved, grid.entriesChanged, grid.entries]).toEqual([3, 3, 3]);
+    expect([grid.moved, grid.changes.length, grid.entries]).toEqual([3, 3, 3]);
 
     world.entities[0].ppos.x -= 1; // moves on by 1 a step: within its cell at first
     world.step();
     world.step();
-    expect([grid.moved, grid.entriesChanged]).toEqual([0, 0]);
+    expect([grid.moved, grid.changes.length]).toEqual([0, 0]);
 
     for (let i = 0; i < 4; i++) world.step();
-    expect([grid.moved, grid.entriesChanged, grid.entries]).toEqual([1, 1, 4]); // its right edge reached 20
+    expect([grid.moved, grid.changes.length, grid.entries]).toEqual([1, 1, 4]); // its right edge reached 20
   });
 });
 
 describe('HomeCellGrid', () => {
-  // An example against the article's sentence that the cells an entity overlaps are all that has to be searched.
-  test('searches as far as half the largest box, beyond the cells a box overlaps', () => {
+  test('searches as far as the largest box, beyond the cells that a box overlaps', () => {
     const grid = new HomeCellGrid(10);
     const world = new ro.World(null, { coltech: grid });
-    const wide = new ro.Entity(0, 14, 39, 2);
-    const tall = new ro.Entity(34, 0, 2, 39);
+    const wide = new ro.Entity(2, 14, 39, 2);
+    const tall = new ro.Entity(34, 2, 2, 39);
     world.addEntity(wide);
     world.addEntity(tall);
     grid.update();
     expect(grid.queryForCollisionPairs()).toEqual([[wide, tall]]);
-    expect(grid.at(1, 1)).toEqual([wide]);
-    expect(grid.searchArea(tall)[0]).toBeLessThanOrEqual(1);
-    expect(Math.floor(tall.pos.x / 10)).toBe(3); // its own cells begin right of the wide one's home
+    expect(grid.at(0, 1)).toEqual([wide]); // and the tall one begins in column 3
+    expect(grid.searchArea(tall)).toEqual([-1, -4, 3, 4]);
   });
 });
 
