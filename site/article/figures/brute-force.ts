@@ -33,18 +33,21 @@ const lights: Readonly<Record<BruteForceOperation['kind'], string>> = {
 };
 
 /** The four questions of the test, as far as it gets: a “no” ends it. */
-function questions(a: Box, b: Box): string {
-  const asked: [string, number, number, boolean][] = [
-    ['a begins before b ends along x', a[0], b[0] + b[2], a[0] <= b[0] + b[2]],
-    ['a ends after b begins along x', a[0] + a[2], b[0], a[0] + a[2] >= b[0]],
-    ['a begins before b ends along y', a[1], b[1] + b[3], a[1] <= b[1] + b[3]],
-    ['a ends after b begins along y', a[1] + a[3], b[1], a[1] + a[3] >= b[1]],
+function questions(i: number, j: number): string {
+  const a = boxes[i];
+  const b = boxes[j];
+  const begins = `Does ${i} begin before ${j} ends`;
+  const ends = `Does ${i} end after ${j} begins`;
+  const asked: [question: string, left: number, sign: string, right: number, yes: boolean][] = [
+    [`${begins}, along x`, a[0], '≤', b[0] + b[2], a[0] <= b[0] + b[2]],
+    [`${ends}, along x`, a[0] + a[2], '≥', b[0], a[0] + a[2] >= b[0]],
+    [`${begins}, along y`, a[1], '≤', b[1] + b[3], a[1] <= b[1] + b[3]],
+    [`${ends}, along y`, a[1] + a[3], '≥', b[1], a[1] + a[3] >= b[1]],
   ];
-  const no = asked.findIndex(([, , , yes]) => !yes);
-  if (no < 0) return 'Four times yes: they overlap, and the pair is kept.';
-  const [what, left, right] = asked[no];
-  const order = no % 2 === 0 ? '≤' : '≥';
-  return `Is it true that ${what}? ${left} ${order} ${right}: no. Apart; no further question.`;
+  const no = asked.find(([, , , , yes]) => !yes);
+  if (!no) return `Four times yes: ${i} and ${j} overlap, and the pair is kept.`;
+  const [question, left, sign, right] = no;
+  return `${question}? ${left} ${sign} ${right}: no. They are apart, and no more is asked.`;
 }
 
 function explain(operation: BruteForceOperation): string {
@@ -57,7 +60,7 @@ function explain(operation: BruteForceOperation): string {
     return j < boxes.length ? `j is ${j}: the next pair is ${i} and ${j}.` : `j is ${j}: nobody is left behind ${i}.`;
   }
   if (kind === 'count') return `One more comparison: boxes ${i} and ${j}.`;
-  return questions(boxes[i], boxes[j]);
+  return questions(i, j);
 }
 
 export function mount(root: HTMLElement): () => void {
@@ -89,11 +92,11 @@ export function mount(root: HTMLElement): () => void {
 
   const triangle = createView(right, {
     label: 'Which pairs have been compared.',
-    height: () => 178,
+    height: () => 194,
     draw(ctx, width, height, colors) {
       const side = 24;
       const x = Math.round((width - boxes.length * side) / 2);
-      const y = height - boxes.length * side - 8;
+      const y = height - boxes.length * side - 6;
       const now = operations[at];
       const done = new Map<string, boolean>();
       for (const each of operations.slice(0, at + 1))
@@ -118,13 +121,13 @@ export function mount(root: HTMLElement): () => void {
         ctx.strokeRect(x + now.j * side + 1.5, y + now.i * side + 1.5, side - 3, side - 3);
       }
       text(ctx, 'i', x - 30, y + boxes.length * side * 0.5, colors.muted);
-      text(ctx, 'j', x + boxes.length * side * 0.5, y - 27, colors.muted);
+      text(ctx, 'j', x + boxes.length * side * 0.5, y - 30, colors.muted);
     },
   });
   triangle.canvas.classList.add('bare');
 
   const say = sayer(right, true);
-  const count = counters(right, { tests: 'Comparisons', pairs: 'Pairs found', i: 'i', j: 'j' });
+  const count = counters(right, { tests: 'Comparisons', pairs: 'Pairs found' });
 
   const stepper = createStepper(root, {
     steps: operations,
@@ -135,8 +138,6 @@ export function mount(root: HTMLElement): () => void {
       say(words);
       count('tests', operation.tests);
       count('pairs', operation.pairs);
-      count('i', operation.i);
-      count('j', operation.kind === 'outer' ? '–' : operation.j);
       scene.describe(`Six boxes, numbered 0 to 5. ${words}`);
       triangle.describe(`${operation.tests} of 15 pairs have been compared, ${operation.pairs} of them overlap.`);
       scene.redraw();

@@ -78,17 +78,17 @@ export function mount(root: HTMLElement): () => void {
       });
     },
   });
+  const say = sayer(left, true);
+  const count = counters(left, { lookups: 'Look-ups', tests: 'Comparisons', saved: 'Saved' });
+
   const source = listing(
-    left,
+    right,
     'ro/coltech/spatial-grid.ts',
     passage(gridSource, 'const hashA', 'if (this.aabb2DIntersection'),
   );
 
   const table = element('ul', { class: 'keys', 'aria-label': 'The table of tested pairs' });
   right.append(table);
-  const say = sayer(right, true);
-  const count = counters(right, { lookups: 'Look-ups', tests: 'Comparisons', saved: 'Saved by the table' });
-
   /** The pairs in the table after the look-up at hand. */
   const compared = () =>
     new Set(
