@@ -3,8 +3,8 @@
 import { ro } from 'broadphase/ro';
 import { type Box, bestCellSize, countWork, place } from '../demos/cells.ts';
 import source from '../demos/cells.ts?raw';
-import { button, columns, counters, createView, element, excerpt, listing, row, sayer, slider } from './kit/index.ts';
-import './cells-figure.css';
+import { demoColumns } from './demo.ts';
+import { button, counters, createView, element, excerpt, listing, row, sayer, slider } from './kit/index.ts';
 
 /** The world of these figures. */
 export const world = { width: 480, height: 300 };
@@ -30,7 +30,7 @@ export function cellsFigure(root: HTMLElement, { boxes, cellSize, what }: CellsF
   const grid = place(new ro.coltech.SpatialGrid(0, 0, world.width, world.height, cellSizes[first]), boxes);
   const bruteForce = place(new ro.coltech.BruteForce(), boxes);
   bruteForce.queryForCollisionPairs();
-  const [left, right] = columns(root);
+  const [left, right] = demoColumns(root);
   let counted = countWork(grid);
 
   const view = createView(left, {

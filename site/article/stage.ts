@@ -12,7 +12,6 @@ import {
   themeColors,
   worldCanvas,
 } from './kit/index.ts';
-import './stage.css';
 
 /** How often the numbers are read while it runs, in milliseconds. */
 const refresh = 100;

@@ -1,5 +1,6 @@
 // A crowd: boxes that drift, and turn round at the edge of the world. Those that collide are darker.
 import type { ro as Ro } from 'broadphase/ro';
+import { createRandom } from '../../src/scenes/random.ts';
 
 export interface Crowd {
   count: number;
@@ -7,14 +8,16 @@ export interface Crowd {
   sides: [smallest: number, largest: number];
   /** How far a box drifts in a step, at most. */
   speed: number;
+  /** Whether the technique's structure is drawn over the boxes. */
+  structure?: boolean;
 }
 
 export function crowd(
   ro: typeof Ro,
   canvas: HTMLCanvasElement | null,
   coltech: Ro.coltech.Technique,
-  { count, sides: [smallest, largest], speed }: Crowd,
-  colors = { box: '#9db4d3', hit: '#24456f' },
+  { count, sides: [smallest, largest], speed, structure = false }: Crowd,
+  colors = { box: '#9db4d3', hit: '#24456f', accent: '#3f5bd9' },
 ) {
   let pairCount = 0;
 
@@ -29,6 +32,12 @@ export function crowd(
       pairCount = pairs.length;
       const colliding = new Set(pairs.flat());
       for (const entity of colliding) entity.draw(colors.hit);
+
+      if (structure && this.screen) {
+        this.screen.ctx.strokeStyle = colors.accent;
+        this.screen.ctx.lineWidth = 1;
+        coltech.draw?.(this.screen.ctx);
+      }
     },
 
     update() {
@@ -37,7 +46,7 @@ export function crowd(
   });
 
   const { x: width, y: height } = world.screen?.size ?? { x: 480, y: 360 };
-  const random = seeded(7);
+  const random = createRandom(7);
 
   function add() {
     // Many small ones and few large ones: a power of a random number between 0 and 1 is mostly small.
@@ -69,13 +78,4 @@ export function turnRound({ pos, ppos, size }: Ro.Entity, width: number, height:
   const { x, y } = ppos;
   if (pos.x < x ? pos.x < 0 : pos.x + size.x > width) [pos.x, ppos.x] = [x, pos.x];
   if (pos.y < y ? pos.y < 0 : pos.y + size.y > height) [pos.y, ppos.y] = [y, pos.y];
-}
-
-/** The same numbers between 0 and 1 every time: a linear congruential generator. */
-export function seeded(seed: number): () => number {
-  let state = seed;
-  return () => {
-    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
-    return state / 2 ** 32;
-  };
 }

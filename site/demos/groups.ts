@@ -2,7 +2,8 @@
 // what nobody asks is not looked for.
 import { findPairs, findPairsBetween } from 'broadphase';
 import type { ro as Ro } from 'broadphase/ro';
-import { seeded, turnRound } from './crowd.ts';
+import { createRandom } from '../../src/scenes/random.ts';
+import { turnRound } from './crowd.ts';
 
 export type Group = 'players' | 'powerUps' | 'enemies';
 export type Question = readonly [one: Group, other: Group];
@@ -73,7 +74,7 @@ export function groups(
   }
 
   const { x: width, y: height } = world.screen?.size ?? { x: 480, y: 360 };
-  const random = seeded(21);
+  const random = createRandom(21);
   add('players', 5, 26, 2);
   add('powerUps', 30, 14, 0.3);
   add('enemies', 40, 22, 1);

@@ -1,12 +1,12 @@
 // Boxes of very different sizes: a few giants over a crowd of dwarfs, in a world of 480 by 300.
+import { createRandom } from '../../src/scenes/random.ts';
 import type { Box } from './cells.ts';
-import { seeded } from './crowd.ts';
 
 /** @param giants how many of the boxes are giants */
 export function mixedSizes(count: number, giants: number): Box[] {
-  const random = seeded(12);
+  const random = createRandom(12);
   const dwarfs = Array.from({ length: count - giants }, (): Box => {
-    const side = 4 + 4 * random();
+    const side = 3 + 12 * random() ** 2;
     return [random() * (480 - side), random() * (300 - side), side, side];
   });
   const large = Array.from({ length: giants }, (): Box => {

@@ -1,7 +1,8 @@
 // A player, power-ups to collect, and a crowd that only gets in the way. Two questions are asked in each step: which
 // power-ups does the player touch, and does the guard touch the player? No one asks for the other collisions.
 import type { ro as Ro } from 'broadphase/ro';
-import { seeded, turnRound } from './crowd.ts';
+import { createRandom } from '../../src/scenes/random.ts';
+import { turnRound } from './crowd.ts';
 import { PairIndex } from './pair-index.ts';
 
 const REACH = 3.2; // of the player, in pixels per step
@@ -12,7 +13,7 @@ export function player(
   coltech: Ro.coltech.Technique,
   colors = { box: '#9db4d3', hit: '#24456f', accent: '#3f5bd9', now: '#c2410c' },
 ) {
-  const random = seeded(3);
+  const random = createRandom(3);
   const powerUps = new Set<Ro.Entity>();
   let pairCount = 0;
   let touched = 0; // power-ups in this step

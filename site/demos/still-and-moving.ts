@@ -1,6 +1,7 @@
 // Boxes on a retained grid, of which some move and the others rest; the cells that a step touches light up.
 import type { ro as Ro } from 'broadphase/ro';
-import { seeded, turnRound } from './crowd.ts';
+import { createRandom } from '../../src/scenes/random.ts';
+import { turnRound } from './crowd.ts';
 import type { RetainedGrid } from './retained-grid.ts';
 
 const COUNT = 240;
@@ -14,7 +15,7 @@ export function stillAndMoving(
   coltech: RetainedGrid,
   colors = { box: '#9db4d3', hit: '#24456f', now: '#c2410c', grid: '#d3d5da' },
 ) {
-  const random = seeded(9);
+  const random = createRandom(9);
   const velocities = new Map<Ro.Entity, { x: number; y: number }>();
   /** The cells touched lately, by place, and how many steps ago. */
   const touched = new Map<string, { column: number; row: number; age: number }>();

@@ -3,11 +3,12 @@ import { ro } from 'broadphase/ro';
 import indexSource from '../../demos/pair-index.ts?raw';
 import { player } from '../../demos/player.ts';
 import source from '../../demos/player.ts?raw';
-import { columns, excerpt, listing } from '../kit/index.ts';
+import { demoColumns } from '../demo.ts';
+import { excerpt, listing } from '../kit/index.ts';
 import { createStage } from '../stage.ts';
 
 export function mount(root: HTMLElement): () => void {
-  const [left, right] = columns(root);
+  const [left, right] = demoColumns(root);
 
   const stage = createStage(left, {
     width: 480,

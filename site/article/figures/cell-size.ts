@@ -2,7 +2,8 @@
 import { ro } from 'broadphase/ro';
 import source from '../../../src/ro/coltech/spatial-grid.ts?raw';
 import { rings } from '../../demos/rings.ts';
-import { button, choice, columns, excerpt, listing } from '../kit/index.ts';
+import { demoColumns } from '../demo.ts';
+import { button, choice, excerpt, listing } from '../kit/index.ts';
 import { createStage } from '../stage.ts';
 
 const width = 480;
@@ -14,7 +15,7 @@ const sizes = [
 ] as const;
 
 export function mount(root: HTMLElement): () => void {
-  const [left, right] = columns(root);
+  const [left, right] = demoColumns(root);
   const grid = new ro.coltech.SpatialGrid(0, 0, width, height, 15);
 
   choice(left, 'Cell size', sizes, 15, (cellSize) => {

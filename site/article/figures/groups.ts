@@ -2,7 +2,8 @@
 import { ro } from 'broadphase/ro';
 import { groups, type Question } from '../../demos/groups.ts';
 import source from '../../demos/groups.ts?raw';
-import { columns, element, excerpt, listing } from '../kit/index.ts';
+import { demoColumns } from '../demo.ts';
+import { element, excerpt, listing } from '../kit/index.ts';
 import { createStage } from '../stage.ts';
 
 const questions: readonly (readonly [Question, label: string, asked: boolean])[] = [
@@ -13,7 +14,7 @@ const questions: readonly (readonly [Question, label: string, asked: boolean])[]
 ];
 
 export function mount(root: HTMLElement): () => void {
-  const [left, right] = columns(root);
+  const [left, right] = demoColumns(root);
 
   const stage = createStage(left, {
     width: 480,

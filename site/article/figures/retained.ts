@@ -3,11 +3,12 @@ import { ro } from 'broadphase/ro';
 import { RetainedGrid } from '../../demos/retained-grid.ts';
 import source from '../../demos/retained-grid.ts?raw';
 import { stillAndMoving } from '../../demos/still-and-moving.ts';
-import { columns, excerpt, listing, slider } from '../kit/index.ts';
+import { demoColumns } from '../demo.ts';
+import { excerpt, listing, slider } from '../kit/index.ts';
 import { createStage } from '../stage.ts';
 
 export function mount(root: HTMLElement): () => void {
-  const [left, right] = columns(root);
+  const [left, right] = demoColumns(root);
   const grid = new RetainedGrid(20);
   const first = 0.1;
 

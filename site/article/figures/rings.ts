@@ -2,11 +2,12 @@
 import { ro } from 'broadphase/ro';
 import { rings } from '../../demos/rings.ts';
 import source from '../../demos/rings.ts?raw';
-import { button, columns, listing } from '../kit/index.ts';
+import { demoColumns } from '../demo.ts';
+import { button, listing } from '../kit/index.ts';
 import { createStage } from '../stage.ts';
 
 export function mount(root: HTMLElement): () => void {
-  const [left, right] = columns(root);
+  const [left, right] = demoColumns(root);
   const coltech = new ro.coltech.BruteForce();
 
   const stage = createStage(left, {

@@ -1,9 +1,9 @@
 // Fig. 7: small boxes on a grid whose cells are so large that all of them are in one.
-import { seeded } from '../../demos/crowd.ts';
+import { createRandom } from '../../../src/scenes/random.ts';
 import { cellsFigure, world } from '../cells-figure.ts';
 
 export function mount(root: HTMLElement): void {
-  const random = seeded(4);
+  const random = createRandom(4);
   const side = 11;
   const boxes = Array.from(
     { length: 48 },
