@@ -56,7 +56,7 @@ export function slider(root: HTMLElement, options: SliderOptions): Slider {
   const { label, min, max, step = 1, format = String, moved } = options;
   const id = uniqueId('slider');
   const input = element('input', { type: 'range', id, min, max, step, value: options.value });
-  const shown = element('output', { for: id, class: 'aside' });
+  const shown = element('span', { class: 'aside' });
   const show = () => {
     const text = format(input.valueAsNumber);
     shown.textContent = text;
