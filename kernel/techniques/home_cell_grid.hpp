@@ -5,8 +5,8 @@
 // is met from one side. The few boxes that are larger than a cell do not make the cells larger for all: they stand
 // apart, ordered along one axis; each looks at the cells under it, row by row, and at the other large ones by a sweep.
 // Cells are as large as 98 % of the boxes, larger where boxes are far apart, and may be longer along one axis.
-// Cost: update O(n), pairs O(n * 3^(D - 1) + candidates + rows of cells under large boxes); memory about 60 (2D) or
-// 90 (3D) bytes a box.
+// Cost: update O(n), pairs O(n * 3^(D - 1) + candidates + rows of cells under large boxes); memory about 75 (2D) or
+// 100 (3D) bytes a box.
 // Wins on boxes of one size, dense ones above all: nothing is stored twice. Loses on boxes of all sizes at once, and
 // where boxes are long and thin along different axes.
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, future expansion; the cell

@@ -6,7 +6,7 @@
 // a short list of slots with room to grow. When much has changed at once, or boxes have drifted until the cells fit
 // them badly, all is built anew.
 // Cost: update O(n + entries of the boxes that changed cells), pairs O(dirty cells * their squared number of boxes);
-// memory about 50 (2D) or 80 (3D) bytes a box besides the pairs, which are kept too.
+// memory about 100 (2D) or 200 (3D) bytes a box, and the pairs, which are kept too.
 // Wins where most boxes rest. Loses where all move: then looking what has changed saves little.
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, future expansion.
 #pragma once
