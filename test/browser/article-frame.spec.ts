@@ -48,7 +48,7 @@ test('the front page leads to the article and its demos, and the article back', 
   await page.goto('/');
   await page.getByRole('link', { name: /Read the article/ }).click();
   await expect(page).toHaveURL(/\/article\/$/);
-  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Which boxes overlap?');
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('How a game knows what touches what');
   await page.getByRole('navigation', { name: 'Site' }).getByRole('link', { name: 'broadphase' }).click();
   await page.getByRole('link', { name: 'The cell size of a grid' }).click();
   await expect(page).toHaveURL(/#fig-9$/);
@@ -241,7 +241,6 @@ test('who asks for less motion sees nothing start by itself', async ({ page }) =
 
 test('the first paint comes within a second', async ({ page }) => {
   await page.goto('/article/');
-  await page.reload();
   const paint = () =>
     page.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? Number.NaN);
   await expect.poll(paint).toBeLessThan(firstPaintWithin);
@@ -282,6 +281,8 @@ for (const [device, width, height] of [
       const shifted = await page.evaluate(() => (globalThis as unknown as { shifts: number[] }).shifts);
       expect(shifted.reduce((sum, shift) => sum + shift, 0)).toBeLessThan(shiftWithin);
       expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+      const column = (await page.locator('.page > p').first().boundingBox())!;
+      expect(column.width).toBeGreaterThan(Math.min(600, width * 0.85));
       // Every canvas says what it shows.
       const silent = await page.$$eval('canvas', (all) =>
         all.filter((canvas) => canvas.getAttribute('role') !== 'img' || !canvas.getAttribute('aria-label')).map(String),
