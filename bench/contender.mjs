@@ -1,11 +1,21 @@
-// One contender on one scene, in a process of its own. The parent sends what to do:
-//   { prepare: { module, technique, scene, count, seed } }  ->  { checked: a fingerprint of each checked frame's pairs } or { unable }
-//   { warmUp: milliseconds }                                ->  { warm: frames run }
-//   { round: frames, budget: milliseconds }                 ->  { times: milliseconds of each frame, sink }
+// One contender on one case, in a process of its own. The parent asks for one thing at a time:
+//   { describe: module }      ->  what it can do: { dimensions, variants, npm }
+//   { prepare: { … } }        ->  makes the scene and the contender, runs and checks the first frames:
+//                                 { fingerprints, wrong } or { unable } or { slow: milliseconds of a frame }
+//   { warmUp: milliseconds }  ->  { frames } that were run
+//   { round: { … } }          ->  { times } in milliseconds of each frame, and what its own profiler says, { own }
+//   { finish: milliseconds }  ->  { garbage: bytes of JavaScript heap allocated per frame, peak: bytes of memory }
 // and any of them can be answered by { error }. The scene's own motion is never timed. Every contender goes through the
 // same seeded motion; a slow one gets less far. `sink` keeps what the frames return from being optimised away.
-import { createScene } from '../build/bench/library.mjs';
-import { checkedFrames, fingerprint } from './fingerprint.mjs';
+import { readFileSync } from 'node:fs';
+import { keysOf, referencePairs } from '../build/bench/library.mjs';
+import { fingerprint } from './fingerprint.mjs';
+import { allocatedBy } from './garbage.mjs';
+import { openScene } from './scene.mjs';
+
+/** A contender whose frames took so long in all is checked in two of them only, in milliseconds. */
+const enough = 600;
+const mostWarmUp = 3000;
 
 let scene;
 let contender;
@@ -19,31 +29,78 @@ function timedFrame() {
 }
 
 const actions = {
-  async prepare({ module, technique, scene: name, count, seed }) {
-    const peer = await import(module);
-    scene = createScene(name, count, { seed });
-    if (!peer.dimensions.includes(scene.dimensions)) return { unable: `has no ${scene.dimensions}D` };
-    contender = peer.create({ dimensions: scene.dimensions, count, technique });
-    const checked = [];
-    for (let frame = 0; frame < checkedFrames; frame++) {
-      timedFrame();
-      if (peer.findsPairs !== false) checked.push(fingerprint(contender.pairs()));
-    }
-    return { checked };
+  async describe(module) {
+    const { dimensions, variants = [undefined], npm } = await import(module);
+    return { dimensions, variants, npm };
   },
+
+  async prepare({ module, variant, item, count, seed, checkedFrames, expected, slowest }) {
+    const { create, findsPairs = true } = await import(module);
+    scene = openScene(item, count, seed);
+    const { dimensions, boxes, fixed } = scene;
+    contender = await create({ dimensions, count: scene.count, boxes, fixed, variant });
+    const fingerprints = [];
+    let wrong;
+    let spent = 0;
+    for (let frame = 0; frame < checkedFrames && (!expected || frame < 2 || spent < enough); frame++) {
+      const time = timedFrame();
+      spent += time;
+      // The first frame builds what the others keep: it may take longer.
+      if (time > slowest * (frame === 0 ? 4 : 1)) return { slow: time };
+      if (!findsPairs) continue;
+      fingerprints.push(fingerprint(contender.pairs()));
+      if (expected && !wrong && fingerprints[frame] !== expected[frame]) wrong = { frame: frame + 1, ...fault() };
+    }
+    return { fingerprints, wrong, spent, count: scene.count };
+  },
+
   warmUp(milliseconds) {
     const end = performance.now() + milliseconds;
     let frames = 0;
-    for (; frames < 3 || (performance.now() < end && frames < 1000); frames++) timedFrame();
-    return { warm: frames };
+    for (; performance.now() < end && frames < mostWarmUp; frames++) timedFrame();
+    return { frames };
   },
+
   round({ frames, budget }) {
     const times = [];
+    let own = 0;
     const end = performance.now() + budget;
-    while (times.length < 2 || (times.length < frames && performance.now() < end)) times.push(timedFrame());
-    return { times, sink };
+    while (times.length === 0 || (times.length < frames && performance.now() < end)) {
+      times.push(timedFrame());
+      own += contender.own?.() ?? 0;
+    }
+    return { times, own: contender.own && own / times.length, sink };
+  },
+
+  async finish(milliseconds) {
+    // What the engine allocates until it has compiled everything is nobody's garbage.
+    actions.warmUp(milliseconds);
+    const frame = () => contender.update(scene.boxes);
+    const garbage = await allocatedBy(frame, () => scene.step(), milliseconds);
+    return { garbage, peak: peakMemory() };
   },
 };
+
+/** How the contender's pairs differ from the exact ones: how many there are, how many it missed and added. */
+function fault() {
+  const exact = referencePairs(scene.boxes, scene.dimensions);
+  const found = keysOf(contender.pairs());
+  let [i, j, missed, extra] = [0, 0, 0, 0];
+  while (i < exact.length || j < found.length) {
+    const [want, got] = [exact[i] ?? Infinity, found[j] ?? Infinity];
+    if (want <= got) i++;
+    if (got <= want) j++;
+    if (want < got) missed++;
+    if (got < want) extra++;
+  }
+  return { exact: exact.length, missed, extra };
+}
+
+/** Linux's own figure knows nothing of the process this one was forked from; Node's does. */
+function peakMemory() {
+  if (process.platform !== 'linux') return process.resourceUsage().maxRSS * 1024;
+  return Number(/VmHWM:\s+(\d+)/.exec(readFileSync('/proc/self/status', 'utf8'))[1]) * 1024;
+}
 
 process.on('message', async ([action, value]) => {
   try {

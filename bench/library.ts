@@ -1,4 +1,5 @@
 // What the benchmark bundles of the repository: the library, the scenes, and the exact reference.
 export { BroadPhase } from '../src/index.ts';
-export { createScene, sceneNames } from '../src/scenes/index.ts';
+export { createScene, gameNames, sceneNames } from '../src/scenes/index.ts';
+export { readRecording } from '../src/scenes/recorded.ts';
 export { keysOf, referencePairs } from '../test/reference.ts';

@@ -18,6 +18,18 @@ export class PairList {
     this.#pairs[at + 1] = b;
   }
 
+  /** Keeps the pairs for which `wanted(a, b)` holds. */
+  keep(wanted) {
+    const pairs = this.#pairs;
+    let kept = 0;
+    for (let k = 0; k < 2 * this.count; k += 2) {
+      if (!wanted(pairs[k], pairs[k + 1])) continue;
+      pairs[kept++] = pairs[k];
+      pairs[kept++] = pairs[k + 1];
+    }
+    this.count = kept / 2;
+  }
+
   pairs() {
     return this.#pairs.subarray(0, 2 * this.count);
   }

@@ -1,144 +1,184 @@
 // The benchmark: every contender gives all overlapping pairs of the same moving boxes, frame after frame.
 //   npm run bench -- --scenes uniform2d,mixed2d,uniform3d --n 100000
-// One process per contender and scene, pairs checked before anything is timed, rounds in turns. See README.md.
-import { execFileSync, fork } from 'node:child_process';
-import { existsSync, mkdirSync, readdirSync, writeFileSync } from 'node:fs';
-import os from 'node:os';
+//   npm run bench -- --full                      all there is, within 25 minutes, into results/<machine>.json
+//   npm run bench -- --compare before.json after.json
+//   npm run bench -- --markdown [results.json]
+// One process per contender and case, pairs checked before anything is timed, rounds in turns. See README.md.
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { bundle } from '../scripts/bundle.mjs';
-import { summary } from './statistics.mjs';
+import { compile } from '../scripts/compile.mjs';
+import { loadCases } from './cases.mjs';
+import { compare } from './compare.mjs';
+import { libraryFigures } from './library-figures.mjs';
+import { machine, machineName } from './machine.mjs';
+import { markdown } from './markdown.mjs';
+import { race, start } from './race.mjs';
 import { table } from './table.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
-const peerNames = readdirSync(`${here}peers`)
-  .map((file) => file.replace('.mjs', ''))
-  .filter((name) => name !== 'broadphase');
-
-const { values: options } = parseArgs({
+/** How much of the time given may be overrun, as a share. */
+const grace = 0.15;
+const resultsFile = `${here}results/${machineName}.json`;
+const { values: options, positionals } = parseArgs({
+  allowPositionals: true,
   options: {
-    scenes: { type: 'string', default: 'uniform2d,mixed2d,uniform3d' },
-    n: { type: 'string', default: '100000' },
+    full: { type: 'boolean', default: false },
+    minutes: { type: 'string' },
+    scenes: { type: 'string' },
+    n: { type: 'string' },
     techniques: { type: 'string' },
-    peers: { type: 'string', default: peerNames.join(',') },
-    rounds: { type: 'string', default: '5' },
-    frames: { type: 'string', default: '20' },
+    peers: { type: 'string' },
+    traces: { type: 'string' },
+    rounds: { type: 'string', default: '3' },
+    frames: { type: 'string', default: '200' },
+    budget: { type: 'string', default: '500' },
+    slowest: { type: 'string', default: '1000' },
     seed: { type: 'string', default: '1' },
     json: { type: 'string' },
+    compare: { type: 'boolean', default: false },
+    markdown: { type: 'boolean', default: false },
   },
 });
-
 const list = (text) => text.split(',').filter(Boolean);
-const [rounds, frames, seed] = [options.rounds, options.frames, options.seed].map(Number);
-/** The longest a round may take, beyond its first two frames, so that a slow peer does not hold up the rest. */
-const roundBudget = 1500;
-const warmUpBudget = 500;
+const read = (file) => JSON.parse(readFileSync(file, 'utf8'));
+
+if (options.compare || options.markdown) {
+  const files = positionals.length > 0 ? positionals : [resultsFile];
+  if (options.compare && files.length !== 2) fail('--compare takes two files of results: before and after.');
+  console.log(options.compare ? compare(read(files[0]), read(files[1])) : markdown(read(files[0]), loadCases()));
+  process.exit();
+}
+
+function fail(message) {
+  console.error(message);
+  process.exit(1);
+}
+
+function refuseUnknown(what, names, known) {
+  const unknown = names.find((name) => !known.includes(name));
+  if (unknown !== undefined) fail(`No ${what} is called "${unknown}": expected one of ${known.join(', ')}.`);
+}
 
 if (!existsSync(`${here}node_modules`)) {
   execFileSync('npm', ['ci', '--no-audit', '--no-fund'], { cwd: here, stdio: ['ignore', 'ignore', 'inherit'] });
 }
-const { BroadPhase, sceneNames } = await import(await bundle('bench/library.ts', 'build/bench/library.mjs'));
+await bundle('bench/library.ts', 'build/bench/library.mjs');
+writeFileSync(`${here}../build/bench/sort.wasm`, await compile('bench/floors/sort.cpp'));
 
-const techniques = options.techniques === undefined ? BroadPhase.techniques : list(options.techniques);
-const contenders = [
-  ...techniques.map((technique) => ({ name: technique, module: './peers/broadphase.mjs', technique })),
-  ...list(options.peers).map((name) => ({ name, module: `./peers/${name}.mjs` })),
-  { name: 'sort floor (JS)', module: './floors/sort-js.mjs' },
-];
-refuseUnknown('technique', techniques, BroadPhase.techniques);
-refuseUnknown('peer', list(options.peers), peerNames);
-refuseUnknown('scene', list(options.scenes), sceneNames);
+const [rounds, frames, slowest, seed] = [options.rounds, options.frames, options.slowest, options.seed].map(Number);
+const cases = loadCases(options.traces);
+const headline = ['uniform2d', 'mixed2d', 'uniform3d'];
+const scenes = options.scenes ? list(options.scenes) : options.full ? [...cases.keys()] : headline;
+refuseUnknown('scene', scenes, [...cases.keys()]);
+const counts = options.n ? list(options.n).map(Number) : undefined;
+/** Boxes a case is run with, ascending, since what is too slow for few is not tried with more. */
+const countsOf = (item) => (item.recording ? [0] : (counts ?? (options.full ? item.counts : [100_000])));
 
-function refuseUnknown(what, names, known) {
-  const unknown = names.find((name) => !known.includes(name));
-  if (unknown === undefined) return;
-  console.error(`No ${what} is called "${unknown}": expected one of ${known.join(', ')}.`);
-  process.exit(1);
+const contenders = await describeAll();
+const settings = { rounds, frames, slowest, seed };
+const races = await raceAll();
+const record = { date: new Date().toISOString(), machine, versions: versions(), settings, races };
+if (options.full) record.library = await libraryFigures();
+const output = options.json ?? (options.full ? resultsFile : undefined);
+if (output) {
+  mkdirSync(dirname(output), { recursive: true });
+  writeFileSync(output, `${JSON.stringify(record, rounded, 1)}\n`);
+  console.log(`Written to ${output}`);
 }
 
-/** A contender in a process of its own: asks it one thing at a time. */
-function start({ name, module, technique }) {
-  const child = fork(`${here}contender.mjs`, { stdio: ['ignore', 'inherit', 'inherit', 'ipc'] });
-  return {
-    name,
-    settings: { module, technique },
-    rounds: [],
-    ask: (action, value) =>
-      new Promise((resolve) => {
-        const ended = (code, signal) => resolve({ error: `its process ended (${signal ?? code})` });
-        child.once('exit', ended);
-        child.once('message', (answer) => {
-          child.off('exit', ended);
-          resolve(answer);
-        });
-        child.send([action, value]);
-      }),
-    stop: () => child.kill(),
-  };
-}
-
-async function race(scene, count) {
-  const setting = { scene, count, seed };
-  const reference = start({ name: 'reference', module: './floors/reference.mjs' });
-  const { checked: expected, error } = await reference.ask('prepare', { ...reference.settings, ...setting });
-  reference.stop();
-  if (error) throw new Error(error);
-
-  const running = [];
-  const results = [];
-  for (const contender of contenders) {
-    const runner = start(contender);
-    const result = { name: contender.name };
-    results.push(result);
-    const { checked, unable, error } = await runner.ask('prepare', { ...runner.settings, ...setting });
-    const wrong = checked?.findIndex((fingerprint, frame) => fingerprint !== expected[frame]) ?? -1;
-    if (unable || error) {
-      result.problem = unable ?? firstLine(error);
-      runner.stop();
-      continue;
+/** Every contender that was asked for, each variant of a peer one of its own, with what it can do. */
+async function describeAll() {
+  const files = readdirSync(`${here}peers`).sort();
+  const peerNames = files.map((file) => file.slice(0, -'.mjs'.length)).filter((name) => name !== 'broadphase');
+  const asked = options.peers === undefined ? peerNames : list(options.peers);
+  refuseUnknown('peer', asked, peerNames);
+  const all = [];
+  const runner = start();
+  for (const peer of ['broadphase', ...asked]) {
+    const module = `./peers/${peer}.mjs`;
+    const { variants, dimensions, npm, error } = await runner.ask('describe', module);
+    if (error) fail(`${peer}: ${error}`);
+    if (peer === 'broadphase' && options.techniques !== undefined) {
+      refuseUnknown('technique', list(options.techniques), variants);
+      variants.splice(0, variants.length, ...list(options.techniques));
     }
-    if (wrong >= 0)
-      result.problem = `WRONG: ${pairsIn(checked[wrong])} of ${pairsIn(expected[wrong])} pairs in frame ${wrong + 1}`;
-    await runner.ask('warmUp', warmUpBudget);
-    running.push({ runner, result });
-  }
-  for (let round = 0; round < rounds; round++) {
-    for (const { runner, result } of running) {
-      const { times, error } = await runner.ask('round', { frames, budget: roundBudget });
-      if (times) runner.rounds.push(times);
-      else result.problem = firstLine(error);
+    for (const variant of variants) {
+      // JSON turns an undefined variant into null.
+      const name = peer === 'broadphase' ? variant : variant ? `${peer} (${variant})` : peer;
+      all.push({ name, peer, variant: variant ?? undefined, module, dimensions, npm });
     }
   }
-  for (const { runner, result } of running) {
-    runner.stop();
-    if (runner.rounds.length === rounds) result.figures = summary(runner.rounds);
-  }
-  return { scene, count, pairs: Number(pairsIn(expected[0])), results };
+  runner.stop();
+  const floor = { name: 'radix sort floor', peer: 'floor', module: './floors/sort.mjs', dimensions: [2, 3], npm: null };
+  return [...all, floor];
 }
 
-const firstLine = (text) => text.split('\n')[0];
-
-const pairsIn = (fingerprint) => fingerprint.split(' ')[0];
-
-const machine = {
-  cpu: os.cpus()[0]?.model.trim() ?? 'unknown',
-  cores: os.cpus().length,
-  memory: os.totalmem(),
-  system: `${os.platform()} ${os.arch()}`,
-  node: process.version,
-};
-console.log(`${machine.cpu}, ${machine.cores} cores, ${machine.system}, Node ${machine.node}\n`);
-
-const races = [];
-for (const count of list(options.n).map(Number)) {
-  for (const scene of list(options.scenes)) {
-    races.push(await race(scene, count));
-    console.log(`${table(races.at(-1))}\n`);
+async function raceAll() {
+  const plan = scenes.flatMap((name) => countsOf(cases.get(name)).map((count) => ({ item: cases.get(name), count })));
+  const minutes = Number(options.minutes ?? (options.full ? 25 : Infinity));
+  const end = performance.now() + minutes * 60_000;
+  console.log(`${machine.cpu}, ${machine.cores} cores, ${machine.system}, Node ${machine.node}\n`);
+  let overhead = 0;
+  const done = [];
+  for (const [k, { item, count }] of plan.entries()) {
+    const ready = contenders.filter(({ dimensions }) => dimensions.includes(dimensionsOf(item)));
+    if (performance.now() > end + grace * minutes * 60_000) {
+      console.log(`Out of time before ${item.name}, ${count}: run it alone, or give more --minutes.`);
+      break;
+    }
+    const { entering, left } = sift(ready, item, count, done);
+    // What is left of the time is shared out evenly; getting ready takes its part of a share first.
+    const shares = plan.slice(k).length * Math.max(1, entering.length);
+    const share = (end - performance.now()) / shares;
+    const budget = Math.max(30, Math.min(Number(options.budget), (share - overhead) / rounds));
+    const began = performance.now();
+    const { results, ...facts } = await race(entering, { item, count, seed }, { ...settings, budget });
+    overhead = Math.max(0, (performance.now() - began) / Math.max(1, entering.length) - rounds * budget);
+    done.push({ scene: item.name, dimensions: dimensionsOf(item), ...facts, results: [...results, ...left] });
+    console.log(`${table(done.at(-1))}\n`);
   }
+  return done;
 }
-if (options.json) {
-  mkdirSync(dirname(options.json), { recursive: true });
-  const record = { date: new Date().toISOString(), machine, settings: { rounds, frames, seed }, races };
-  writeFileSync(options.json, `${JSON.stringify(record, null, 2)}\n`);
+
+function dimensionsOf({ name }) {
+  return name.includes('3d') ? 3 : 2;
+}
+
+/** Leaves out who, by its time for fewer boxes of the same scene, would take too long: time grows at least as they do. */
+function sift(ready, item, count, done) {
+  const entering = [];
+  const left = [];
+  const before = done.findLast(({ scene }) => scene === item.name);
+  for (const contender of ready) {
+    const { name, peer, variant } = contender;
+    const earlier = before?.results.find((result) => result.name === name);
+    const guess = earlier?.figures && (earlier.figures.median * count) / before.count;
+    if (earlier?.skipped) left.push({ name, peer, variant, skipped: earlier.skipped });
+    else if (guess > slowest)
+      left.push({
+        name,
+        peer,
+        variant,
+        skipped: `at least ${Math.round(guess)} ms a frame, by its ${before.count.toLocaleString('en')}`,
+      });
+    else entering.push(contender);
+  }
+  return { entering, left };
+}
+
+function versions() {
+  const { dependencies } = read(`${here}package.json`);
+  const own = read(`${here}../package.json`).version;
+  const found = { broadphase: own };
+  for (const { peer, npm } of contenders) if (npm !== null) found[peer] = dependencies[npm ?? peer];
+  return found;
+}
+
+/** Six digits are plenty. */
+function rounded(_key, value) {
+  return typeof value === 'number' && !Number.isInteger(value) ? Number(value.toPrecision(6)) : value;
 }

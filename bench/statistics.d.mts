@@ -3,6 +3,12 @@ export interface Figures {
   mean: number;
   p95: number;
   worst: number;
+  range: [number, number];
   frames: number;
 }
+export function median(values: readonly number[]): number;
 export function summary(rounds: readonly (readonly number[])[]): Figures;
+export function change(
+  before: Pick<Figures, 'median' | 'range'>,
+  after: Pick<Figures, 'median' | 'range'>,
+): { ratio: number; beyondNoise: boolean };

@@ -10,7 +10,7 @@ function quantile(values, share) {
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
 }
 
-function median(values) {
+export function median(values) {
   const sorted = ascending(values);
   const half = sorted.length >> 1;
   return sorted.length % 2 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
@@ -18,11 +18,24 @@ function median(values) {
 
 export function summary(rounds) {
   const all = rounds.flat();
+  const means = rounds.map((times) => sum(times) / times.length);
   return {
-    median: median(rounds.map((times) => sum(times) / times.length)),
+    median: median(means),
     mean: sum(all) / all.length,
     p95: quantile(all, 0.95),
     worst: Math.max(...all),
+    /** Between which the rounds lay: what is within is noise. */
+    range: [Math.min(...means), Math.max(...means)],
     frames: all.length,
   };
+}
+
+/** A change below this share is never worth a mark, however quiet the machine. */
+const leastChange = 0.03;
+
+/** How much slower `after` is than `before`, and whether by more than the noise: all rounds of one beyond the other's. */
+export function change(before, after) {
+  const ratio = after.median / before.median;
+  const apart = after.range[0] > before.range[1] || before.range[0] > after.range[1];
+  return { ratio, beyondNoise: apart && Math.abs(ratio - 1) > leastChange };
 }

@@ -1,27 +1,50 @@
-// The results of one scene as text, each contender against strip-sweep.
+// The results of one race as text, each contender against the best technique of this library.
 
-const short = (value) => (value < 10 ? value.toPrecision(3) : value.toFixed(1));
+export const short = (value) => (value < 10 ? value.toPrecision(3) : value.toFixed(1));
+
+export const whole = (value) => value.toLocaleString('en');
+
+/** What is wrong with a contender's pairs, in words: the share of the exact pairs that it found, and what it added. */
+export function faultOf({ wrong }) {
+  if (!wrong) return '';
+  const { exact, missed, extra } = wrong;
+  const share = exact === 0 ? 100 : Math.floor((1e4 * (exact - missed)) / exact) / 100;
+  return `WRONG: ${share} % of the pairs${extra ? ` and ${whole(extra)} that are none` : ''}`;
+}
+
+export function bestOf(results) {
+  const ours = results.filter(({ peer, figures }) => peer === 'broadphase' && figures);
+  return ours.sort((a, b) => a.figures.median - b.figures.median)[0];
+}
+
+function bytes(count) {
+  if (count === undefined) return '';
+  return count >= 1e6
+    ? `${short(count / 1e6)} MB`
+    : count >= 1e3
+      ? `${short(count / 1e3)} kB`
+      : `${Math.round(count)} B`;
+}
 
 export function table({ scene, count, pairs, results }) {
-  const base = results.find(({ name, figures }) => name === 'strip-sweep' && figures)?.figures.median;
-  const rows = results.map(({ name, figures, problem }) => {
-    if (!figures) return [name, problem];
-    const ratio = base ? `${short(figures.median / base)}x` : '';
+  const best = bestOf(results);
+  const rows = results.map((result) => {
+    const { name, figures, problem, skipped, own, garbage, peak } = result;
+    if (!figures) return [name, problem ?? `skipped: ${skipped}`];
     const times = [figures.median, figures.mean, figures.p95, figures.worst].map(short);
-    return [name, ...times, ratio, problem ?? ''];
+    const ratio = best ? `${short(figures.median / best.figures.median)}x` : '';
+    const remarks = [own === undefined ? '' : `its broad phase alone: ${short(own)}`, faultOf(result)];
+    return [name, ...times, ratio, bytes(garbage), bytes(peak), remarks.filter(Boolean).join('; ')];
   });
-  const header = ['ms per frame', 'median', 'mean', 'p95', 'worst', 'ratio', ''];
-  const widths = header.map((_, column) =>
-    Math.max(...[header, ...rows.filter((row) => row.length > 2)].map((row) => row[column].length)),
-  );
+  const header = ['ms per frame', 'median', 'mean', 'p95', 'worst', 'ratio', 'garbage', 'memory', ''];
+  const full = [header, ...rows.filter((row) => row.length > 2)];
+  const widths = header.map((_, column) => Math.max(...full.map((row) => row[column].length)));
   widths[0] = Math.max(...[header, ...rows].map((row) => row[0].length));
   const lines = [header, ...rows].map((row) =>
     row
-      .map((cell, column) =>
-        column === 0 || row.length === 2 ? cell.padEnd(widths[column]) : cell.padStart(widths[column]),
-      )
+      .map((cell, k) => (k === 0 || k === row.length - 1 ? cell.padEnd(widths[k]) : cell.padStart(widths[k])))
       .join('  ')
       .trimEnd(),
   );
-  return [`${scene}: ${count.toLocaleString('en')} boxes, ${pairs.toLocaleString('en')} pairs`, ...lines].join('\n');
+  return [`${scene}: ${whole(count)} boxes, ${whole(pairs)} pairs`, ...lines].join('\n');
 }

@@ -1,15 +1,16 @@
 // Loads the kernel: one WebAssembly module for all spaces, one instance with its own memory for each.
-// The module is inlined as base64 and compiled on first use, synchronously, so that `new BroadPhase()` works
+// The module is inlined as hexadecimal digits and compiled on first use, synchronously, so that `new BroadPhase()` works
 // everywhere without waiting; `init` is for hosts that forbid that or want to load the bytes themselves.
-import { kernelBase64 } from './generated/kernel-wasm.ts';
+import { kernelHex } from './generated/kernel-wasm.ts';
 
-/** The exported functions of kernel/abi.cpp. */
+/** The exported functions of kernel/abi.cpp. Addresses come as signed numbers: `>>> 0` those that can be beyond 2 GiB. */
 export interface KernelExports {
   memory: WebAssembly.Memory;
   __stack_pointer: WebAssembly.Global;
   io_address(): number;
   open_space(dimensions: number): void;
   set_cell_size(): void;
+  set_margin(margin: number): void;
   set_bounds(): void;
   reserve(count: number): void;
   set(id: number): void;
@@ -18,6 +19,9 @@ export interface KernelExports {
   get(id: number): number;
   size(): number;
   clear(): void;
+  set_filter(id: number, layer: number, mask: number): number;
+  set_static(id: number, on: number): number;
+  contents(): void;
   stage(count: number): number;
   stage_exact(count: number): number;
   replace(count: number, doubles: number): number;
@@ -28,6 +32,14 @@ export interface KernelExports {
   update(): number;
   pairs_address(): number;
   pair_count(): number;
+  set_events(): void;
+  began_address(): number;
+  began_count(): number;
+  ended_address(): number;
+  ended_count(): number;
+  is_pair(a: number, b: number): number;
+  partners(id: number): number;
+  answers_address(): number;
   stats_address(): number;
   structure(): number;
   structure_count(): number;
@@ -53,7 +65,7 @@ export function init(source: WebAssembly.Module | BufferSource): void {
 
 /** A fresh kernel with memory of its own. */
 export function instantiate(): KernelExports {
-  module ??= compile(decodeBase64(kernelBase64));
+  module ??= compile(decodeHex(kernelHex));
   return new WebAssembly.Instance(module).exports as unknown as KernelExports;
 }
 
@@ -72,9 +84,13 @@ function compile(bytes: BufferSource): WebAssembly.Module {
   }
 }
 
-function decodeBase64(text: string): Uint8Array<ArrayBuffer> {
-  const binary = atob(text);
-  const bytes = new Uint8Array(binary.length);
-  for (let k = 0; k < binary.length; k++) bytes[k] = binary.charCodeAt(k);
-  return bytes;
+/** Two lower-case digits a byte. In place, since this is the first thing a page waits for. */
+function decodeHex(digits: string): Uint8Array<ArrayBuffer> {
+  const codes = new TextEncoder().encode(digits);
+  const length = codes.length / 2;
+  for (let k = 0; k < length; k++) {
+    // '0' is 48 and 'a' is 97: modulo 39 they are 9 and 19, ten apart.
+    codes[k] = ((codes[2 * k]! % 39) - 9) * 16 + (codes[2 * k + 1]! % 39) - 9;
+  }
+  return codes.subarray(0, length);
 }

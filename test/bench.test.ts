@@ -1,7 +1,7 @@
 // The benchmark's own parts that a wrong figure could hide in: the fingerprint of a set of pairs, and the statistics.
 import { expect, test } from 'vitest';
 import { fingerprint } from '../bench/fingerprint.mjs';
-import { summary } from '../bench/statistics.mjs';
+import { change, summary } from '../bench/statistics.mjs';
 
 test('a fingerprint depends on the pairs, not on their order', () => {
   const pairs = [0, 1, 5, 9, 2, 2 ** 24 - 1, 7, 3];
@@ -24,6 +24,14 @@ test('the headline is the median of the rounds, the rest is over all frames', ()
       [10, 30],
       [2, 2],
     ]),
-  ).toEqual({ median: 2, mean: 8, p95: 30, worst: 30, frames: 6 });
+  ).toEqual({ median: 2, mean: 8, p95: 30, worst: 30, range: [2, 20], frames: 6 });
   expect(summary([[1], [3]]).median).toBe(2);
+});
+
+test('a change is beyond the noise when no round of one lies among those of the other, and it is worth a mark', () => {
+  const figures = (low: number, median: number, high: number) => ({ median, range: [low, high] as [number, number] });
+  expect(change(figures(9, 10, 11), figures(18, 20, 22))).toEqual({ ratio: 2, beyondNoise: true });
+  expect(change(figures(9, 10, 11), figures(4, 5, 6))).toEqual({ ratio: 0.5, beyondNoise: true });
+  expect(change(figures(9, 10, 19), figures(18, 20, 22)).beyondNoise).toBe(false);
+  expect(change(figures(10, 10, 10), figures(10.2, 10.2, 10.2)).beyondNoise).toBe(false);
 });

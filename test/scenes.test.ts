@@ -1,6 +1,7 @@
 // The scenes are the ground every figure stands on: seeded, as dense as they say, and steady.
 import { describe, expect, test } from 'vitest';
-import { createScene, type Scene, type SceneName, sceneNames } from '../src/scenes/index.ts';
+import { createScene, gameNames, type Scene, type SceneName, sceneNames } from '../src/scenes/index.ts';
+import { referencePairs } from './reference.ts';
 
 function measure({ boxes, dimensions, count, world }: Scene) {
   let volume = 0;
@@ -75,8 +76,44 @@ test('one box in twenty moves in the static scenes', () => {
   expect(moved / 20_000).toBeCloseTo(0.05, 2);
 });
 
+describe.each(gameNames)('%s', (name) => {
+  test.each([1, 2, 100, 5000])('of %i boxes stays inside its world, each box of its size', (count) => {
+    const { boxes, world, step } = bound(createScene(name, count));
+    const first = boxes.slice();
+    for (let frame = 0; frame < 300; frame++) step();
+    for (let at = 0; at < boxes.length; at += 4) {
+      for (const axis of [at, at + 1]) {
+        const size = first[axis + 2] - first[axis];
+        expect(size).toBeGreaterThan(0);
+        if (Math.abs(boxes[axis + 2] - boxes[axis] - size) > 1e-2) expect.fail(`box ${at / 4} changed size`);
+        if (!(boxes[axis] >= -1e-3 && boxes[axis + 2] <= world + 1e-3)) expect.fail(`box ${at / 4} left the world`);
+      }
+    }
+  });
+
+  test('is the same for the same seed, another for another, and its boxes meet all the time', () => {
+    const [a, b, c] = [3, 3, 4].map((seed) => createScene(name, 5000, { seed }));
+    for (let frame = 0; frame < 100; frame++) for (const scene of [a, b, c]) scene.step();
+    expect(a.boxes).toEqual(b.boxes);
+    expect(a.boxes).not.toEqual(c.boxes);
+    expect(referencePairs(a.boxes, 2).length).toBeGreaterThan(20);
+  });
+});
+
+const bound = (scene: Scene) => ({ boxes: scene.boxes, world: scene.world, step: () => scene.step() });
+
+test('the resting boxes of a scene rest, and do not meet', () => {
+  const scene = createScene('tile-map', 10_100);
+  expect(scene.fixed).toBe(10_000);
+  const tiles = scene.boxes.subarray(0, 4 * scene.fixed!);
+  const before = tiles.slice();
+  for (let frame = 0; frame < 50; frame++) scene.step();
+  expect(tiles).toEqual(before);
+  expect(referencePairs(tiles, 2).length).toBe(0);
+});
+
 test('a scene may be empty, and an unknown one or a bad count is an error that names it', () => {
-  expect(createScene('mixed3d', 0).boxes.length).toBe(0);
+  for (const name of [...sceneNames, ...gameNames]) expect(createScene(name, 0).boxes.length).toBe(0);
   expect(() => createScene('round2d' as SceneName, 1)).toThrow('"round2d"');
   expect(() => createScene('mixed2d', 1.5)).toThrow('1.5');
 });

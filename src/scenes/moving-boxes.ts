@@ -3,18 +3,7 @@
 // a box neither grows nor shrinks by rounding however long the scene runs.
 import type { Kind } from './kinds.ts';
 import { createRandom } from './random.ts';
-
-export interface Scene {
-  readonly name: string;
-  readonly dimensions: 2 | 3;
-  readonly count: number;
-  /** Minima then maxima of every box, as `BroadPhase.setAll` takes them. */
-  readonly boxes: Float32Array;
-  /** The side of the world, which reaches from 0 to `world` along every axis. */
-  readonly world: number;
-  /** Moves every moving box by one frame, in place. */
-  step(): void;
-}
+import type { Scene } from './scene.ts';
 
 export class MovingBoxes implements Scene {
   readonly name: string;

@@ -1,0 +1,76 @@
+// What the library must reach, each with its figure out of a file of results, and whether it is met.
+import { bestPeer } from './markdown.mjs';
+import { bestOf, short, whole } from './table.mjs';
+
+export function goals({ races, library }, cases) {
+  const find = (scene, count) => races.find((race) => race.scene === scene && race.count === count);
+  const autoOf = (race) => race?.results.find(({ name, figures }) => name === 'auto' && figures);
+
+  /** At most so many milliseconds for `auto` in one race. */
+  const atMost = (goal, scene, count, limit) => {
+    const ms = autoOf(find(scene, count))?.figures.median;
+    return { goal, figure: ms === undefined ? '' : `${short(ms)} ms`, met: ms === undefined ? undefined : ms <= limit };
+  };
+
+  /** `value(race)` is at least, or at most, the limit in all races chosen; shown is how many, and the worst. */
+  const inAll = (goal, chosen, value, [order, limit], unit) => {
+    const sign = order === 'at least' ? 1 : -1;
+    const found = chosen
+      .map((race) => ({ race, value: value(race) }))
+      .filter((entry) => entry.value !== undefined)
+      .sort((a, b) => sign * (a.value - b.value));
+    if (found.length === 0) return { goal, figure: '' };
+    const good = found.filter((entry) => sign * (entry.value - limit) >= 0).length;
+    const [worst] = found;
+    const figure = `${good} of ${found.length}; the worst: ${unit(worst.value)} (${worst.race.scene}, ${whole(worst.race.count)})`;
+    return { goal, figure, met: good === found.length };
+  };
+  const times = (value) => `${short(value)}x`;
+
+  const large = races.filter(({ scene, count }) => count === 100_000 && /[23]d$/.test(scene));
+  const againstPeers = (race) => {
+    const [peer, auto] = [bestPeer(race.results), autoOf(race)];
+    return peer && auto ? peer.figures.median / auto.figures.median : undefined;
+  };
+  const againstNative = (race) => {
+    const [native, auto] = [cases.get(race.scene)?.bestNativeMs, autoOf(race)];
+    return native && auto ? native / auto.figures.median : undefined;
+  };
+  const againstFixed = (race) => {
+    const [fixed, auto] = [bestOf(race.results.filter(({ name }) => name !== 'auto')), autoOf(race)];
+    return fixed && auto ? auto.figures.median / fixed.figures.median : undefined;
+  };
+  const garbage = (race) => {
+    const ours = race.results.filter((result) => result.peer === 'broadphase' && result.garbage !== undefined);
+    return ours.length > 0 ? Math.max(...ours.map((result) => result.garbage)) : undefined;
+  };
+  const kilobytes = library && library.gzippedBytes / 1000;
+
+  return [
+    inAll('100,000 boxes: 40 times as fast as every npm package', large, againstPeers, ['at least', 40], times),
+    { goal: '100,000 boxes: 4 times as fast as every native library, side by side', figure: '' },
+    atMost('1,000 moving boxes, 2D: 0.02 ms', 'uniform2d', 1000, 0.02),
+    atMost('100 moving boxes, 2D: 2 microseconds', 'uniform2d', 100, 0.002),
+    atMost('1,000,000 moving boxes, 2D: 16.6 ms', 'uniform2d', 1_000_000, 16.6),
+    atMost('100,000 resting and 1,000 moving: 0.1 ms', 'tile-map', 101_000, 0.1),
+    inAll(
+      'recorded scenes: ahead of every native library, by its earlier figure',
+      races,
+      againstNative,
+      ['at least', 1],
+      times,
+    ),
+    inAll('`auto` never more than 10 % slower than the best technique', races, againstFixed, ['at most', 1.1], times),
+    inAll('no JavaScript heap per frame', races, garbage, ['at most', 0], (value) => `${Math.round(value)} bytes`),
+    {
+      goal: '25 kB gzipped, kernel inlined',
+      figure: library ? `${kilobytes.toFixed(1)} kB` : '',
+      met: library && kilobytes <= 25,
+    },
+    {
+      goal: 'from import to first pairs: under 5 ms',
+      figure: library ? `${short(library.importToPairsMs)} ms` : '',
+      met: library && library.importToPairsMs < 5,
+    },
+  ];
+}

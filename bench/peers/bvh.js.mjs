@@ -1,0 +1,56 @@
+// bvh.js: a bounding volume hierarchy for three.js, either built anew each frame or kept, with what moved moved in it.
+import { BVH, HybridBuilder } from 'bvh.js';
+import { movingPairs } from '../moving-pairs.mjs';
+
+export const dimensions = [2, 3];
+export const variants = ['build', 'move'];
+
+/** How much fatter its boxes are than what they hold, where they are kept: half of what a box moves by in a frame. */
+const margin = 1;
+
+export function create({ dimensions, count, boxes, variant }) {
+  const hierarchy = new BVH(new HybridBuilder());
+  const ids = Array.from({ length: count }, (_, id) => id);
+  const rows = ids.map(() => new Float32Array(6));
+  const nodes = new Array(count);
+  const fill = (row, at) => {
+    for (let axis = 0; axis < dimensions; axis++) {
+      row[2 * axis] = boxes[at + axis];
+      row[2 * axis + 1] = boxes[at + axis + dimensions];
+    }
+  };
+  /** Both arrays are sorted in place, so it gets copies. */
+  const build = () => {
+    const keep = (node) => {
+      nodes[node.object] = node;
+    };
+    hierarchy.clear();
+    hierarchy.createFromArray(ids.slice(), rows.slice(), keep, variant === 'move' ? margin : 0);
+  };
+  for (const id of ids) fill(rows[id], 2 * dimensions * id);
+  build();
+
+  const query = new Float32Array(6);
+  let tell;
+  const hit = (id) => {
+    tell(id);
+    return false;
+  };
+  return movingPairs({
+    dimensions,
+    count,
+    boxes,
+    move(id, at) {
+      if (variant === 'build') return fill(rows[id], at);
+      const { box } = nodes[id];
+      fill(box, at);
+      hierarchy.move(nodes[id], margin);
+    },
+    ready: variant === 'build' ? build : undefined,
+    search(_, at, found) {
+      tell = found;
+      fill(query, at);
+      hierarchy.intersectsBox(query, hit);
+    },
+  });
+}

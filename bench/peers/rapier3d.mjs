@@ -1,0 +1,8 @@
+// rapier3d: see ../rapier.mjs.
+import RAPIER from '@dimforge/rapier3d-compat';
+import { rapier } from '../rapier.mjs';
+
+export const npm = '@dimforge/rapier3d-compat';
+export const dimensions = [3];
+
+export const create = (scene) => rapier(RAPIER, scene);
