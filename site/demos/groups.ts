@@ -32,7 +32,7 @@ export function groups(
   ro: typeof Ro,
   canvas: HTMLCanvasElement | null,
   coltech: Ro.coltech.Technique,
-  colors = { box: '#9db4d3', hit: '#24456f', accent: '#3f5bd9', now: '#c2410c' },
+  colors = { box: '#9db4d3', accent: '#3f5bd9', now: '#c2410c', text: '#17181b' },
 ) {
   const members: Record<Group, Ro.Entity[]> = { players: [], powerUps: [], enemies: [] };
   /** The questions that are asked. */
@@ -62,7 +62,7 @@ export function groups(
 
   /** A frame around everyone who was found, and a line from one to the other. */
   function mark(ctx: CanvasRenderingContext2D) {
-    ctx.strokeStyle = colors.hit;
+    ctx.strokeStyle = colors.text;
     ctx.lineWidth = 2;
     for (const [a, b] of found) {
       for (const { pos, size } of [a, b]) ctx.strokeRect(pos.x, pos.y, size.x, size.y);

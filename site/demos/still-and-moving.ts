@@ -19,6 +19,8 @@ export function stillAndMoving(
   const velocities = new Map<Ro.Entity, { x: number; y: number }>();
   /** The cells touched lately, by place, and how many steps ago. */
   const touched = new Map<string, { column: number; row: number; age: number }>();
+  /** What was moved since the last step that took time. */
+  const since = { moved: 0, changes: [] as RetainedGrid['changes'] };
   /** Per step, on average. */
   const work = { moved: 0, changed: 0 };
 
@@ -36,11 +38,9 @@ export function stillAndMoving(
 
     update(dt) {
       for (const entity of this.entities) turnRound(entity, width, height);
-      if (dt === 0) return;
-      work.moved += FOLLOW * (coltech.moved - work.moved);
-      work.changed += FOLLOW * (coltech.changes.length - work.changed);
-      for (const [name, cell] of touched) if (++cell.age > FADE) touched.delete(name);
-      for (const { column, row } of coltech.changes) touched.set(`${column}:${row}`, { column, row, age: 0 });
+      since.moved += coltech.moved;
+      since.changes.push(...coltech.changes);
+      if (dt > 0) account();
     },
   });
 
@@ -52,7 +52,19 @@ export function stillAndMoving(
     velocities.set(entity, { x: SPEED * (2 * random() - 1), y: SPEED * (2 * random() - 1) });
     world.addEntity(entity);
   }
-  world.step(0); // all are new, and enter their cells; that is not counted
+  world.step(0); // all are new, and enter their cells; that does not count
+  since.moved = 0;
+  since.changes = [];
+
+  /** Lights the cells that were touched, and brings the averages up to date. */
+  function account() {
+    for (const [name, cell] of touched) if (++cell.age > FADE) touched.delete(name);
+    for (const { column, row } of since.changes) touched.set(`${column}:${row}`, { column, row, age: 0 });
+    work.moved += FOLLOW * (since.moved - work.moved);
+    work.changed += FOLLOW * (since.changes.length - work.changed);
+    since.moved = 0;
+    since.changes = [];
+  }
 
   /** Lets this share of the boxes move, from 0 to 1, and the others rest. */
   function move(share: number) {

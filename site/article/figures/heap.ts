@@ -15,6 +15,8 @@ const shownTime = 4 * turn;
 /** Samples kept: more than the frames of the time shown. */
 const kept = 4096;
 const MB = 1e6;
+/** A name is written where its stretch of the chart is wider, in CSS pixels. */
+const roomForName = 64;
 const inTurn = -1;
 const colorOf = ['now', 'accent', 'muted', 'text'] as const;
 const dashOf = [[], [], [2, 3], [7, 4]] as const;
@@ -60,21 +62,25 @@ export function mount(root: HTMLElement): () => void {
 
       ctx.lineWidth = 2;
       ctx.lineJoin = 'round';
-      let previous = -1;
-      for (let i = first; i < samples; i++) {
-        const at = i % kept;
-        if (times[at] < from) continue;
-        if (owners[at] !== previous) {
-          if (previous >= 0) ctx.stroke();
-          previous = owners[at];
-          ctx.strokeStyle = colors[colorOf[previous]];
-          ctx.setLineDash([...dashOf[previous]]);
-          ctx.beginPath();
-          text(ctx, worlds[previous].name, Math.max(start, x(times[at])) + 4, 10, colors[colorOf[previous]], 'left');
+      let begun = first;
+      while (begun < samples && times[begun % kept] < from) begun++;
+      while (begun < samples) {
+        const owner = owners[begun % kept];
+        const color = colors[colorOf[owner]];
+        ctx.strokeStyle = color;
+        ctx.setLineDash([...dashOf[owner]]);
+        ctx.beginPath();
+        const left = x(times[begun % kept]);
+        let right = left;
+        let i = begun;
+        for (; i < samples && owners[i % kept] === owner; i++) {
+          right = x(times[i % kept]);
+          ctx.lineTo(right, y(values[i % kept]));
         }
-        ctx.lineTo(x(times[at]), y(values[at]));
+        ctx.stroke();
+        if (right - left > roomForName) text(ctx, worlds[owner].name, left + 4, 10, color, 'left');
+        begun = i;
       }
-      if (previous >= 0) ctx.stroke();
       ctx.setLineDash([]);
     },
   });
@@ -88,7 +94,7 @@ export function mount(root: HTMLElement): () => void {
     tell();
   });
   const names = worlds.map(({ name }, i) => [i, name] as const);
-  choice(left, 'On', [[inTurn, 'All in turn'], ...names], chosen, (value) => {
+  choice(left, 'Running', [[inTurn, 'All in turn'], ...names], chosen, (value) => {
     chosen = value;
   });
 
@@ -200,7 +206,8 @@ export function mount(root: HTMLElement): () => void {
     });
     say(
       tellsHeap
-        ? `${worlds[0].world.entities.length} squares. What little is left with the library is the demo’s own.`
+        ? `${worlds[0].world.entities.length} squares. Large cells make few arrays, but many keys for the table of tested ` +
+            'pairs. What little there is with the library is the demo’s and the chart’s own.'
         : 'This browser does not tell the size of its memory, so the chart counts the arrays that the grids make.',
     );
     view.describe(

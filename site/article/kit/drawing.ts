@@ -61,6 +61,8 @@ export interface BoxLook {
   lineWidth?: number | undefined;
   /** Written in the middle. */
   label?: string | undefined;
+  /** Writes it in the upper left corner instead, where a box that lies on this one rarely is. */
+  corner?: boolean | undefined;
   labelColor?: string | undefined;
 }
 
@@ -68,7 +70,7 @@ export function boxOn(
   ctx: CanvasRenderingContext2D,
   { scale, x, y }: Fit,
   [boxX, boxY, width, height]: readonly [number, number, number, number],
-  { fill, line, dash = [], lineWidth = 1.5, label, labelColor }: BoxLook,
+  { fill, line, dash = [], lineWidth = 1.5, label, labelColor, corner = false }: BoxLook,
 ): void {
   const left = x + boxX * scale;
   const top = y + boxY * scale;
@@ -85,7 +87,11 @@ export function boxOn(
     ctx.strokeRect(left, top, across, down);
     ctx.setLineDash([]);
   }
-  if (label) text(ctx, label, left + across / 2, top + down / 2, labelColor ?? line ?? '#000');
+  if (label) {
+    const inset = corner ? 12 : Number.POSITIVE_INFINITY;
+    const color = labelColor ?? line ?? '#000';
+    text(ctx, label, left + Math.min(inset, across / 2), top + Math.min(inset, down / 2), color);
+  }
 }
 
 export function text(
@@ -103,12 +109,14 @@ export function text(
   ctx.fillText(words, x, y + 0.5);
 }
 
-/** What a box is drawn in: alone, colliding, or what the step at hand is about. */
-export function lookOf(colors: Colors, state: 'alone' | 'hit' | 'now', label?: string): BoxLook {
-  if (state === 'now') return { fill: colors.box, line: colors.now, lineWidth: 2.5, label, labelColor: colors.text };
+/** What a box is drawn in, alone or colliding, with its number in a corner. */
+export function lookOf(colors: Colors, state: 'alone' | 'hit', label?: string): BoxLook {
   return {
     fill: state === 'hit' ? colors.hit : colors.box,
+    line: colors.page,
+    lineWidth: 1,
     label,
     labelColor: state === 'hit' ? colors.surface : colors.text,
+    corner: true,
   };
 }

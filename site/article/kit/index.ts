@@ -3,8 +3,8 @@
 // A figure is `<figure id="fig-N" data-figure="name">` in index.html, with its caption there, and a module
 // `figures/name.ts` that exports `mount`. The page calls mount once, shortly before the figure comes into sight, with an
 // empty <div class="live"> to build in. What mount returns, if anything, is called whenever the figure goes out of
-// sight: stop what runs. It must be ready to run again. `--tall` and `--tall-phone` on the figure, in rem, reserve the
-// height that the live part will have: keep them true, so that nothing on the page jumps.
+// sight: stop what runs. It must be ready to run again. `--tall`, `--tall-tablet` and `--tall-phone` on the figure, in
+// rem, reserve the height of the live part on screens 1280, 768 and 375 pixels wide: keep them true, or the page jumps.
 //
 // createView        a canvas to draw on in CSS pixels; draw() gets the colours of the theme; describe() says it in words
 // worldCanvas       a canvas for a `ro.World`
