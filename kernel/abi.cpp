@@ -10,7 +10,7 @@ constinit Settings options;
 constinit Space<2> flat(ids, options);
 constinit Space<3> solid(ids, options);
 bool is_flat = true;
-f64 io[8];
+f64 io[16];
 
 /// Calls `what` with the space in use.
 template <class What> auto with_space(What what) { return is_flat ? what(flat) : what(solid); }
@@ -21,11 +21,12 @@ template <class What> auto with_space(What what) { return is_flat ? what(flat) :
 
 EXPORT(io_address)() -> f64* { return io; }
 
-/// Once, first; then, where the user says so, the cell size and the bounds, from io.
+/// Once, first; then, where the user says so, the margin, and the cell size and the bounds, from io.
 EXPORT(open_space)(u32 dimensions) -> void { is_flat = dimensions == 2; }
 EXPORT(set_cell_size)() -> void {
   for (int k = 0; k < 3; k++) options.cell_size[k] = io[k];
 }
+EXPORT(set_margin)(f64 margin) -> void { options.margin = margin; }
 EXPORT(set_bounds)() -> void {
   for (int k = 0; k < 6; k++) options.bounds[k] = io[k];
 }
@@ -47,6 +48,20 @@ EXPORT(get)(u32 id) -> u32 {
 EXPORT(size)() -> u32 { return ids.count(); }
 EXPORT(clear)() -> void {
   with_space([](auto& space) { space.clear(); });
+}
+
+/// Both return 0 where there is no such box.
+EXPORT(set_filter)(u32 id, u32 layer, u32 mask) -> u32 {
+  u32 slot = ids.slot(id);
+  if (slot == Ids::none) return 0;
+  with_space([&](auto& space) { space.filter(slot, layer, mask); });
+  return 1;
+}
+EXPORT(set_static)(u32 id, u32 on) -> u32 {
+  u32 slot = ids.slot(id);
+  if (slot == Ids::none) return 0;
+  with_space([&](auto& space) { space.exclude(slot, is_static, on != 0); });
+  return 1;
 }
 
 EXPORT(stage)(u32 count) -> f32* {
@@ -86,6 +101,32 @@ EXPORT(pairs_address)() -> u64* {
 }
 EXPORT(pair_count)() -> u32 {
   return with_space([](auto& space) { return u32(space.pairs.count); });
+}
+/// From now on the pairs that began and ended are kept with every update.
+EXPORT(set_events)() -> void {
+  with_space([](auto& space) { space.keeps_events = true; });
+}
+EXPORT(began_address)() -> u64* {
+  return with_space([](auto& space) { return space.events.began.list.data(); });
+}
+EXPORT(began_count)() -> u32 {
+  return with_space([](auto& space) { return u32(space.events.began.count); });
+}
+EXPORT(ended_address)() -> u64* {
+  return with_space([](auto& space) { return space.events.ended.list.data(); });
+}
+EXPORT(ended_count)() -> u32 {
+  return with_space([](auto& space) { return u32(space.events.ended.count); });
+}
+EXPORT(is_pair)(u32 a, u32 b) -> u32 {
+  return with_space([&](auto& space) { return space.is_pair(a, b); });
+}
+/// The number of answers, which are ids.
+EXPORT(partners)(u32 id) -> u32 {
+  return with_space([&](auto& space) { return space.partners(id); });
+}
+EXPORT(answers_address)() -> u32* {
+  return with_space([](auto& space) { return space.answers.data(); });
 }
 EXPORT(stats_address)() -> Stats* {
   return with_space([](auto& space) { return &space.stats; });

@@ -68,6 +68,14 @@ inline Item<3> with_tag(Item<3> item, u32 more) {
   return {bits<f32x4>(bits<u32x4>(item.low) | u32x4{0, 0, 0, more}), item.high};
 }
 
+/// Whether two items are the same, bit by bit.
+inline bool same(const Item<2>& a, const Item<2>& b) {
+  return a.tag == b.tag && !any(bits<i32x4>(a.box) ^ bits<i32x4>(b.box));
+}
+inline bool same(const Item<3>& a, const Item<3>& b) {
+  return !any((bits<i32x4>(a.low) ^ bits<i32x4>(b.low)) | (bits<i32x4>(a.high) ^ bits<i32x4>(b.high)));
+}
+
 /// Items read straight from the scene.
 template <int D> struct SceneItems {
   Scene<D> scene;
@@ -85,6 +93,14 @@ template <int D> struct SceneItems {
       return {bits<f32x4>(bits<u32x4>(low) | u32x4{0, 0, 0, tag}), high};
     }
   }
+};
+
+/// Items of the scene in another order: slots, with marks of their own.
+template <int D> struct PickedItems {
+  SceneItems<D> items;
+  const u32* slots;
+
+  Item<D> operator[](size_t k) const { return with_tag(items[slots[k] & slot_mask], slots[k] & ~slot_mask); }
 };
 
 /// Items stored one after the other, in the order a technique has put them.
@@ -132,6 +148,18 @@ template <int D> struct LaneView {
   const u32* tag;
 };
 
+/// Four rows of four, turned into columns.
+inline void transpose(f32x4 (&row)[4]) {
+  f32x4 ab_low = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
+  f32x4 ab_high = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
+  f32x4 cd_low = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
+  f32x4 cd_high = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
+  row[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+  row[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+  row[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+  row[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+}
+
 /// Items as structure of arrays, for tests of one against four: lo and hi per axis, and the tags.
 /// Followed by a block of NaN boxes, which overlap nothing: reading past the end is harmless.
 template <int D> class Lanes {
@@ -139,7 +167,7 @@ template <int D> class Lanes {
   size_t stride_ = 0;
 
  public:
-  static constexpr u32 padding = 12;
+  static constexpr u32 padding = 16;
 
   f32* lo(int axis) const { return values_.data() + size_t(axis) * stride_; }
   f32* hi(int axis) const { return values_.data() + size_t(D + axis) * stride_; }
@@ -167,15 +195,17 @@ template <int D> class Lanes {
   }
 
   /// Transposes n items, four at a time.
-  void fill(ItemsAt<D> items, u32 n) const {
+  template <class Source> NOINLINE void fill(const Source& items, u32 n) const {
     u32 k = 0;
-    for (; k + 4 <= n; k += 4) put4(k, items[k], items[k + 1], items[k + 2], items[k + 3]);
-    Item<D> none = nothing();
-    if (k < n) {
-      put4(k, items[k], k + 1 < n ? items[k + 1] : none, k + 2 < n ? items[k + 2] : none, none);
-      k += 4;
+    for (; k + 4 <= n; k += 4) {
+      Item<D> four[4] = {items[k], items[k + 1], items[k + 2], items[k + 3]};
+      put4(k, four);
     }
-    for (u32 end = n + padding; k + 4 <= end; k += 4) put4(k, none, none, none, none);
+    for (; k + 4 <= n + padding; k += 4) {
+      Item<D> four[4];
+      for (u32 lane = 0; lane < 4; lane++) four[lane] = k + lane < n ? items[k + lane] : nothing();
+      put4(k, four);
+    }
   }
 
  private:
@@ -185,38 +215,27 @@ template <int D> class Lanes {
     else return {nan, nan};
   }
 
-  void put4(u32 k, Item<D> a, Item<D> b, Item<D> c, Item<D> d) const {
+  void put4(u32 k, const Item<D> (&item)[4]) const {
     if constexpr (D == 2) {
-      f32x4 row[4] = {a.box, b.box, c.box, d.box};
+      f32x4 row[4] = {item[0].box, item[1].box, item[2].box, item[3].box};
       transpose(row);
       store(lo(0) + k, row[0]);
       store(lo(1) + k, row[1]);
       store(hi(0) + k, row[2]);
       store(hi(1) + k, row[3]);
-      store(tag() + k, u32x4{a.tag, b.tag, c.tag, d.tag});
+      store(tag() + k, u32x4{item[0].tag, item[1].tag, item[2].tag, item[3].tag});
     } else {
-      f32x4 row[4] = {a.low, b.low, c.low, d.low};
+      f32x4 row[4] = {item[0].low, item[1].low, item[2].low, item[3].low};
       transpose(row);
       store(lo(0) + k, row[0]);
       store(lo(1) + k, row[1]);
       store(lo(2) + k, row[2]);
       store(tag() + k, row[3]);
-      f32x4 top[4] = {a.high, b.high, c.high, d.high};
+      f32x4 top[4] = {item[0].high, item[1].high, item[2].high, item[3].high};
       transpose(top);
       store(hi(0) + k, top[0]);
       store(hi(1) + k, top[1]);
       store(hi(2) + k, top[2]);
     }
-  }
-
-  static void transpose(f32x4 (&row)[4]) {
-    f32x4 ab_low = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
-    f32x4 ab_high = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
-    f32x4 cd_low = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
-    f32x4 cd_high = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
-    row[0] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
-    row[1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
-    row[2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
-    row[3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
   }
 };

@@ -10,9 +10,17 @@
 // Code that runs once in a while: small rather than fast, and out of the way of the code that runs often.
 #if defined(__clang__)
 #define COLD __attribute__((noinline, minsize))
+// Before a loop that is long enough without being unrolled.
+#define ROLLED _Pragma("clang loop unroll(disable)")
 #else
 #define COLD __attribute__((noinline, cold))
+#define ROLLED _Pragma("GCC unroll 1")
 #endif
+// One copy for all callers: code that runs long each time it is called.
+#define SHARED __attribute__((noinline))
+
+// One copy of what several callers share.
+#define NOINLINE __attribute__((noinline))
 
 enum class Fault : u32 { none = 0, out_of_memory = 1 };
 

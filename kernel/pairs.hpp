@@ -10,9 +10,14 @@ struct Pairs {
 
   static constexpr u64 slack = 4;  // the compress-store writes up to four pairs past the end
 
+  /// How many pairs stand between two places. The difference of pointers is signed: in 32 bits it ends at 2 GiB.
+  static u64 between(const u64* from, const u64* to) {
+    return (reinterpret_cast<size_t>(to) - reinterpret_cast<size_t>(from)) / sizeof(u64);
+  }
+
   /// Makes room for `more` pairs behind `out` and gives the place to go on writing.
   u64* room(u64* out, u64 more) {
-    u64 have = u64(out - list.data());
+    u64 have = between(list.data(), out);
     if (have + more + slack > list.capacity()) return list.grow(have + more + slack, have) + have;
     return out;
   }

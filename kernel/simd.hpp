@@ -45,6 +45,7 @@ template <class To, class From> inline To bits(From value) {
 #if defined(__wasm_simd128__)
 /// One bit a lane: its sign.
 inline u32 bitmask(i32x4 v) { return wasm_i32x4_bitmask(bits<v128_t>(v)); }
+inline bool any(i32x4 v) { return wasm_v128_any_true(bits<v128_t>(v)); }
 inline u32x4 min(u32x4 a, u32x4 b) { return bits<u32x4>(wasm_u32x4_min(bits<v128_t>(a), bits<v128_t>(b))); }
 inline u32x4 max(u32x4 a, u32x4 b) { return bits<u32x4>(wasm_u32x4_max(bits<v128_t>(a), bits<v128_t>(b))); }
 /// min and max of floats; where one is NaN the result is the second.
@@ -55,6 +56,7 @@ inline u8x16 swizzle(u8x16 v, u8x16 index) {
 }
 #else
 inline u32 bitmask(i32x4 v) { return u32(_mm_movemask_ps(bits<__m128>(v))); }
+inline bool any(i32x4 v) { return !_mm_testz_si128(bits<__m128i>(v), bits<__m128i>(v)); }
 inline u32x4 min(u32x4 a, u32x4 b) { return bits<u32x4>(_mm_min_epu32(bits<__m128i>(a), bits<__m128i>(b))); }
 inline u32x4 max(u32x4 a, u32x4 b) { return bits<u32x4>(_mm_max_epu32(bits<__m128i>(a), bits<__m128i>(b))); }
 inline f32x4 min(f32x4 a, f32x4 b) { return bits<f32x4>(_mm_min_ps(bits<__m128>(a), bits<__m128>(b))); }

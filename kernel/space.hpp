@@ -5,7 +5,9 @@
 // re-tested in double where one of the two was rounded. Boxes that float32 holds pay nothing.
 // Every change allocates before it writes: when memory ends, the space is as it was.
 #pragma once
-#include "ids.hpp"
+#include "events.hpp"
+#include "filters.hpp"
+#include "neighbours.hpp"
 #include "techniques.hpp"
 
 template <int D> class Space {
@@ -24,13 +26,19 @@ template <int D> class Space {
   Buffer<u8> rounded_, staged_rounded_;  // per slot, while `rounding_`: whether float32 cannot hold the box
   bool rounding_ = false;
   bool exposed_ = false;  // `boxes()` has handed out the memory: look for bad numbers at the next update
-  Buffer<u32> excluded_;  // per slot its exclusion bits, while `excluding_`
-  bool excluding_ = false;
+  Filters filters_;
   Techniques<D> techniques_;
   Technique ran_ = Technique::brute_force;
+  // Made of the pairs at the first question after an update.
+  PairTable table_;
+  Neighbours neighbours_;
+  bool neighbours_made_ = false;
 
  public:
   Pairs pairs;
+  Events events;  // while `keeps_events`
+  bool keeps_events = false;
+  Buffer<u32> answers;  // ids, of the last question
   Stats stats;
   Buffer<f32> cells;  // what structure() has written
   u32 cell_count = 0;
@@ -56,7 +64,7 @@ template <int D> class Space {
     if (slot == Ids::none) {
       make_room(u64(ids_.count()) + 1, ids_.count());
       slot = ids_.insert(id);
-      if (excluding_) excluded_[slot] = 0;
+      if (filters_.active()) filters_.insert(slot);
     }
     __builtin_memcpy(boxes_.data() + u64(slot) * width, low_high, sizeof(low_high));
     if (rounding_) {
@@ -69,11 +77,12 @@ template <int D> class Space {
   COLD bool remove(u32 id) {
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
+    if (keeps_events) events.forget(id);
     ids_.erase(id);
     u32 last = ids_.count();
+    if (filters_.active()) filters_.move(last, slot);
     if (slot == last) return true;
     __builtin_memcpy(boxes_.data() + u64(slot) * width, boxes_.data() + u64(last) * width, width * sizeof(f32));
-    if (excluding_) excluded_[slot] = excluded_[last];
     if (rounding_) {
       __builtin_memcpy(exact_.data() + u64(slot) * width, exact_.data() + u64(last) * width, width * sizeof(f64));
       rounded_[slot] = rounded_[last];
@@ -90,8 +99,10 @@ template <int D> class Space {
   }
 
   COLD void clear() {
+    forget_from(0);
     ids_.reset(0);
-    exposed_ = rounding_ = excluding_ = false;
+    filters_.clear();
+    exposed_ = rounding_ = false;
   }
 
   /// Memory into which the next `replace` expects its boxes, as float32 or as doubles.
@@ -149,24 +160,31 @@ template <int D> class Space {
     return boxes_.data();
   }
 
+  /// Sets the layer and the mask of a box.
+  COLD void filter(u32 slot, u32 layer, u32 mask) {
+    Rule& rule = rule_of(slot);
+    rule.layer = layer;
+    rule.mask = mask;
+  }
+
   /// Sets or clears an exclusion bit of a box.
   COLD void exclude(u32 slot, u32 bit, bool on) {
-    if (!excluding_) {
-      if (!on) return;
-      excluded_.reserve(boxes_.capacity() / width);
-      __builtin_memset(excluded_.data(), 0, ids_.count() * sizeof(u32));
-      excluding_ = true;
-    }
-    excluded_[slot] = on ? excluded_[slot] | bit : excluded_[slot] & ~bit;
+    if (!on && !filters_.active()) return;
+    Rule& rule = rule_of(slot);
+    rule.excluded = on ? rule.excluded | bit : rule.excluded & ~bit;
   }
 
   /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
   i32 update() {
     if (exposed_) {
       i32 bad = first_bad(boxes_.data(), ids_.count());
-      if (bad >= 0) return bad;
+      if (bad >= 0) return i32(ids_.id(u32(bad)));  // since it was written, a removal may have moved it
     }
-    Scene<D> scene{boxes_.data(), ids_.count(), excluding_ ? excluded_.data() : nullptr};
+    Scene<D> scene{boxes_.data(), ids_.count(), nullptr};
+    if (filters_.active()) {
+      scene.boxes = filters_.select(scene.boxes, scene.count, width);
+      scene.excluded = filters_.excluded();
+    }
     pairs.count = 0;
     stats = Stats{};
     Technique chosen = technique;
@@ -177,12 +195,31 @@ template <int D> class Space {
     ran_ = chosen;
     techniques_.with(ran_, [&](auto& chosen) { chosen.update(scene, options_, pairs, stats); });
     stats.candidates = f64(pairs.count);
+    if (filters_.active()) filters_.finish(pairs);
     if (rounding_) retest();
     if (!ids_.same()) name_pairs();
+    if (keeps_events) events.follow(pairs, table_);
+    table_.made = neighbours_made_ = false;
     stats.pairs = f64(pairs.count);
+    // Growing later would cut the views of the pairs off: what the ids take at the first gap is taken now.
+    heap::reach(u64(ids_.count()) * 2 * sizeof(u32) + (1 << 16));
     stats.bytes = f64(heap::used);
     stats.technique = f64(u32(ran_));
     return -1;
+  }
+
+  /// Whether two ids are a pair of the last update.
+  COLD bool is_pair(u32 a, u32 b) {
+    if (pairs.count == 0) return false;
+    if (!table_.made) table_.make(pairs);
+    return table_.find(pairs, u64(smaller(a, b)) | u64(larger(a, b)) << 32) != PairTable::none;
+  }
+
+  /// Writes the ids that were in a pair with this one in the last update to `answers`; returns how many.
+  COLD u32 partners(u32 id) {
+    if (!neighbours_made_) neighbours_.build(pairs);
+    neighbours_made_ = true;
+    return neighbours_.of(id, answers);
   }
 
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
@@ -213,7 +250,8 @@ template <int D> class Space {
   COLD void recover() {
     release_techniques();
     pairs.list.release();
-    pairs.count = 0;
+    pairs.count = events.began.count = events.ended.count = 0;
+    table_.made = neighbours_made_ = false;
     stats = Stats{};
     stats.bytes = f64(heap::used);
   }
@@ -243,7 +281,7 @@ template <int D> class Space {
         f64 given = exact_[u64(s) * width + k];
         f64 held = boxes_[u64(s) * width + k];
         if (k < D ? held > given : held < given) return 3;
-        exact &= held == given;
+        exact &= !(held < given || held > given);  // a NaN written in place is for the next update to find
       }
       if (exact == bool(rounded_[s])) return 4;
     }
@@ -278,7 +316,7 @@ template <int D> class Space {
   COLD void make_room(u64 count, u32 keep) {
     if (count > max_slots) fail(Fault::out_of_memory, f64(count) * width * sizeof(f32));
     boxes_.grow(count * width + padding, u64(keep) * width);
-    if (excluding_) excluded_.grow(count, keep);
+    if (filters_.active()) filters_.make_room(count, keep);
     if (rounding_) {
       exact_.grow(count * width, u64(keep) * width);
       rounded_.grow(count, keep);
@@ -295,34 +333,39 @@ template <int D> class Space {
     rounding_ = true;
   }
 
-  /// The ids become 0 … count - 1; those that were there keep their exclusion bits.
-  COLD void renumber(u32 count) {
-    if (excluding_) {
-      u32 had = ids_.count();
-      if (ids_.same()) {
-        excluded_.grow(count, smaller(had, count));
-        if (count > had) __builtin_memset(excluded_.data() + had, 0, (count - had) * sizeof(u32));
-      } else {
-        Buffer<u32> moved;
-        moved.reserve(count);
-        for (u32 id = 0; id < count; id++) {
-          u32 slot = ids_.slot(id);
-          moved[id] = slot == Ids::none ? 0 : excluded_[slot];
-        }
-        excluded_.swap(moved);
-        moved.release();
-      }
+  /// The rule of a box, to be changed.
+  COLD Rule& rule_of(u32 slot) {
+    if (!filters_.active()) filters_.start(ids_.count(), boxes_.capacity() / width);
+    return filters_.change(slot);
+  }
+
+  /// The boxes of ids from this one on are about to go.
+  COLD void forget_from(u32 first) {
+    for (u32 s = 0; keeps_events && s < ids_.count(); s++) {
+      if (ids_.id(s) >= first) events.forget(ids_.id(s));
     }
+  }
+
+  /// The ids become 0 … count - 1; those that were there keep their filters.
+  COLD void renumber(u32 count) {
+    forget_from(count);
+    if (filters_.active()) filters_.renumber(ids_, count);
     ids_.reset(count);
   }
 
   /// The first of `count` boxes with a NaN or with a minimum above its maximum, or -1.
   static i32 first_bad(const f32* boxes, u32 count) {
+    constexpr u32 all = D == 2 ? 3 : 7;
     for (u32 s = 0; s < count; s++) {
-      const f32* box = boxes + u64(s) * width;
-      bool good = true;
-      for (int a = 0; a < D; a++) good &= box[a] <= box[D + a];
-      if (!good) return i32(s);
+      f32x4 low = load<f32x4>(boxes + u64(s) * width);
+      f32x4 high;
+      if constexpr (D == 2) {
+        high = __builtin_shufflevector(low, low, 2, 3, 2, 3);
+      } else {
+        f32x4 tail = load<f32x4>(boxes + u64(s) * width + 2);
+        high = __builtin_shufflevector(tail, tail, 1, 2, 3, 3);
+      }
+      if ((bitmask(low <= high) & all) != all) return i32(s);
     }
     return -1;
   }

@@ -17,6 +17,22 @@ template <int D> struct Statistics {
   f64 low[D], high[D];  // extents of the boxes' lower corners, without outliers
   f64 size[D];          // mean sizes, each clipped to the extent
   f64 crowding;         // 1: spread evenly
+
+  /// The axis along which the world is longest, measured in boxes; `kept` where it is nearly that.
+  COLD int longest(int kept = -1) const {
+    int best = 0;
+    f64 most = -1;
+    for (int a = 0; a < D; a++) {
+      f64 extent = high[a] - low[a];
+      f64 length = extent > 0 ? extent / larger(size[a], extent * 1e-7) : 0;
+      if (a == kept) length *= 1.5;
+      if (length > most) {
+        most = length;
+        best = a;
+      }
+    }
+    return best;
+  }
 };
 
 namespace detail {
@@ -47,6 +63,9 @@ COLD inline f32 select(f32* v, i32 n, i32 k) {
   }
   return v[k];
 }
+
+/// How many of so many boxes are looked at.
+inline u32 samples_of(u32 count) { return smaller(count, smaller(larger(count / 64, 256u), most_samples)); }
 
 inline bool is_finite(f32 x) { return x - x == 0; }
 
@@ -90,28 +109,23 @@ COLD inline void extents(const f32* v, u32 n, f64& low, f64& high) {
   }
 }
 
-}  // namespace detail
-
-/// Statistics of `count` items (Source: SceneItems or ItemsAt), along the axes as the source gives them.
-template <int D, class Source> Statistics<D> measure(const Source& items, u32 count) {
-  using detail::sample;
-  u32 n = smaller(count, smaller(larger(count / 64, 256u), detail::most_samples));
-  u32 stride = count / n;
-  u32 jitter = 0x9e3779b9;
-  for (u32 k = 0; k < n; k++) {
-    jitter = jitter * 1664525 + 1013904223;
-    Item<D> item = items[k * stride + u32((u64(jitter) * stride) >> 32)];
-    for (int a = 0; a < D; a++) {
-      sample[a][k] = item.lo(a);
-      sample[D + a][k] = item.hi(a);
-    }
+/// After `measure` of `count` items: the size along an axis that this share of the sample does not exceed.
+COLD inline f64 common_size(int axis, int dimensions, u32 count, f64 share) {
+  i32 n = i32(samples_of(count)), kept = 0;
+  for (i32 k = 0; k < n; k++) {
+    f32 size = sample[dimensions + axis][k] - sample[axis][k];
+    if (is_finite(size)) sorted[kept++] = size;
   }
+  return kept ? select(sorted, kept, i32((kept - 1) * share)) : 0;
+}
 
+/// Statistics of the n items sampled.
+template <int D> SHARED Statistics<D> judge(u32 n) {
   Statistics<D> found;
   constexpr u32 side = D == 2 ? 64 : 16;
-  static u16 cell[detail::most_samples];
+  static u16 cell[most_samples];
   for (int a = 0; a < D; a++) {
-    detail::extents(sample[a], n, found.low[a], found.high[a]);
+    extents(sample[a], n, found.low[a], found.high[a]);
     f64 extent = found.high[a] - found.low[a];
     f64 sum = 0;
     for (u32 k = 0; k < n; k++) {
@@ -136,17 +150,55 @@ template <int D, class Source> Statistics<D> measure(const Source& items, u32 co
   return found;
 }
 
+}  // namespace detail
+
+/// Statistics of `count` items (Source: SceneItems or ItemsAt), along the axes as the source gives them.
+template <int D, class Source> SHARED Statistics<D> measure(const Source& items, u32 count) {
+  using detail::sample;
+  u32 n = detail::samples_of(count);
+  u32 stride = count / n;
+  u32 jitter = 0x9e3779b9;
+  for (u32 k = 0; k < n; k++) {
+    jitter = jitter * 1664525 + 1013904223;
+    Item<D> item = items[k * stride + u32((u64(jitter) * stride) >> 32)];
+    for (int a = 0; a < D; a++) {
+      sample[a][k] = item.lo(a);
+      sample[D + a][k] = item.hi(a);
+    }
+  }
+  return detail::judge<D>(n);
+}
+
+/// The same for a few items, in one pass: extents with their outliers, and no crowding.
+template <int D, class Source> Statistics<D> glance(const Source& items, u32 count) {
+  Statistics<D> found;
+  found.crowding = 1;
+  for (int a = 0; a < D; a++) {
+    f32 least = __builtin_inff(), most = -least, sum = 0;
+    for (u32 k = 0; k < count; k++) {
+      Item<D> item = items[k];
+      f32 low = item.lo(a);
+      least = smaller(least, low);
+      most = larger(most, low);
+      sum += item.hi(a) - low;
+    }
+    found.low[a] = least;
+    found.high[a] = most;
+    found.size[a] = sum / f32(count);
+  }
+  return found;
+}
+
 /// A monotone map from a coordinate to a cell index in [0, cells): the distance from `low`, scaled and clamped.
 /// Adding 2^23 leaves the nearest integer in the low bits of the float, which costs one addition where a
 /// conversion that must not trap costs many instructions. `shrink` is a power of two that brings the extent near
 /// 1, so that neither denormal nor huge extents overflow.
 struct Axis {
   static constexpr f32 magic = 8388608;  // 2^23
-  f32 low = 0, shrink = 1, scale = 0, last = magic;
+  f32 low = 0, shrink = 0, scale = 0, last = 0;
 
   COLD static Axis make(f64 low, f64 high, u32 cells) {
-    Axis axis;
-    axis.low = f32(low);
+    Axis axis{f32(low), 1, 0, magic};
     f64 extent = high - low;
     if (!(extent > 0) || cells < 2) return axis;
     i32 exponent = i32(bits<u64>(extent) >> 52) - 1023;
@@ -169,6 +221,7 @@ struct Axis {
 struct Axes {
   f32x4 low, shrink, scale, last;
 
+  Axes() = default;
   Axes(const Axis& a, const Axis& b, const Axis& c, const Axis& d)
       : low{a.low, b.low, c.low, d.low},
         shrink{a.shrink, b.shrink, c.shrink, d.shrink},

@@ -35,13 +35,13 @@ template <int D> struct Probe {
 /// Tests item i of [first, last) against the items i + 1 … end[i] - 1 and appends the pairs.
 /// `exact_end`: what stands behind `end` may overlap, so lanes past it are masked out.
 template <int D, bool exact_end = false>
-inline void sweep(const Lanes<D>& from, const u32* end, u32 first, u32 last, Pairs& pairs) {
+NOINLINE void sweep(const Lanes<D>& from, const u32* end, u32 first, u32 last, Pairs& pairs) {
   const LaneView<D> lanes = from.view();  // on the stack nothing aliases it
   u64* out = pairs.list.data() + pairs.count;
   u64* limit = pairs.list.data() + pairs.list.capacity();
   for (u32 i = first; i < last; i++) {
     u32 until = end[i];
-    if (out + (until - i) + Pairs::slack > limit) {
+    if (Pairs::between(out, limit) < (until - i) + Pairs::slack) {
       out = pairs.room(out, until - i);
       limit = pairs.list.data() + pairs.list.capacity();
     }
@@ -53,5 +53,94 @@ inline void sweep(const Lanes<D>& from, const u32* end, u32 first, u32 last, Pai
       out = append(out, probe.slot, tags & splat(slot_mask), bitmask(hits));
     }
   }
+  pairs.count = Pairs::between(pairs.list.data(), out);
+}
+
+/// Items that stand together, to be tested against one that stands elsewhere or before them.
+struct Run {
+  u32 item, from, until;
+};
+
+/// Appends a run, unless it is empty.
+inline Run* add(Run* out, u32 item, u32 from, u32 until) {
+  *out = {item, from, until};
+  return out + (from < until);
+}
+
+/// Tests all items of each run against its one and appends the pairs. Returns the number of tests.
+template <int D> NOINLINE f64 sweep_runs(const Lanes<D>& from, const Run* runs, const Run* end, Pairs& pairs) {
+  const LaneView<D> lanes = from.view();
+  u64* out = pairs.list.data() + pairs.count;
+  u64* limit = pairs.list.data() + pairs.list.capacity();
+  u64 tests = 0;
+  for (; runs < end; runs++) {
+    Run run = *runs;
+    u32 length = run.until - run.from;
+    tests += length;
+    if (u64(limit - out) < length + Pairs::slack) {
+      out = pairs.room(out, length);
+      limit = pairs.list.data() + pairs.list.capacity();
+    }
+    Probe<D> probe(lanes, run.item);
+    for (u32 j = run.from; j < run.until; j += 4) {
+      u32x4 tags = load<u32x4>(lanes.tag + j);
+      i32x4 hits = probe.hits(lanes, j, tags) & bits<i32x4>(u32x4{0, 1, 2, 3} + splat(j) < splat(run.until));
+      out = append(out, probe.slot, tags & splat(slot_mask), bitmask(hits));
+    }
+  }
   pairs.count = u64(out - pairs.list.data());
+  return f64(tests);
+}
+
+/// Tests each item of [i, last), which stand in ascending order of their minima along the sweep axis and are the last
+/// of all, against those that start before it ends, and appends the pairs. For long sweeps in which few tests hit: eight items at a time
+/// pass without being looked at closer, and tags are read only where something is hit. Returns the number of tests.
+template <int D> NOINLINE u64 sweep_ascending(const Lanes<D>& from, u32 i, u32 last, Pairs& pairs) {
+  const LaneView<D> lanes = from.view();
+  u64* out = pairs.list.data() + pairs.count;
+  u64* limit = pairs.list.data() + pairs.list.capacity();
+  u64 tests = 0;
+  u32 j = i + 1;
+  while (i < last) {
+    Probe<D> probe(lanes, i);
+    // What starts after the probe cannot end before it starts: along the sweep axis one comparison is enough.
+    auto passes = [&](u32 at) {
+      i32x4 all = load<f32x4>(lanes.lo[0] + at) <= probe.hi[0];
+      for (int axis = 1; axis < D; axis++) {
+        all &= load<f32x4>(lanes.lo[axis] + at) <= probe.hi[axis];
+        all &= load<f32x4>(lanes.hi[axis] + at) >= probe.lo[axis];
+      }
+      return all;
+    };
+    f32 end = lanes.hi[0][i];
+    bool more = true;
+    while (more) {
+      i32x4 near = passes(j), far = passes(j + 4);
+      if (any(near | far)) {
+        if (u64(limit - out) < 8 + Pairs::slack) break;
+        u32x4 tags = load<u32x4>(lanes.tag + j);
+        near &= bits<i32x4>((tags & probe.excluded) == u32x4{});
+        out = append(out, probe.slot, tags & splat(slot_mask), bitmask(near));
+        tags = load<u32x4>(lanes.tag + j + 4);
+        far &= bits<i32x4>((tags & probe.excluded) == u32x4{});
+        out = append(out, probe.slot, tags & splat(slot_mask), bitmask(far));
+      }
+      more = lanes.lo[0][j + 7] <= end;
+      j += 8;
+    }
+    if (more) {
+      // No room: this block once more, with some.
+      out = pairs.room(out, 8);
+      limit = pairs.list.data() + pairs.list.capacity();
+      continue;
+    }
+    for (u32 at = j - 8; at < j; at += 4) {
+      tests += detail::bits_set[bitmask(load<f32x4>(lanes.lo[0] + at) <= probe.hi[0])];
+    }
+    tests += j - 8 - i - 1;
+    i++;
+    j = i + 1;
+  }
+  pairs.count = u64(out - pairs.list.data());
+  return tests;
 }

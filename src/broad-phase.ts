@@ -1,8 +1,8 @@
 // The class BroadPhase: a Map from id to box that knows which of its boxes overlap.
 // All state lives in the kernel's memory (kernel/space.hpp); this file checks what comes in, passes it on, and
 // gives views of what comes out. Nothing here runs once per box or per pair of an update.
-import { badBox, badCount, badId, badValue, maxId } from './errors.ts';
-import { instantiate, type KernelExports } from './kernel.ts';
+import { badBox, badCount, badId, badValue, checkBits, maxId, noBox } from './errors.ts';
+import { Queries } from './queries.ts';
 
 /** Options of {@link BroadPhase}, all optional. */
 export interface BroadPhaseOptions {
@@ -14,11 +14,27 @@ export interface BroadPhaseOptions {
   cellSize?: number | readonly number[];
   /** For `spatial-grid`: the world that is cut into cells, minima then maxima. Boxes outside are found all the same. */
   bounds?: readonly number[];
+  /** Whether every update finds out which pairs began and ended, for {@link BroadPhase.began}. Default false. */
+  events?: boolean;
+  /** For `aabb-tree`: how far a box may move before the tree changes, above 0. Left out: from the motion seen. */
+  margin?: number;
   /** A hint: how many boxes there will be, 0 … 2^24. Saves growing while they are added. */
   capacity?: number;
 }
 
-const techniques = ['brute-force', 'spatial-grid', 'strip-sweep', 'auto'] as const;
+const techniques = [
+  'brute-force',
+  'spatial-grid',
+  'retained-grid',
+  'home-cell-grid',
+  'hierarchical-grid',
+  'sweep-and-prune',
+  'strip-sweep',
+  'bsp-tree',
+  'r-tree',
+  'aabb-tree',
+  'auto',
+] as const;
 
 /** The name of a technique. */
 export type TechniqueName = (typeof techniques)[number];
@@ -29,7 +45,7 @@ export interface Stats {
   technique: TechniqueName;
   /** Boxes tested against boxes. */
   tests: number;
-  /** Pairs found in float32, before the exact test in double precision. */
+  /** Pairs found in float32, before the exact test in double precision and the last of the filters. */
   candidates: number;
   /** Pairs reported. */
   pairs: number;
@@ -53,9 +69,6 @@ const broken = [
   'a pair is not in order, number',
 ];
 
-/** A number of views kept, so that pair counts seen lately make no garbage. */
-const viewsKept = 256;
-
 /**
  * For find-pairs.ts: boxes 0 … red - 1 become red, the others blue; only pairs of both colours are reported.
  * @internal
@@ -73,21 +86,17 @@ export let splitColours: (space: BroadPhase, red: number) => void;
  * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
  * space.pairs; // Uint32Array [7, 9]
  */
-export class BroadPhase {
+export class BroadPhase extends Queries {
   /** The names of the techniques, in order. */
   static readonly techniques: readonly TechniqueName[] = techniques;
 
-  /** 2 or 3. */
-  readonly dimensions: 2 | 3;
-
-  #kernel: KernelExports;
-  #io = new Float64Array();
   #statsView = new Float64Array();
   readonly #stagedViews: (Float32Array | Float64Array)[] = [];
-  readonly #stackTop: number;
-  readonly #width: number;
   readonly #stats: Stats = { technique: 'auto', tests: 0, candidates: 0, pairs: 0, cells: 0, entries: 0, bytes: 0 };
   readonly #pairViews: Uint32Array[] = [];
+  readonly #beganViews: Uint32Array[] = [];
+  readonly #endedViews: Uint32Array[] = [];
+  readonly #events: boolean;
   #technique: TechniqueName;
   /** What `boxes()` gave last, while it is in use. */
   #view: Float32Array | undefined;
@@ -100,39 +109,35 @@ export class BroadPhase {
     if (typeof options !== 'object' || options === null) {
       badValue('new BroadPhase', options, 'an object of options', true);
     }
-    const { dimensions = 2, technique = 'auto', cellSize, bounds, capacity = 0 } = options;
+    const { dimensions = 2, technique = 'auto', cellSize, bounds, margin, events = false, capacity = 0 } = options;
     if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
     checkTechnique(technique);
+    if (typeof events !== 'boolean') badValue('events', events, 'true or false', true);
     checkBoxCount('capacity', capacity);
     const cells = cellSize === undefined ? undefined : checkCellSize(cellSize, dimensions);
     if (bounds !== undefined) checkBounds(bounds, dimensions);
+    if (margin !== undefined) checkMargin(margin);
 
-    this.dimensions = dimensions;
-    this.#width = 2 * dimensions;
+    super(dimensions);
     this.#technique = technique;
-    this.#kernel = instantiate();
-    this.#stackTop = this.#kernel.__stack_pointer.value;
-    this.#kernel.open_space(dimensions);
-    this.#kernel.set_technique(techniques.indexOf(technique));
-    const io = this.#ioView();
+    this.kernel.set_technique(techniques.indexOf(technique));
+    this.#events = events;
+    if (events) this.kernel.set_events();
+    const io = this.io();
     if (cells) {
       io.set(cells);
-      this.#kernel.set_cell_size();
+      this.kernel.set_cell_size();
     }
+    if (margin !== undefined) this.kernel.set_margin(margin);
     if (bounds) {
       io.set(bounds);
-      this.#kernel.set_bounds();
+      this.kernel.set_bounds();
     }
     try {
-      this.#kernel.reserve(capacity);
+      this.kernel.reserve(capacity);
     } catch (error) {
-      this.#recover(error, 'capacity');
+      this.recover(error, 'capacity');
     }
-  }
-
-  /** The number of boxes. */
-  get size(): number {
-    return this.#kernel.size();
   }
 
   /**
@@ -146,10 +151,10 @@ export class BroadPhase {
   set(id: number, minX: number, minY: number, minZ: number, maxX: number, maxY: number, maxZ: number): this;
   set(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
     // Short enough for engines to inline, since a call boxes its doubles, and boxes are garbage.
-    const flat = this.#width === 4;
+    const flat = this.width === 4;
     if (
       // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
-      arguments.length !== this.#width + 1 ||
+      arguments.length !== this.width + 1 ||
       id >>> 0 !== id ||
       id > maxId ||
       !(flat ? a <= c && b <= d : a <= d && b <= e! && c <= f!) ||
@@ -161,7 +166,7 @@ export class BroadPhase {
       // biome-ignore lint/complexity/noArguments: the same
       badSet(arguments, this.dimensions);
     }
-    const io = this.#ioView();
+    const io = this.io();
     io[0] = a;
     io[1] = b;
     io[2] = c;
@@ -184,7 +189,7 @@ export class BroadPhase {
    *   other than an array of numbers. The space is as before.
    */
   setAll(boxes: Boxes, count?: number): this {
-    const width = this.#width;
+    const width = this.width;
     const single = boxes instanceof Float32Array;
     checkBoxes('setAll', boxes);
     if (count === undefined) count = countBoxes('setAll', boxes, this.dimensions);
@@ -195,8 +200,8 @@ export class BroadPhase {
     }
     if (!single) checkNumbers(boxes, count, this.dimensions);
     try {
-      const kernel = this.#kernel;
-      const at = single ? kernel.stage(count) : kernel.stage_exact(count);
+      const kernel = this.kernel;
+      const at = (single ? kernel.stage(count) : kernel.stage_exact(count)) >>> 0;
       const view = this.#stagedView(at, count * width, single);
       if (length === view.length) view.set(boxes);
       else
@@ -204,7 +209,7 @@ export class BroadPhase {
       const bad = kernel.replace(count, single ? 0 : 1);
       if (bad >= 0) badBox('setAll', bad, view.slice(bad * width, (bad + 1) * width), this.dimensions);
     } catch (error) {
-      this.#recover(error, 'setAll');
+      this.recover(error, 'setAll');
     }
     this.#view = undefined;
     return this;
@@ -224,9 +229,9 @@ export class BroadPhase {
   boxes(count: number): Float32Array {
     checkBoxCount('boxes: count', count);
     try {
-      const at = this.#kernel.expose(count);
-      const { buffer } = this.#kernel.memory;
-      const length = count * this.#width;
+      const at = this.kernel.expose(count) >>> 0;
+      const { buffer } = this.kernel.memory;
+      const length = count * this.width;
       let view = this.#view;
       if (view?.buffer !== buffer || view.byteOffset !== at || view.length !== length) {
         view = new Float32Array(buffer, at, length);
@@ -234,7 +239,7 @@ export class BroadPhase {
       }
       return view;
     } catch (error) {
-      this.#recover(error, 'boxes');
+      this.recover(error, 'boxes');
     }
   }
 
@@ -247,9 +252,9 @@ export class BroadPhase {
     if (id >>> 0 !== id || id > maxId) badId('delete', id);
     this.#view = undefined;
     try {
-      return this.#kernel.remove(id) === 1;
+      return this.kernel.remove(id) === 1;
     } catch (error) {
-      this.#recover(error, 'delete');
+      this.recover(error, 'delete');
     }
   }
 
@@ -259,7 +264,7 @@ export class BroadPhase {
    */
   has(id: number): boolean {
     if (id >>> 0 !== id || id > maxId) badId('has', id);
-    return this.#kernel.has(id) === 1;
+    return this.kernel.has(id) === 1;
   }
 
   /**
@@ -269,17 +274,60 @@ export class BroadPhase {
    */
   get(id: number): Float64Array | undefined;
   get<Out extends Float32Array | Float64Array | number[]>(id: number, out: Out): Out | undefined;
-  get(id: number, out: Float32Array | Float64Array | number[] = new Float64Array(this.#width)) {
+  get(id: number, out: Float32Array | Float64Array | number[] = new Float64Array(this.width)) {
     if (id >>> 0 !== id || id > maxId) badId('get', id);
-    if (this.#kernel.get(id) === 0) return undefined;
-    const io = this.#ioView();
-    for (let k = 0; k < this.#width; k++) out[k] = io[k]!;
+    if (this.kernel.get(id) === 0) return undefined;
+    const io = this.io();
+    for (let k = 0; k < this.width; k++) out[k] = io[k]!;
     return out;
+  }
+
+  /**
+   * Says whom box `id` meets: a pair is reported where each one's layer has a bit in the other's mask. Both are 32
+   * bits; without a filter both have all bits set, so that a box meets all but those that want to meet nobody. Applied
+   * before and inside the search: boxes that ignore each other cost little, boxes that can meet nobody cost nothing.
+   * The filter belongs to the id: it stays when the box moves, by whatever call, and goes with `delete` and `clear`.
+   *
+   * @param layer what the box is: an integer from 0 to 2^32 - 1, most often one bit
+   * @param mask whom it meets: the same, most often some bits. Write `~bits >>> 0` for all but some
+   * @throws RangeError for a bad id or one that has no box, and for other than 32 bits; TypeError for other than numbers
+   *
+   * @example
+   * const player = 1, enemy = 2, bullet = 4;
+   * space.setFilter(7, bullet, enemy); // bullets meet enemies, but neither players nor bullets
+   */
+  setFilter(id: number, layer: number, mask: number): this {
+    if (id >>> 0 !== id || id > maxId) badId('setFilter', id);
+    checkBits('setFilter: layer', layer);
+    checkBits('setFilter: mask', mask);
+    try {
+      if (this.kernel.set_filter(id, layer, mask) === 0) noBox('setFilter', id);
+    } catch (error) {
+      this.recover(error, 'setFilter');
+    }
+    return this;
+  }
+
+  /**
+   * Says whether box `id` is static: two static boxes are never a pair. Static boxes may be moved like others. Belongs
+   * to the id, as filters do.
+   *
+   * @throws RangeError for a bad id or one that has no box; TypeError for other than a boolean
+   */
+  setStatic(id: number, isStatic = true): this {
+    if (id >>> 0 !== id || id > maxId) badId('setStatic', id);
+    if (typeof isStatic !== 'boolean') badValue('setStatic: isStatic', isStatic, 'true or false', true);
+    try {
+      if (this.kernel.set_static(id, isStatic ? 1 : 0) === 0) noBox('setStatic', id);
+    } catch (error) {
+      this.recover(error, 'setStatic');
+    }
+    return this;
   }
 
   /** Takes all boxes away. */
   clear(): void {
-    this.#kernel.clear();
+    this.kernel.clear();
     this.#view = undefined;
   }
 
@@ -290,7 +338,7 @@ export class BroadPhase {
    * @throws RangeError where memory ends: the pairs are empty, and the space works again once there are fewer
    */
   update(): this {
-    if (this.#view !== undefined && this.#view.buffer !== this.#kernel.memory.buffer) {
+    if (this.#view !== undefined && this.#view.buffer !== this.kernel.memory.buffer) {
       throw new Error(
         'update: the array that boxes() gave was cut off when memory grew, so what was written to it since is lost: ' +
           'call boxes(count) before each time it is written',
@@ -298,12 +346,16 @@ export class BroadPhase {
     }
     let bad = -1;
     try {
-      bad = this.#kernel.update();
+      bad = this.kernel.update();
     } catch (error) {
-      this.#recover(error, 'update');
+      try {
+        this.recover(error, 'update');
+      } finally {
+        this.#readStats();
+      }
     }
     if (bad >= 0) {
-      const box = new Float32Array(this.#width);
+      const box = new Float32Array(this.width);
       this.get(bad, box);
       badBox('update', bad, box, this.dimensions);
     }
@@ -317,21 +369,37 @@ export class BroadPhase {
    * boxes makes memory grow.
    */
   get pairs(): Uint32Array {
-    const at = this.#kernel.pairs_address();
-    const count = this.#kernel.pair_count();
-    const { buffer } = this.#kernel.memory;
-    const views = this.#pairViews;
-    let view = views[count % viewsKept];
-    if (view?.buffer !== buffer || view.byteOffset !== at || view.length !== 2 * count) {
-      view = new Uint32Array(buffer, at, 2 * count);
-      views[count % viewsKept] = view;
-    }
-    return view;
+    return this.pairView(this.#pairViews, this.kernel.pairs_address(), this.kernel.pair_count());
   }
 
   /** The number of pairs as of the last update. */
   get pairCount(): number {
-    return this.#kernel.pair_count();
+    return this.kernel.pair_count();
+  }
+
+  /**
+   * The pairs that the last update found and the one before did not, as in `pairs` and in their order: with `events:
+   * true` only. A view of the kernel's memory: valid until the next `update()`.
+   *
+   * A pair whose box was deleted has ended with the next update, and has begun with it too where the id was set again
+   * and overlaps again: it is another box. Boxes that `setAll`, `boxes` and `clear` take away were deleted.
+   *
+   * @throws Error without `events: true`
+   */
+  get began(): Uint32Array {
+    if (!this.#events) noEvents('began');
+    return this.pairView(this.#beganViews, this.kernel.began_address(), this.kernel.began_count());
+  }
+
+  /**
+   * The pairs that the update before the last found and the last did not, or whose boxes were deleted in between: see
+   * {@link BroadPhase.began}. In the order that they had in `pairs`.
+   *
+   * @throws Error without `events: true`
+   */
+  get ended(): Uint32Array {
+    if (!this.#events) noEvents('ended');
+    return this.pairView(this.#endedViews, this.kernel.ended_address(), this.kernel.ended_count());
   }
 
   /** Counters of the last update: the same object every time. */
@@ -346,7 +414,7 @@ export class BroadPhase {
   set technique(name: TechniqueName) {
     checkTechnique(name);
     this.#technique = name;
-    this.#kernel.set_technique(techniques.indexOf(name));
+    this.kernel.set_technique(techniques.indexOf(name));
   }
 
   /**
@@ -355,10 +423,10 @@ export class BroadPhase {
    */
   structure(): Float32Array {
     try {
-      const at = this.#kernel.structure();
-      return new Float32Array(this.#kernel.memory.buffer, at, this.#kernel.structure_count() * this.#width);
+      const at = this.kernel.structure();
+      return new Float32Array(this.kernel.memory.buffer, at, this.kernel.structure_count() * this.width);
     } catch (error) {
-      this.#recover(error, 'structure');
+      this.recover(error, 'structure');
     }
   }
 
@@ -367,15 +435,15 @@ export class BroadPhase {
    * @throws Error that says what is broken, which would be a fault of this library
    */
   validate(): this {
-    const code = this.#kernel.validate();
-    if (code !== 0) throw new Error(`validate: ${broken[code]} ${this.#ioView()[0]}`);
+    const code = this.kernel.validate();
+    if (code !== 0) throw new Error(`validate: ${broken[code]} ${this.io()[0]}`);
     return this;
   }
 
   /** Lets go of the memory at once; it also goes with the object. Any call after this throws. */
-  dispose(): void {
-    this.#kernel = disposed;
-    this.#pairViews.length = 0;
+  override dispose(): void {
+    super.dispose();
+    this.#pairViews.length = this.#beganViews.length = this.#endedViews.length = 0;
     this.#stagedViews.length = 0;
     this.#view = undefined;
   }
@@ -383,16 +451,16 @@ export class BroadPhase {
   static {
     splitColours = (space, red) => {
       try {
-        space.#kernel.split(red);
+        space.kernel.split(red);
       } catch (error) {
-        space.#recover(error, 'findPairsBetween');
+        space.recover(error, 'findPairsBetween');
       }
     };
   }
 
   #readStats(): void {
     if (this.#statsView.length === 0) {
-      this.#statsView = new Float64Array(this.#kernel.memory.buffer, this.#kernel.stats_address(), 7);
+      this.#statsView = new Float64Array(this.kernel.memory.buffer, this.kernel.stats_address(), 7);
     }
     const from = this.#statsView;
     const stats = this.#stats;
@@ -407,7 +475,7 @@ export class BroadPhase {
 
   /** A view of staged boxes. Two arrays take turns in the kernel, so the last two views are kept. */
   #stagedView(at: number, length: number, single: boolean): Float32Array | Float64Array {
-    const { buffer } = this.#kernel.memory;
+    const { buffer } = this.kernel.memory;
     const views = this.#stagedViews;
     for (let k = 0; k < views.length; k++) {
       const view = views[k]!;
@@ -422,37 +490,12 @@ export class BroadPhase {
   #write(id: number): void {
     this.#view = undefined;
     try {
-      this.#kernel.set(id);
+      this.kernel.set(id);
     } catch (error) {
-      this.#recover(error, 'set');
+      this.recover(error, 'set');
     }
   }
-
-  /** The kernel's array for numbers in and out. Growing memory cuts views off: their length is then 0. */
-  #ioView(): Float64Array {
-    if (this.#io.length === 0) this.#io = new Float64Array(this.#kernel.memory.buffer, this.#kernel.io_address(), 8);
-    return this.#io;
-  }
-
-  /** After an exception out of the kernel: makes the space usable again and says what was wrong. */
-  #recover(error: unknown, where: string): never {
-    if (!(error instanceof WebAssembly.RuntimeError)) throw error;
-    this.#kernel.__stack_pointer.value = this.#stackTop;
-    if (this.#kernel.recover() === 0) throw error;
-    throw new RangeError(
-      `${where}: out of memory: ${this.#ioView()[0]} bytes more for ${this.size} boxes and their pairs, expected no ` +
-        'more than WebAssembly allows (4 GiB) or this host can give',
-      { cause: error },
-    );
-  }
 }
-
-/** Stands in for the kernel of a disposed space. */
-const disposed = new Proxy({} as KernelExports, {
-  get() {
-    throw new Error('this BroadPhase was disposed: it cannot be used any more');
-  },
-});
 
 /** Finds what is wrong with the arguments of `set`. */
 function badSet(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
@@ -460,6 +503,10 @@ function badSet(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
   if (typeof id !== 'number' || id >>> 0 !== id || id > maxId) badId('set', id);
   if (given.length !== 1 + 2 * dimensions) badCount('set', id, given.length, dimensions);
   badBox('set', id, Array.prototype.slice.call(given, 1), dimensions);
+}
+
+function noEvents(what: string): never {
+  throw new Error(`${what}: this space keeps no events, expected one made with new BroadPhase({ events: true })`);
 }
 
 function checkTechnique(name: unknown): void {
@@ -483,6 +530,12 @@ function checkCellSize(cellSize: number | readonly number[], dimensions: 2 | 3):
     if (!(size > 0 && size < Number.POSITIVE_INFINITY)) badValue('cellSize', cellSize, expected);
   }
   return sizes as number[];
+}
+
+function checkMargin(margin: unknown): void {
+  const expected = 'a number above 0';
+  if (typeof margin !== 'number') badValue('margin', margin, expected, true);
+  if (!(margin > 0 && margin < Number.POSITIVE_INFINITY)) badValue('margin', margin, expected);
 }
 
 function checkBounds(bounds: readonly number[], dimensions: 2 | 3): void {

@@ -24,6 +24,11 @@ export function badId(where: string, id: unknown): never {
   throw typeof id === 'number' ? new RangeError(message) : new TypeError(message);
 }
 
+/** An id without a box, where there must be one. */
+export function noBox(where: string, id: number): never {
+  throw new RangeError(`${where}: there is no box ${id}, expected the id of one: call set first`);
+}
+
 /** A box that is not one: says which of its numbers is wrong. */
 export function badBox(where: string, id: number, box: ArrayLike<unknown>, dimensions: 2 | 3): never {
   const names = corners[dimensions];
@@ -57,4 +62,15 @@ export function badCount(where: string, id: number, got: number, dimensions: 2 |
 export function badValue(where: string, value: unknown, expected: string, wrongType = false): never {
   const message = `${where}: got ${show(value)}, expected ${expected}`;
   throw wrongType ? new TypeError(message) : new RangeError(message);
+}
+
+/** Layers and masks are 32 bits. */
+export function checkBits(where: string, bits: unknown): void {
+  if ((bits as number) >>> 0 === bits) return;
+  badValue(where, bits, 'an integer from 0 to 4294967295 (of signed bits, write bits >>> 0)', typeof bits !== 'number');
+}
+
+/** Where answers are written to. */
+export function checkOut(where: string, out: unknown): void {
+  if (!Array.isArray(out)) badValue(`${where}: out`, out, 'an array', true);
 }

@@ -3,13 +3,14 @@
 // everywhere without waiting; `init` is for hosts that forbid that or want to load the bytes themselves.
 import { kernelHex } from './generated/kernel-wasm.ts';
 
-/** The exported functions of kernel/abi.cpp. */
+/** The exported functions of kernel/abi.cpp. Addresses come as signed numbers: `>>> 0` those that can be beyond 2 GiB. */
 export interface KernelExports {
   memory: WebAssembly.Memory;
   __stack_pointer: WebAssembly.Global;
   io_address(): number;
   open_space(dimensions: number): void;
   set_cell_size(): void;
+  set_margin(margin: number): void;
   set_bounds(): void;
   reserve(count: number): void;
   set(id: number): void;
@@ -18,6 +19,8 @@ export interface KernelExports {
   get(id: number): number;
   size(): number;
   clear(): void;
+  set_filter(id: number, layer: number, mask: number): number;
+  set_static(id: number, on: number): number;
   stage(count: number): number;
   stage_exact(count: number): number;
   replace(count: number, doubles: number): number;
@@ -28,6 +31,14 @@ export interface KernelExports {
   update(): number;
   pairs_address(): number;
   pair_count(): number;
+  set_events(): void;
+  began_address(): number;
+  began_count(): number;
+  ended_address(): number;
+  ended_count(): number;
+  is_pair(a: number, b: number): number;
+  partners(id: number): number;
+  answers_address(): number;
   stats_address(): number;
   structure(): number;
   structure_count(): number;

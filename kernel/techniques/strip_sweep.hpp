@@ -2,22 +2,17 @@
 //
 // Idea: an item enters every strip it touches and is marked "continues" in all but its first (3D: one mark per
 // axis). Two items that both continue into a strip have already met, so their shared mark keeps them from being
-// tested again: every pair is found once, with no table. Within a strip items are put into as many cells along
-// the sweep axis as there are items, by one counting sort; they are not sorted further, since the sweep tests
-// four at a time and a few candidates more cost nothing, while branches of a sort do. Where the cells turn out
-// uneven (outliers, clusters) the strip is radix-sorted instead; where a strip has too many candidates that are
-// not hits, it is cut again, along the same axes, by its own statistics.
+// tested again: every pair is found once, with no table. Where a strip has too many candidates that are not
+// hits, it is cut again, along the same axes, by its own statistics.
 // Cost: build O(n), pairs O(n + candidates); memory about 48 (2D) or 80 (3D) bytes for each entry.
 // Wins nearly always when everything moves: box size costs almost nothing, there is no cell size to choose.
 // Loses when few boxes move: it starts anew each time.
 // From: two-layer partitioning, Tsitsigkos et al., "A Two-layer Partitioning for Non-point Spatial Data",
 // ICDE 2021; the sweep in strips goes back to Güting & Schilling 1987.
 #pragma once
-#include "radix_sort.hpp"
-#include "statistics.hpp"
 #include "settings.hpp"
 #include "stats.hpp"
-#include "sweep.hpp"
+#include "swept_list.hpp"
 
 template <int D> class StripSweep {
   // What an entry in a strip costs, relative to a tested candidate: sets the width of the strips.
@@ -26,14 +21,14 @@ template <int D> class StripSweep {
   static constexpr f64 free_candidates = 1.5;
   // Strips longer than this leave the cache near the core.
   static constexpr f64 cached_items = 8192;
+  static constexpr f64 least_items = 100;  // in a strip, on average: shorter ones cost more than they save
+  static constexpr u32 few = 400;  // boxes that are not worth cutting into strips
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
   static constexpr u32 deepest = 6;
   // A strip is looked at again where it has this many candidates an item, and this many in all.
   static constexpr u64 again_factor = 24, again_least = 8192;
   // A cut after which there would be more entries than this for each box is not made.
   static constexpr u64 most_copies = 8;
-  // Cells hold one item on average; above this many squared they are given up for a sort.
-  static constexpr u64 uneven = 6;
 
   /// How one set of items is cut: along the binned axes 1 (and 2); axis 0 is swept.
   struct Cut {
@@ -73,14 +68,9 @@ template <int D> class StripSweep {
   }
 
   Items<D> entries_;       // by strip; deeper cuts stack theirs on top
-  Items<D> ordered_;       // the items of one strip, in the order of the sweep
-  Lanes<D> lanes_;         // the same, as the sweep reads them
+  SweptList<D> swept_;     // the items of one strip
   Buffer<Range> ranges_;   // per item that is being cut
   Buffer<u32> offsets_[deepest + 1];  // per cut: where each strip's entries begin
-  Buffer<u32> cells_;      // per item of a strip, its cell
-  Buffer<u32> starts_;     // per cell, where its items begin, later: end
-  Buffer<u32> end_;        // per ordered item, how far to look
-  RadixSort sort_;
   Buffer<Region> leaves_;  // the strips in use
   AxisOrder<D> order_ = {};
   u32 boxes_ = 0;
@@ -92,22 +82,25 @@ template <int D> class StripSweep {
     boxes_ = scene.count;
     if (scene.count < 2) return;
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
-    Statistics<D> world = measure<D>(plain, scene.count);
-    order_ = AxisOrder<D>::make(longest(world));
-    Statistics<D> turned = world;
-    for (int a = 0; a < D; a++) {
-      turned.low[a] = world.low[order_.axis[a]];
-      turned.high[a] = world.high[order_.axis[a]];
-      turned.size[a] = world.size[order_.axis[a]];
-    }
-    Cut cut = choose(turned, scene.count);
+    bool one_strip = scene.count < few;
+    Statistics<D> world = one_strip ? glance<D>(plain, scene.count) : measure<D>(plain, scene.count);
+    order_ = AxisOrder<D>::make(world.longest());
     SceneItems<D> items{scene, order_};
     Region everywhere;
     for (int a = 0; a < D; a++) {
       everywhere.low[a] = -__builtin_inf();
       everywhere.high[a] = __builtin_inf();
     }
-    if (cut.lists() > 1 && divide(items, scene.count, cut, everywhere, 0, 0, pairs)) return;
+    if (!one_strip) {
+      Statistics<D> turned = world;
+      for (int a = 0; a < D; a++) {
+        turned.low[a] = world.low[order_.axis[a]];
+        turned.high[a] = world.high[order_.axis[a]];
+        turned.size[a] = world.size[order_.axis[a]];
+      }
+      Cut cut = choose(turned, scene.count);
+      if (cut.lists() > 1 && divide(items, scene.count, cut, everywhere, 0, 0, pairs)) return;
+    }
     entries_.grow(scene.count, 0);
     ItemsAt<D> all(entries_, 0);
     for (u32 k = 0; k < scene.count; k++) all.put(k, items[k]);
@@ -129,33 +122,13 @@ template <int D> class StripSweep {
 
   COLD void release() {
     entries_.release();
-    ordered_.release();
-    lanes_.release();
+    swept_.release();
     ranges_.release();
     for (auto& offsets : offsets_) offsets.release();
-    cells_.release();
-    starts_.release();
-    end_.release();
-    sort_.release();
     leaves_.release();
   }
 
  private:
-  /// The axis along which the world is longest, measured in boxes.
-  COLD static int longest(const Statistics<D>& world) {
-    int best = 0;
-    f64 most = -1;
-    for (int a = 0; a < D; a++) {
-      f64 extent = world.high[a] - world.low[a];
-      f64 length = extent > 0 ? extent / larger(world.size[a], extent * 1e-7) : 0;
-      if (length > most) {
-        most = length;
-        best = a;
-      }
-    }
-    return best;
-  }
-
   /// Strip widths that balance entries against candidates: a strip w boxes wide makes 1 / w more entries and
   /// tests w times the neighbours along the sweep axis.
   COLD static Cut choose(const Statistics<D>& world, u32 count) {
@@ -171,7 +144,7 @@ template <int D> class StripSweep {
       return larger(balanced, free_candidates / neighbours);
     };
     if constexpr (D == 2) {
-      width[1] = smaller(one_axis(1), cached_items / count);
+      width[1] = larger(smaller(one_axis(1), cached_items / count), least_items / count);
     } else {
       f64 boxes = cube_root(entry_cost / (neighbours * relative[1] * relative[2]));
       boxes = larger(boxes, __builtin_sqrt(free_candidates / (neighbours * relative[1] * relative[2])));
@@ -180,6 +153,14 @@ template <int D> class StripSweep {
       // Where one axis is not worth cutting the world is flat: balance the other alone.
       if (width[1] >= 1) width[2] = one_axis(2);
       else if (width[2] >= 1) width[1] = one_axis(1);
+    }
+    if constexpr (D == 3) {
+      f64 share = width[1] * width[2] * count / least_items;
+      if (share < 1) {
+        f64 factor = __builtin_sqrt(1 / share);
+        width[1] *= factor;
+        width[2] *= factor;
+      }
     }
     Cut cut;
     cut.world = world;
@@ -299,8 +280,8 @@ template <int D> class StripSweep {
 
   /// Orders the items of one strip and sweeps them, or cuts them again where that saves work.
   void list(const ItemsAt<D>& items, u32 count, const Region& region, u32 base, u32 depth, Pairs& pairs) {
-    u64 tests = order_by_cells(items, count);
-    if (depth < deepest && tests > again_factor * count && tests > again_least && wasteful(count)) {
+    u64 tests = swept_.order(items, count);
+    if (depth < deepest && tests > again_factor * count && tests > again_least && swept_.wasteful(count)) {
       Statistics<D> part = measure<D>(items, count);
       for (int a = 1; a < D; a++) {
         part.low[a] = larger(part.low[a], region.low[a]);
@@ -313,119 +294,7 @@ template <int D> class StripSweep {
     stats_->tests += f64(tests);
     stats_->cells++;
     note(region);
-    sweep<D>(lanes_, end_.data(), 0, count, pairs);
-  }
-
-  /// Fills lanes_ and end_; returns the number of tests the sweep will make.
-  u64 order_by_cells(const ItemsAt<D>& items, u32 count) {
-    lanes_.reserve(count);
-    ordered_.grow(count, 0);
-    end_.reserve(count + 4);
-    u32* cells = cells_.reserve(count);
-    u32* starts = starts_.reserve(count + 1);
-    __builtin_memset(starts, 0, (count + 1) * sizeof(u32));
-    Axis axis = axis_of(items, count);
-    Axes axes(axis, axis, axis, axis);
-    u32 whole = count & ~3u;
-    for (u32 k = 0; k < whole; k += 4) {
-      u32x4 at = axes(f32x4{items[k].lo(0), items[k + 1].lo(0), items[k + 2].lo(0), items[k + 3].lo(0)});
-      store(cells + k, at);
-      for (int lane = 0; lane < 4; lane++) starts[at[lane]]++;
-    }
-    for (u32 k = whole; k < count; k++) starts[cells[k] = axis(items[k].lo(0))]++;
-    u32 at = 0;
-    u64 crowd = 0;  // the sum of the squares: what the unsorted cells cost
-    for (u32 c = 0; c < count; c++) {
-      u32 size = starts[c];
-      starts[c] = at;
-      at += size;
-      crowd += u64(size) * size;
-    }
-    ItemsAt<D> ordered(ordered_, 0);
-    for (u32 k = 0; k < count; k++) ordered.put(starts[cells[k]]++, items[k]);
-    lanes_.fill(ordered, count);
-
-    // starts[c] is now where cell c ends.
-    const f32* hi = lanes_.hi(0);
-    u32* end = end_.data();
-    u64 tests = 0;
-    for (u32 k = 0; k < count; k += 4) {
-      u32x4 at = axes(load<f32x4>(hi + k));  // past the last item: NaN, which any cell will do for
-      u32x4 until = {starts[at[0]], starts[at[1]], starts[at[2]], starts[at[3]]};
-      store(end + k, until);
-    }
-    for (u32 k = 0; k < count; k++) tests += end[k] - k - 1;
-    if (crowd > uneven * count && 3 * crowd > tests) return order_by_sorting(items, count);
-    return tests;
-  }
-
-  /// The same by a full sort: for strips where cells of one size do not fit.
-  u64 order_by_sorting(const ItemsAt<D>& items, u32 count) {
-    sort_.begin(count);
-    for (u32 k = 0; k < count; k++) sort_.put(k, items[k].lo(0));
-    sort_.sort(count);
-    ItemsAt<D> ordered(ordered_, 0);
-    for (u32 k = 0; k < count; k++) ordered.put(k, items[sort_.index(k)]);
-    lanes_.fill(ordered, count);
-    const f32* lo = lanes_.lo(0);
-    const f32* hi = lanes_.hi(0);
-    u32* end = end_.data();
-    u64 tests = 0;
-    for (u32 k = 0; k < count; k++) {
-      // The first item that starts past this one's end: by doubling steps, then by halving.
-      u32 step = 1, from = k + 1;
-      while (from + step <= count && lo[from + step - 1] <= hi[k]) {
-        from += step;
-        step *= 2;
-      }
-      u32 to = smaller(from + step, count);
-      while (from < to) {
-        u32 middle = (from + to) / 2;
-        if (lo[middle] <= hi[k]) from = middle + 1;
-        else to = middle;
-      }
-      end[k] = from;
-      tests += from - k - 1;
-    }
-    return tests;
-  }
-
-  /// Cells along the sweep axis, as many as there are items, over the range of those that are finite.
-  static Axis axis_of(const ItemsAt<D>& items, u32 count) {
-    f32x4 least = items[0].first(), most = least;
-    for (u32 k = 1; k < count; k++) {
-      f32x4 x = items[k].first();
-      least = min(least, x);
-      most = max(most, x);
-    }
-    f32 low = least[0], high = most[0];
-    if (!detail::is_finite(low) || !detail::is_finite(high)) {
-      low = __builtin_inff();
-      high = -low;
-      for (u32 k = 0; k < count; k++) {
-        f32 x = items[k].lo(0);
-        if (!detail::is_finite(x)) continue;
-        low = smaller(low, x);
-        high = larger(high, x);
-      }
-    }
-    return Axis::make(low, high, count);
-  }
-
-  /// Whether most of the tests that the sweep is about to make would be misses, by a sample of them.
-  COLD bool wasteful(u32 count) const {
-    LaneView<D> view = lanes_.view();
-    u32 hits = 0, tried = 0;
-    u32 stride = larger(1u, count / 32);
-    for (u32 i = stride / 2; i < count; i += stride) {
-      Probe<D> probe(view, i);
-      u32 until = end_[i], step = larger(4u, (until - i) / 8);
-      for (u32 j = i + 1; j + 4 <= until; j += step) {
-        hits += detail::bits_set[bitmask(probe.hits(view, j, load<u32x4>(view.tag + j)))];
-        tried += 4;
-      }
-    }
-    return hits * 4 < tried;
+    swept_.find(count, pairs);
   }
 
   COLD void note(const Region& region) {

@@ -1,0 +1,105 @@
+// Sweep and prune: boxes in order of their minima along one axis; each meets those that start before it ends.
+//
+// Idea: the axis along which the world is longest, measured in boxes, is swept. The order is kept: from one update
+// to the next boxes move little, so it is nearly right and an insertion sort repairs it in one pass. Where too much
+// has changed (or all is new) that is given up after a few moves for a radix sort. Few of the boxes that meet on one
+// axis overlap, so eight are tested at a time and only looked at closer where one of them hits.
+// Cost: update O(n + moves in the order), at most that of one radix sort; pairs O(n * boxes that one meets along the
+// axis), which grows with the square root (2D) or the power 2/3 (3D) of n; memory 40 (2D) or 48 (3D) bytes a box.
+// Wins in sparse and long worlds, and where few boxes move. Loses in large square ones, and most of all in cubes:
+// all but one axis are ignored.
+// From: D. Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", 1992; the sweep along one axis with the
+// tests of the others at once is C. Ericson, "Real-Time Collision Detection", 2005, 7.5.
+#pragma once
+#include "radix_sort.hpp"
+#include "settings.hpp"
+#include "statistics.hpp"
+#include "stats.hpp"
+#include "sweep.hpp"
+
+template <int D> class SweepAndPrune {
+  // The repair is given up when it has made more moves than this for each box it has come past, and this many more.
+  static constexpr u32 patience = 2, head_start = 1024;
+
+  Buffer<u32> order_;  // the slots 0 … count_ - 1, as they stood in the last update
+  Buffer<f32> keys_;
+  Lanes<D> lanes_;
+  RadixSort sort_;
+  u32 count_ = 0;
+  int axis_ = 0;
+
+ public:
+  void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
+    u32 n = scene.count;
+    if (n < 2) return;
+    axis_ = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, n).longest(axis_);
+    take(n);
+    keys_.reserve(n);
+    lanes_.reserve(n);
+    const f32* least = scene.boxes + axis_;
+    for (u32 k = 0; k < n; k++) keys_[k] = least[size_t(order_[k]) * 2 * D];
+    if (!repair(n)) {
+      sort_.begin(n);
+      for (u32 k = 0; k < n; k++) sort_.put(order_[k], keys_[k]);
+      sort_.sort(n);
+      for (u32 k = 0; k < n; k++) order_[k] = sort_.index(k);
+    }
+    lanes_.fill(PickedItems<D>{{scene, AxisOrder<D>::make(axis_)}, order_.data()}, n);
+    stats.tests = f64(sweep_ascending<D>(lanes_, 0, n, pairs));
+    stats.cells = stats.entries = n;
+  }
+
+  /// What each box takes of the axis.
+  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+    count = u32(stats.cells);
+    boxes.reserve(u64(count) * 2 * D);
+    for (u64 k = 0; k < u64(count) * 2 * D; k++) boxes[k] = k % (2 * D) < D ? -__builtin_inff() : __builtin_inff();
+    for (u64 k = 0; k < count; k++) {
+      boxes[k * 2 * D + axis_] = lanes_.lo(0)[k];
+      boxes[k * 2 * D + D + axis_] = lanes_.hi(0)[k];
+    }
+  }
+
+  COLD void release() {
+    order_.release();
+    keys_.release();
+    lanes_.release();
+    sort_.release();
+    count_ = 0;
+  }
+
+ private:
+  /// Slots that are gone leave the order, new ones stand at its end.
+  void take(u32 n) {
+    order_.grow(n, smaller(n, count_));
+    u32 kept = 0;
+    for (u32 k = 0; k < count_; k++) {
+      u32 slot = order_[k];
+      order_[kept] = slot;
+      kept += slot < n;
+    }
+    for (; kept < n; kept++) order_[kept] = kept;
+    count_ = n;
+  }
+
+  /// Insertion sort of the order by its keys; false where that would take too long.
+  bool repair(u32 n) {
+    f32* keys = keys_.data();
+    u32* order = order_.data();
+    u64 moves = 0;
+    for (u32 k = 1; k < n; k++) {
+      f32 key = keys[k];
+      if (keys[k - 1] <= key) continue;
+      u32 slot = order[k], at = k;
+      for (; at > 0 && keys[at - 1] > key; at--) {
+        keys[at] = keys[at - 1];
+        order[at] = order[at - 1];
+      }
+      keys[at] = key;
+      order[at] = slot;
+      moves += k - at;
+      if (moves > head_start + u64(patience) * k) return false;
+    }
+    return true;
+  }
+};

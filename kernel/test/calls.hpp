@@ -1,0 +1,281 @@
+// Sequences of calls read from bytes, made on a space and on a model of it: the tests feed random bytes, the
+// fuzzer its own. Any bytes are a valid sequence; where they end, so does the sequence.
+//
+// After each call space and model agree on ids and numbers; after each update on the pairs. Some calls are made
+// with little memory left: those that fail must have changed nothing.
+#pragma once
+#include "check.hpp"
+#include "scenes.hpp"
+
+/// Bytes to decide by; zeros once they are used up.
+class Bytes {
+  const u8* at_;
+  const u8* end_;
+
+ public:
+  Bytes(const u8* data, size_t size) : at_(data), end_(data + size) {}
+  bool empty() const { return at_ == end_; }
+  u8 next() { return empty() ? u8(0) : *at_++; }
+  u32 below(u32 end) { return next() % end; }
+  u16 next16() {
+    u16 low = next();
+    return u16(low | next() << 8);
+  }
+  u64 next64() {
+    u64 value = 0;
+    for (int k = 0; k < 8; k++) value |= u64(next()) << (8 * k);
+    return value;
+  }
+};
+
+template <int D> class Calls {
+  static constexpr u32 width = 2 * D;
+  static constexpr u32 most_boxes = 700;  // the model tests all against all
+
+  Bytes& bytes_;
+  std::unique_ptr<Instance<D>> instance_;
+  Ids& ids_;
+  Space<D>& space_;
+  Model<D> model_;
+  bool starved_ = false;  // the next call has little memory
+
+ public:
+  Calls(Bytes& bytes, Technique first)
+      : bytes_(bytes), instance_(open<D>(first)), ids_(instance_->ids), space_(instance_->space) {
+    u8 with = bytes_.next();
+    for (u32 a = 0; a < D; a++) {
+      // Seldom, and seldom far too small: a grid of 2^24 cells takes a while.
+      f64 size = std::exp2(with < 8 ? f64(bytes_.below(80)) - 40 : bytes_.below(10));
+      if (with % 8 == 1) instance_->settings.cell_size[a] = size;
+      if (with % 4 == 2) {
+        f64 low = number(), size = std::exp2(f64(bytes_.below(60)) - 20);
+        if (!std::isfinite(low) || low + size == low) low = 0;
+        instance_->settings.bounds[a] = low;
+        instance_->settings.bounds[D + a] = low + size;
+      }
+    }
+  }
+
+  /// Makes all calls that the bytes ask for, then compares once more.
+  void run() {
+    while (!bytes_.empty()) step();
+    starved_ = false;
+    update();
+    compare();
+    look();
+  }
+
+ private:
+  void step() {
+    switch (bytes_.below(24)) {
+      default: return set(id(), box());
+      case 8: case 9: case 10: return remove(id());
+      case 11: return replace_by_a_scene();
+      case 12: return replace_by_few();
+      case 13: return expose();
+      case 14: return exclude();
+      case 15: return clear();
+      case 16: return starve();
+      case 17: return reserve();
+      case 18: return switch_technique();
+      case 19: return look();
+      case 20: return compare();
+      case 21: case 22: case 23: return update();
+    }
+  }
+
+  /// Makes a call; returns whether there was memory for it. `recover` is what abi.cpp does after a trap.
+  template <class Call> bool made(Call call) {
+    const u64 limit = heap::limit;
+    if (starved_) heap::limit = heap::used + 64 * u64(bytes_.next());
+    bool ended = false;
+    try {
+      call();
+    } catch (const Failure& failure) {
+      ended = true;
+      CHECK(failure.what == Fault::out_of_memory && failure.bytes > 0);
+    }
+    CHECK(!ended || starved_);
+    heap::limit = limit;
+    starved_ = false;
+    if (!ended) return true;
+    space_.recover();
+    CHECK(space_.pairs.count == 0);
+    compare();
+    return false;
+  }
+
+  void set(u32 id, const Box<D>& box) {
+    if (!model_.has(id) && model_.count() >= most_boxes) return;
+    if (made([&] { space_.set(id, box.data()); })) model_.set(id, box);
+  }
+
+  void remove(u32 id) {
+    bool was = false;
+    if (made([&] { was = space_.remove(id); })) CHECK(was == model_.remove(id));
+  }
+
+  void replace(const Boxes<D>& boxes, bool doubles) {
+    i32 bad = -1;
+    if (!made([&] { bad = ::replace(space_, boxes, doubles); })) return;
+    i32 expected = -1;
+    for (u32 k = 0; k < boxes.size() && expected < 0; k++) {
+      for (u32 a = 0; a < D; a++) {
+        if (!(boxes[k][a] <= boxes[k][D + a])) expected = i32(k);
+      }
+    }
+    CHECK(bad == expected);
+    if (bad < 0) model_.replace(boxes);
+  }
+
+  void replace_by_a_scene() {
+    const auto& all = scenes<D>();
+    const Boxes<D>& boxes = all[bytes_.next() % all.size()].boxes;
+    u32 count = smaller(u32(boxes.size()), bytes_.next16() % most_boxes);
+    u32 from = count < boxes.size() ? bytes_.next16() % (u32(boxes.size()) - count) : 0;
+    Boxes<D> some(boxes.begin() + from, boxes.begin() + from + count);
+    bool doubles = bytes_.below(2);
+    replace(doubles ? some : as_floats<D>(some), doubles);
+  }
+
+  void replace_by_few() {
+    Boxes<D> boxes(bytes_.below(12));
+    for (auto& each : boxes) each = box();
+    if (!boxes.empty() && bytes_.below(8) == 0) boxes[bytes_.next() % boxes.size()] = bad_box();
+    bool doubles = bytes_.below(2);
+    replace(doubles ? boxes : as_floats<D>(boxes), doubles);
+  }
+
+  /// Writes some boxes in place; some of them bad, which only the next update says.
+  void expose() {
+    u32 count = bytes_.below(3) ? bytes_.below(40) : smaller(model_.count(), most_boxes);
+    f32* boxes = nullptr;
+    if (!made([&] { boxes = space_.expose(count); })) return;
+    model_.expose(count);
+    for (u32 k = bytes_.below(8); count > 0 && k > 0; k--) {
+      u32 id = bytes_.next() % count;
+      Box<D> given = box(), floats;
+      for (u32 n = 0; n < width; n++) {
+        boxes[id * width + n] = outward(given[n], n >= D);
+        floats[n] = boxes[id * width + n];
+      }
+      model_.set(id, floats);
+    }
+    if (count > 0 && bytes_.below(4) == 0) write_bad(boxes, count);
+  }
+
+  /// Writes a bad box in place: the next update names it, wherever it stands by then, and changes nothing.
+  void write_bad(f32* boxes, u32 count) {
+    u32 bad = bytes_.next() % count, other = bytes_.next() % count;
+    Box<D> good = model_.at(bad), wrong = bad_box();
+    for (u32 n = 0; n < width; n++) boxes[bad * width + n] = f32(wrong[n]);
+    if (other != bad) {
+      if (bytes_.below(2)) remove(other);
+      else set(other, box());
+    }
+    u64 pairs = space_.pairs.count;
+    CHECK(space_.update() == i32(bad));
+    CHECK(space_.pairs.count == pairs);
+    u32 detail;
+    CHECK(space_.validate(detail) == 0);
+    set(bad, good);
+  }
+
+  void exclude() {
+    if (model_.count() == 0) return;
+    std::vector<u32> all = model_.ids();
+    u32 id = all[bytes_.next16() % all.size()], bit = u32(is_static) >> bytes_.below(3);
+    bool on = bytes_.below(4) > 0;
+    if (made([&] { space_.exclude(ids_.slot(id), bit, on); })) model_.exclude(id, bit, on);
+  }
+
+  void clear() {
+    space_.clear();
+    model_.clear();
+  }
+
+  void reserve() {
+    u32 count = bytes_.next16();
+    made([&] { space_.reserve(count); });
+  }
+
+  void starve() { starved_ = true; }
+
+  void switch_technique() { space_.technique = Technique(bytes_.below(technique_count)); }
+
+  void update() {
+    if (!made([&] { CHECK(space_.update() == -1); })) return;
+    CHECK(sorted_pairs(space_) == model_.pairs());
+    CHECK(space_.stats.pairs == f64(space_.pairs.count));
+    CHECK(space_.stats.candidates >= space_.stats.pairs);
+    CHECK(space_.stats.bytes == f64(heap::used));
+  }
+
+  /// The structure is made of boxes.
+  void look() {
+    if (!made([&] { space_.structure(); })) return;
+    bool good = true;
+    for (u64 c = 0; c < space_.cell_count; c++) {
+      for (u32 a = 0; a < D; a++) good &= space_.cells[c * width + a] <= space_.cells[c * width + D + a];
+    }
+    CHECK(good);
+  }
+
+  void compare() {
+    u32 detail;
+    CHECK(space_.validate(detail) == 0);
+    CHECK(ids_.count() == model_.count());
+    bool same = true;
+    for (u32 id : model_.ids()) {
+      Box<D> held;
+      same &= space_.get(id, held.data()) && held == model_.at(id);
+    }
+    CHECK(same);
+    u32 other = id();
+    CHECK((ids_.slot(other) != Ids::none) == model_.has(other));
+  }
+
+  u32 id() {
+    u8 kind = bytes_.next();
+    if (kind < 200) return kind % 100;
+    if (kind < 230) return bytes_.next16();
+    if (kind < 250) return model_.count() % max_slots;
+    return (max_slots - 1 - bytes_.next()) % max_slots;
+  }
+
+  f64 number() {
+    static const f64 special[] = {std::numeric_limits<f64>::infinity(), -std::numeric_limits<f64>::infinity(),
+                                  std::numeric_limits<f64>::max(), -std::numeric_limits<f64>::max(),
+                                  std::numeric_limits<f32>::max(), -std::numeric_limits<f32>::max(),
+                                  1e39, -1e39, 1e9, -1e9, 1e-45, -1e-45, 1e-320, -1e-320, -0.0, 0.1};
+    u8 kind = bytes_.next();
+    if (kind < 128) return kind % 32;
+    if (kind < 180) return (kind - 128) * 0.1;
+    if (kind < 220) return f64(bytes_.next16()) * 0x1p-6;
+    if (kind < 250) return special[kind % std::size(special)];
+    f64 any = bits<f64>(bytes_.next64());
+    return any == any ? any : 0;
+  }
+
+  Box<D> box() {
+    Box<D> box;
+    for (u32 a = 0; a < D; a++) {
+      f64 one = number(), other = bytes_.below(4) ? one + bytes_.below(8) : number();
+      box[a] = smaller(one, other);
+      box[D + a] = larger(one, other);
+    }
+    return box;
+  }
+
+  Box<D> bad_box() {
+    Box<D> bad = box();
+    u32 k = bytes_.below(2 * width);
+    if (k < width) {
+      bad[k] = std::nan("");
+    } else {
+      bad[k % D] = 1;
+      bad[D + k % D] = 0;
+    }
+    return bad;
+  }
+};

@@ -1,0 +1,157 @@
+// Memory that ends in the middle of a call: the failure is reported, nothing is half changed, and the space works
+// again.
+#pragma once
+#include "calls.hpp"
+
+/// Makes `call` with more and more memory until it succeeds; after each failure `unchanged` must hold.
+/// Returns the number of failures.
+template <int D, class Call, class Unchanged> u32 starve(Space<D>& space, Call call, Unchanged unchanged) {
+  const u64 limit = heap::limit;
+  u32 failures = 0;
+  for (u64 room = 0;; room += 1 + room / 8) {
+    bool failed = false;
+    heap::limit = heap::used + room;
+    try {
+      call();
+    } catch (const Failure& failure) {
+      failed = failure.what == Fault::out_of_memory && failure.bytes > 0;
+    }
+    heap::limit = limit;
+    if (!failed) return failures;
+    failures++;
+    space.recover();
+    unchanged();
+  }
+}
+
+template <int D> struct Fixture {
+  std::unique_ptr<Instance<D>> instance = open<D>(Technique::automatic);
+  Space<D>& space = instance->space;
+  Model<D> model;
+
+  void unchanged() {
+    u32 detail;
+    bool same = space.validate(detail) == 0 && instance->ids.count() == model.count();
+    for (u32 id : model.ids()) {
+      Box<D> held;
+      same &= space.get(id, held.data()) && held == model.at(id);
+    }
+    CHECK(same);
+    CHECK(space.pairs.count == 0);
+  }
+  void works() {
+    CHECK(space.update() == -1);
+    CHECK(sorted_pairs(space) == model.pairs());
+  }
+};
+
+template <int D> void check_changes() {
+  Random random(21);
+  Boxes<D> doubles = spread<D>(random, 300, 0, 40, 6), floats = as_floats<D>(doubles);
+  // Dense ids or gaps, floats or doubles, exclusion bits or none.
+  for (u32 state = 0; state < 8; state++) {
+    testing::Where where("state " + std::to_string(state));
+    auto fresh = [&] {
+      auto fixture = std::make_unique<Fixture<D>>();
+      for (u32 k = 0; k < 40; k++) {
+        const Box<D>& box = state & 2 ? doubles[k] : floats[k];
+        u32 id = state & 1 ? k * 700 : k;
+        fixture->space.set(id, box.data());
+        fixture->model.set(id, box);
+      }
+      if (state & 4) {
+        for (u32 id : fixture->model.ids()) {
+          if (id % 3) continue;
+          fixture->space.exclude(fixture->instance->ids.slot(id), is_static, true);
+          fixture->model.exclude(id, is_static, true);
+        }
+      }
+      return fixture;
+    };
+    auto change = [&](auto call, auto on_model) {
+      auto fixture = fresh();
+      Fixture<D>& f = *fixture;
+      u32 failures = starve(f.space, [&] { call(f); }, [&] { f.unchanged(); });
+      on_model(f.model);
+      f.works();
+      return failures;
+    };
+
+    // set: an id further on, one by one until every array has grown.
+    auto fixture = fresh();
+    u32 failures = 0;
+    for (u32 k = 40; k < 300; k++) {
+      u32 id = state & 1 ? k * 700 : k;
+      failures += starve(
+          fixture->space, [&] { fixture->space.set(id, doubles[k].data()); }, [&] { fixture->unchanged(); });
+      fixture->model.set(id, doubles[k]);
+    }
+    fixture->works();
+    CHECK(failures > 20);
+
+    change([&](auto& f) { CHECK(f.space.remove(f.model.ids()[7])); },
+           [&](auto& model) { model.remove(model.ids()[7]); });
+    change([&](auto& f) { f.space.reserve(5000); }, [](auto&) {});
+    CHECK(change([&](auto& f) { f.space.expose(250); }, [](auto& model) { model.expose(250); }) > 0);
+    change([&](auto& f) { f.space.expose(10); }, [](auto& model) { model.expose(10); });
+    CHECK(change([&](auto& f) { replace(f.space, doubles, true); }, [&](auto& model) { model.replace(doubles); }) > 0);
+    CHECK(change([&](auto& f) { replace(f.space, floats, false); }, [&](auto& model) { model.replace(floats); }) > 0);
+    change([&](auto& f) { f.space.exclude(0, is_blue, true); }, [](auto& model) { model.exclude(0, is_blue, true); });
+  }
+}
+
+template <int D> void check_updates() {
+  Random random(22);
+  Boxes<D> boxes = spread<D>(random, 1200, 0, 100, 8);
+  for (u32 t = 0; t < technique_count; t++) {
+    testing::Where where("technique " + std::to_string(t));
+    Fixture<D> f;
+    f.space.technique = Technique(t);
+    replace(f.space, boxes, true);
+    f.model.replace(boxes);
+    CHECK(starve(f.space, [&] { CHECK(f.space.update() == -1); }, [&] { f.unchanged(); }) > 10);
+    f.works();
+    starve(f.space, [&] { f.space.structure(); }, [&] { f.unchanged(); });
+  }
+}
+
+/// More pairs than there is memory for, then fewer boxes in the same memory.
+template <int D> void check_too_many_pairs() {
+  for (u32 t = 0; t < technique_count; t++) {
+    testing::Where where("technique " + std::to_string(t));
+    Fixture<D> f;
+    f.space.technique = Technique(t);
+    Boxes<D> boxes(3000, cube<D>(0, 1));
+    replace(f.space, boxes, false);
+    f.model.replace(boxes);
+    const u64 limit = heap::limit;
+    heap::limit = heap::used + (4 << 20);
+    for (u32 k = 0; k < 3; k++) {
+      bool failed = false;
+      try {
+        f.space.update();
+      } catch (const Failure&) {
+        failed = true;
+        f.space.recover();
+      }
+      CHECK(failed);
+      f.unchanged();
+    }
+    for (u32 id = 0; id < 3000; id++) {
+      if (id % 10 == 0) continue;
+      CHECK(f.space.remove(id));
+      f.model.remove(id);
+    }
+    f.works();
+    CHECK(f.space.pairs.count == 300 * 299 / 2);
+    heap::limit = limit;
+  }
+}
+
+template <int D> void list_memory_tests() {
+  testing::list({
+      {"memory that ends in a change leaves all as it was", D, check_changes<D>},
+      {"memory that ends in an update ends it with no pairs", D, check_updates<D>},
+      {"memory suffices again with fewer boxes", D, check_too_many_pairs<D>},
+  });
+}

@@ -1,0 +1,272 @@
+// Spaces with every technique, in one dimension: their pairs are the model's, on scenes and over sequences of calls.
+#pragma once
+#include "calls.hpp"
+
+/// Calls `what(technique)` for every technique; messages name it by its number.
+template <class What> void each_technique(What what) {
+  for (u32 t = 0; t < technique_count; t++) {
+    testing::Where where("technique " + std::to_string(t));
+    what(Technique(t));
+  }
+}
+
+template <int D> PairList pairs_of(const Boxes<D>& boxes) {
+  Model<D> model;
+  model.replace(boxes);
+  return model.pairs();
+}
+
+/// Updates and compares; the order of the pairs is the same when nothing has changed.
+template <int D> void check_pairs(Space<D>& space, const PairList& expected) {
+  CHECK(space.update() == -1);
+  CHECK(sorted_pairs(space) == expected);
+  PairList order(space.pairs.list.data(), space.pairs.list.data() + space.pairs.count);
+  CHECK(space.update() == -1);
+  CHECK(std::equal(order.begin(), order.end(), space.pairs.list.data()) && space.pairs.count == order.size());
+  u32 detail;
+  CHECK(space.validate(detail) == 0);
+  space.structure();
+}
+
+template <int D> void check_scenes() {
+  for (const auto& scene : scenes<D>()) {
+    testing::Where where(scene.name);
+    Boxes<D> floats = as_floats<D>(scene.boxes);
+    PairList expected = pairs_of<D>(scene.boxes), expected_of_floats = pairs_of<D>(floats);
+    each_technique([&](Technique technique) {
+      auto instance = open<D>(technique);
+      CHECK(replace(instance->space, scene.boxes, true) == -1);
+      check_pairs(instance->space, expected);
+      CHECK(replace(instance->space, floats, false) == -1);
+      check_pairs(instance->space, expected_of_floats);
+    });
+  }
+}
+
+/// Fresh arrays of every size: what is written past their ends is seen.
+template <int D> void check_every_count() {
+  Random random(9);
+  for (u32 count = 0; count < 180; count += count < 40 ? 1 : 7) {
+    Boxes<D> boxes = spread<D>(random, count, 0, 50, 10);
+    PairList expected = pairs_of<D>(boxes);
+    each_technique([&](Technique technique) {
+      auto instance = open<D>(technique);
+      replace(instance->space, boxes, true);
+      check_pairs(instance->space, expected);
+    });
+  }
+}
+
+/// With cells far too small, far too large, and of different sides; with bounds around all, around nothing, and
+/// beyond what float32 holds.
+template <int D> void check_settings() {
+  Random random(10);
+  Boxes<D> boxes = spread<D>(random, 150, -30, 30, 5);
+  boxes.push_back(cube<D>(-1e30, 1e30));
+  boxes.push_back(cube<D>(-std::numeric_limits<f64>::infinity(), 0));
+  PairList expected = pairs_of<D>(boxes);
+  auto check = [&](f64 size, f64 stretch, f64 low, f64 high) {
+    using std::to_string;
+    testing::Where where("cells of " + to_string(size) + " from " + to_string(low) + " to " + to_string(high));
+    each_technique([&](Technique technique) {
+      auto instance = open<D>(technique);
+      for (u32 a = 0; a < D; a++) {
+        instance->settings.cell_size[a] = size * std::pow(stretch, a);
+        instance->settings.bounds[a] = low;
+        instance->settings.bounds[D + a] = high;
+      }
+      replace(instance->space, boxes, true);
+      check_pairs(instance->space, expected);
+    });
+  };
+  for (f64 size : {1e-300, 1e-9, 0.3, 7.0, 1e9, 1e300}) check(size, 1, 0, 0);
+  for (f64 stretch : {0.1, 3.0}) check(7, stretch, -30, 30);
+  check(0, 1, -30, 30);
+  check(0, 1, 5, 6);
+  check(2, 1, 5, 6);
+  check(0, 1, -1e9, 1e9);
+  check(0, 1, 0, 1e-300);
+  check(1e-30, 1, 0, 1e-300);
+  check(0, 1, -1.7e308, 1.7e308);
+  check(1e300, 1, -1.7e308, 1.7e308);
+  check(0, 1, 1e300, 1.1e300);
+}
+
+template <int D> void check_calls() {
+  Random random(15);
+  for (u32 round = 0; round < 40; round++) {
+    testing::Where where("round " + std::to_string(round));
+    std::vector<u8> data(2000);
+    for (auto& byte : data) byte = u8(random.bits64());
+    Bytes bytes(data.data(), data.size());
+    Calls<D>(bytes, Technique(round % technique_count)).run();
+  }
+}
+
+/// From any scene to any other in one space, and from any technique to any other.
+template <int D> void check_switches() {
+  Random random(11);
+  auto instance = open<D>(Technique::automatic);
+  const auto& all = scenes<D>();
+  std::vector<PairList> expected;
+  for (const auto& scene : all) expected.push_back(pairs_of<D>(scene.boxes));
+  for (u32 k = 0; k < 150; k++) {
+    u32 n = random.below(u32(all.size()));
+    testing::Where where(all[n].name);
+    instance->space.technique = Technique(random.below(technique_count));
+    replace(instance->space, all[n].boxes, true);
+    instance->space.update();
+    CHECK(sorted_pairs(instance->space) == expected[n]);
+  }
+}
+
+template <int D> void check_rounding() {
+  Random random(12);
+  auto instance = open<D>(Technique::automatic);
+  Space<D>& space = instance->space;
+  const f64 infinity = std::numeric_limits<f64>::infinity();
+  const f64 special[] = {0.0, -0.0, 1, 0.1, -0.1, 1e-46, -1e-46, 5e-324, -5e-324, 1e39, -1e39, 3.4028235e38,
+                         1e308, -1e308, infinity, -infinity, 0x1p-149, 0x1.8p-149, -0x1.8p-149, 1 + 0x1p-24,
+                         1 - 0x1p-25, 16777217};
+  for (u32 k = 0; k < 5000; k++) {
+    f64 x = k < std::size(special) ? special[k] : bits<f64>(random.bits64());
+    if (x != x) continue;
+    Box<D> box = cube<D>(x, x), held;
+    space.set(3, box.data());
+    CHECK(space.get(3, held.data()));
+    CHECK(held == box);
+    u32 detail;
+    CHECK(space.validate(detail) == 0);
+    f32* floats = space.expose(4) + 3 * 2 * D;
+    for (u32 n = 0; n < 2 * D; n++) CHECK(bits<u32>(floats[n]) == bits<u32>(outward(x, n >= D)) || x == 0);
+  }
+}
+
+/// Boxes handed out in place, wherever they stand by the time they turn out to be bad.
+template <int D> void check_exposed() {
+  auto instance = open<D>(Technique::automatic);
+  Space<D>& space = instance->space;
+  u32 detail;
+  f32* boxes = space.expose(5);
+  for (u32 k = 0; k < 5 * 2 * D; k++) CHECK(boxes[k] == 0);
+  CHECK(space.update() == -1);
+  CHECK(space.pairs.count == 10);
+  boxes[4 * 2 * D + 1] = std::nanf("");
+  CHECK(space.update() == 4);
+  CHECK(space.pairs.count == 10);
+  CHECK(space.validate(detail) == 0);
+
+  CHECK(space.remove(1));  // box 4 moves to the slot of box 1
+  CHECK(space.update() == 4);
+
+  Box<D> rounded = cube<D>(0.1, 0.1);
+  space.set(2, rounded.data());
+  CHECK(space.update() == 4);
+  CHECK(space.validate(detail) == 0);
+
+  Box<D> good = cube<D>(0, 0);
+  space.set(4, good.data());
+  CHECK(space.update() == -1);
+  CHECK(space.pairs.count == 3);
+  CHECK(space.validate(detail) == 0);
+}
+
+template <int D> void check_bad_boxes() {
+  auto instance = open<D>(Technique::automatic);
+  Space<D>& space = instance->space;
+  Boxes<D> boxes(6, cube<D>(0, 1));
+  replace(space, boxes, true);
+  space.update();
+  Boxes<D> bad = boxes;
+  bad[3][1] = 2;
+  bad[5][D] = std::nan("");
+  for (bool doubles : {false, true}) {
+    CHECK(replace(space, bad, doubles) == 3);
+    CHECK(space.staged_number(3 * 2 * D, doubles) == 0 && space.staged_number(3 * 2 * D + 1, doubles) == 2);
+    bad[3][1] = 0.1;
+    CHECK(replace(space, bad, doubles) == 5);
+    bad[3][1] = 2;
+  }
+  Box<D> held;
+  CHECK(space.get(3, held.data()) && held == boxes[3]);
+  CHECK(!space.get(6, held.data()));
+  CHECK(space.pairs.count == 15);
+}
+
+template <int D> void check_colours() {
+  Random random(13);
+  Boxes<D> boxes = spread<D>(random, 500, 0, 60, 10);
+  Model<D> model;
+  model.replace(boxes);
+  for (u32 id = 0; id < 500; id++) {
+    model.exclude(id, id < 200 ? is_red : is_blue, true);
+    if (id % 3 == 0) model.exclude(id, is_static, true);
+  }
+  PairList expected = model.pairs();
+  CHECK(!expected.empty());
+  each_technique([&](Technique technique) {
+    auto instance = open<D>(technique);
+    replace(instance->space, boxes, true);
+    for (u32 id = 0; id < 500; id++) {
+      instance->space.exclude(id, id < 200 ? is_red : is_blue, true);
+      if (id % 3 == 0) instance->space.exclude(id, is_static, true);
+    }
+    check_pairs(instance->space, expected);
+  });
+}
+
+/// Strips that hold too much are cut again, deeper and deeper.
+template <int D> void check_deep_cuts() {
+  Random random(14);
+  Boxes<D> boxes;
+  for (f64 scale : {1e6, 1e4, 1e2, 1.0}) {
+    Boxes<D> part = spread<D>(random, 800, 0, scale, scale * 0.02);
+    boxes.insert(boxes.end(), part.begin(), part.end());
+  }
+  PairList expected = pairs_of<D>(boxes);
+  each_technique([&](Technique technique) {
+    auto instance = open<D>(technique);
+    replace(instance->space, boxes, true);
+    check_pairs(instance->space, expected);
+  });
+}
+
+/// What is measured of a frame can be reckoned with.
+template <int D> void check_statistics_of(const Boxes<D>& boxes) {
+  std::vector<f32> floats;
+  for (const auto& box : boxes) {
+    for (u32 k = 0; k < 2 * D; k++) floats.push_back(outward(box[k], k >= D));
+  }
+  floats.resize(floats.size() + 4);
+  Scene<D> scene{floats.data(), u32(boxes.size()), nullptr};
+  Statistics<D> world = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, scene.count);
+  for (int a = 0; a < D; a++) {
+    CHECK(std::isfinite(world.low[a]) && std::isfinite(world.high[a]));
+    CHECK(world.low[a] <= world.high[a]);
+    CHECK(world.size[a] >= 0 && world.size[a] <= (world.high[a] - world.low[a]) * (1 + 1e-12));
+  }
+  CHECK(world.crowding >= 1 && std::isfinite(world.crowding));
+}
+
+template <int D> void check_statistics() {
+  for (const auto& scene : scenes<D>()) {
+    testing::Where where(scene.name);
+    if (!scene.boxes.empty()) check_statistics_of<D>(scene.boxes);
+  }
+}
+
+template <int D> void list_space_tests() {
+  testing::list({
+      {"spaces find the pairs of all scenes", D, check_scenes<D>},
+      {"spaces find the pairs of any number of boxes", D, check_every_count<D>},
+      {"spaces find the pairs whatever the cell size and the bounds", D, check_settings<D>},
+      {"spaces find the pairs of scenes that need deep cuts", D, check_deep_cuts<D>},
+      {"spaces go from any scene and technique to any other", D, check_switches<D>},
+      {"spaces follow random calls", D, check_calls<D>},
+      {"spaces keep the numbers they were given", D, check_rounding<D>},
+      {"spaces name bad boxes written in place", D, check_exposed<D>},
+      {"spaces refuse bad boxes and stay as they were", D, check_bad_boxes<D>},
+      {"spaces leave out pairs that share an exclusion bit", D, check_colours<D>},
+      {"statistics are finite whatever the boxes", D, check_statistics<D>},
+  });
+}

@@ -1,0 +1,121 @@
+// What is measured of a frame, and the maps from coordinates to cells that follow from it.
+#include "statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "check.hpp"
+#include "scenes.hpp"
+
+namespace {
+
+using Limits = std::numeric_limits<f32>;
+
+/// Coordinates over all magnitudes, and those around a range's borders.
+std::vector<f32> probes(Random& random, f64 low, f64 high) {
+  std::vector<f32> all = {0.0f, -0.0f, Limits::infinity(), -Limits::infinity(), Limits::max(), Limits::lowest(),
+                          Limits::denorm_min(), -Limits::denorm_min(), Limits::min()};
+  for (int k = 0; k < 300; k++) {
+    f32 any = bits<f32>(u32(random.bits64()));
+    if (any == any) all.push_back(any);
+    all.push_back(outward(low + (high - low) * (1.5 * random.fraction() - 0.25), false));
+  }
+  for (f64 border : {low, high, (low + high) / 2}) {
+    if (border != border) continue;
+    f32 at = outward(border, false);
+    all.push_back(at);
+    all.push_back(std::nextafter(at, Limits::infinity()));
+    all.push_back(std::nextafter(at, -Limits::infinity()));
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+void check_axis(Random& random, f64 low, f64 high, u32 cells) {
+  testing::Where where(std::to_string(low) + " to " + std::to_string(high) + " in " + std::to_string(cells));
+  Axis axis = Axis::make(low, high, cells);
+  Axes axes(axis, axis, axis, axis);
+  u32 before = 0;
+  bool monotone = true, clamped = true, alike = true;
+  for (f32 x : probes(random, low, high)) {
+    u32 cell = axis(x);
+    monotone &= cell >= before;
+    clamped &= cell < cells;
+    u32x4 four = axes(f32x4{x, x, x, x});
+    for (int lane = 0; lane < 4; lane++) alike &= four[lane] == cell;
+    before = cell;
+  }
+  CHECK(monotone);
+  CHECK(clamped);
+  CHECK(alike);
+}
+
+}  // namespace
+
+TEST("axis is monotone and clamped for any range") {
+  Random random(4);
+  const f64 ends[] = {0, -0.0, 1, -1, 1000, 1e-45, -1e-45, 1e-38, 1e-300, 5e-324, 1e9, -1e9, 1e30, -1e38, 3.4e38,
+                      -3.4e38, 1e300, -1e300, 1.7e308, -1.7e308};
+  for (f64 low : ends) {
+    for (f64 high : ends) {
+      for (u32 cells : {1u, 2u, 3u, 255u, 4096u, 1u << 20, (1u << 23) + 1, 1u << 24}) {
+        check_axis(random, low, high, cells);
+      }
+    }
+  }
+  for (int k = 0; k < 2000; k++) {
+    f64 scale = std::ldexp(1, int(random.below(300)) - 150), low = (random.fraction() - 0.5) * scale;
+    check_axis(random, low, low + random.fraction() * scale, 1 + random.below(5000));
+  }
+  f64 nan = std::nan(""), infinity = std::numeric_limits<f64>::infinity();
+  check_axis(random, nan, nan, 10);
+  check_axis(random, infinity, -infinity, 10);
+  check_axis(random, -infinity, infinity, 10);
+  CHECK(Axis::make(0, 10, 11)(Limits::quiet_NaN()) == 0);
+}
+
+TEST("axis puts whole steps in the middle of cells") {
+  Axis axis = Axis::make(-5, 5, 11);
+  for (int k = 0; k <= 10; k++) CHECK(axis(f32(k - 5)) == u32(k));
+  CHECK(axis(-4.51f) == 0 && axis(-4.49f) == 1 && axis(99) == 10 && axis(-99) == 0);
+}
+
+TEST("statistics leave out outliers") {
+  Random random(5);
+  Boxes<2> boxes = spread<2>(random, 2000, 0, 100, 4);
+  Statistics<2> found;
+  auto measured = [&] {
+    std::vector<f32> floats;
+    for (const auto& box : boxes) floats.insert(floats.end(), box.begin(), box.end());
+    Scene<2> scene{floats.data(), u32(boxes.size()), nullptr};
+    return measure<2>(SceneItems<2>{scene, AxisOrder<2>::make(0)}, scene.count);
+  };
+  found = measured();
+  CHECK(found.low[0] < 2 && found.high[0] > 98 && std::abs(found.size[0] - 2) < 0.3 && found.crowding < 1.5);
+  for (int k = 0; k < 10; k++) boxes[random.below(2000)] = {1e9, -1e30, 1e9, 1e30};
+  found = measured();
+  CHECK(found.low[0] >= 0 && found.high[0] < 101 && found.low[1] >= 0 && found.high[1] < 101);
+}
+
+TEST("cube roots are close") {
+  Random random(6);
+  for (int k = 0; k < 10000; k++) {
+    f64 x = std::ldexp(1 + random.fraction(), int(random.below(600)) - 300);
+    CHECK(std::abs(cube_root(x) / std::cbrt(x) - 1) < 1e-6);
+  }
+}
+
+TEST("quickselect finds every rank") {
+  Random random(7);
+  for (i32 n : {1, 2, 3, 10, 100}) {
+    for (i32 k = 0; k < n; k++) {
+      std::vector<f32> values(static_cast<size_t>(n));
+      for (auto& value : values) value = f32(random.below(30));
+      std::vector<f32> ordered = values;
+      std::sort(ordered.begin(), ordered.end());
+      CHECK(detail::select(values.data(), n, k) == ordered[size_t(k)]);
+    }
+  }
+}

@@ -1,0 +1,192 @@
+// Where memory ends and where it moves: what does not fit is a RangeError that says so, after which the same object goes
+// on with fewer boxes; a view that growing memory has cut off is never written to unnoticed.
+import { BroadPhase, init } from 'broadphase';
+import { beforeAll, describe, expect, test } from 'vitest';
+import { kernelHex } from '../src/generated/kernel-wasm.ts';
+
+const mebibyte = 2 ** 20;
+
+/** The kernel, with a limit to its memory, so that running out of it takes milliseconds. */
+function kernelWith(bytes: number): Uint8Array<ArrayBuffer> {
+  const wasm = Uint8Array.from(Buffer.from(kernelHex, 'hex'));
+  const read = (at: number): [value: number, next: number] => {
+    let value = 0;
+    for (let shift = 0; ; shift += 7) {
+      const byte = wasm[at++]!;
+      value |= (byte & 127) << shift;
+      if (byte < 128) return [value, at];
+    }
+  };
+  const number = (value: number): number[] => (value < 128 ? [value] : [(value & 127) | 128, ...number(value >>> 7)]);
+  // After the magic number and the version come sections: a kind, a length, a content. Kind 5 is the memory.
+  for (let at = 8; at < wasm.length; ) {
+    const kind = wasm[at];
+    const [length, content] = read(at + 1);
+    if (kind === 5) {
+      const [pages] = read(content + 2); // behind the number of memories and the flag that there is no limit
+      const limited = [1, 1, ...number(pages), ...number(bytes / 65536)];
+      return Uint8Array.from([...wasm.slice(0, at), 5, limited.length, ...limited, ...wasm.slice(content + length)]);
+    }
+    at = content + length;
+  }
+  throw new Error('the kernel has no memory of its own');
+}
+
+const identical = (count: number, dimensions: number) =>
+  Float32Array.from({ length: count * 2 * dimensions }, (_, k) => (k % (2 * dimensions) < dimensions ? 1 : 2));
+
+const combinations = BroadPhase.techniques.flatMap((technique) =>
+  ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
+);
+
+describe('with 64 MiB of memory', () => {
+  beforeAll(() => init(kernelWith(64 * mebibyte)));
+
+  test.each(combinations)('%s in %d dimensions recovers from too many pairs', (technique, dimensions) => {
+    const space = new BroadPhase({ technique, dimensions });
+    for (let round = 0; round < 3; round++) {
+      space.setAll(identical(100_000, dimensions));
+      const update = () => space.update();
+      expect(update).toThrow(RangeError);
+      expect(update).toThrow(/^update: out of memory: \d+ bytes more for 100000 boxes and their pairs/);
+      expect(space.size).toBe(100_000);
+      expect(space.pairCount).toBe(0);
+      expect(space.pairs.length).toBe(0);
+      expect(space.stats.pairs).toBe(0);
+      expect(space.structure().length).toBe(0);
+      space.validate();
+      for (let id = 1000; id < 100_000; id++) space.delete(id);
+      expect(space.update().pairCount).toBe((1000 * 999) / 2);
+      expect(space.validate().stats.pairs).toBe(space.pairCount);
+    }
+  });
+
+  test('boxes that do not fit are refused, and those that were there stay', () => {
+    const space = new BroadPhase().set(3, 0, 0, 1, 1).set(5, 1, 1, 2, 2.1).update();
+    const check = () => {
+      expect(space.size).toBe(2);
+      expect(Array.from(space.get(5)!)).toEqual([1, 1, 2, 2.1]);
+      expect(Array.from(space.update().validate().pairs)).toEqual([3, 5]);
+    };
+    const numbers = 64 * mebibyte; // at 4 bytes each or more
+    expect(() => space.setAll(new Float32Array(numbers / 4))).toThrow(/^setAll: out of memory/);
+    check();
+    expect(() => space.setAll(new Float64Array(numbers / 8))).toThrow(/^setAll: out of memory/);
+    check();
+    expect(() => space.boxes(numbers / 16)).toThrow(/^boxes: out of memory/);
+    check();
+    expect(() => new BroadPhase({ capacity: 2 ** 24 })).toThrow(/^capacity: out of memory/);
+  });
+
+  test.each([2, 3] as const)('boxes are added one by one until memory ends, in %d dimensions', (dimensions) => {
+    const space = new BroadPhase({ dimensions });
+    const add = (id: number) =>
+      dimensions === 2 ? space.set(id, id, 0, id + 0.1, 1) : space.set(id, id, 0, 0, id + 0.1, 1, 1);
+    let count = 0;
+    expect(() => {
+      for (; ; count++) add(3 * count);
+    }).toThrow(/^set: out of memory/);
+    expect(count).toBeGreaterThan(100_000);
+    expect(space.size).toBe(count);
+    expect(space.has(3 * count)).toBe(false);
+    space.validate();
+    let deleted = 0;
+    for (let k = 10; k < count; k++) deleted += Number(space.delete(3 * k));
+    expect(deleted).toBe(count - 10);
+    add(31);
+    add(30);
+    expect(space.update().validate().size).toBe(12);
+    expect(space.pairCount).toBe(0);
+  });
+});
+
+// Takes 4 GiB and half a minute, so only where it is asked for: LARGE_MEMORY=1.
+describe.runIf(process.env.LARGE_MEMORY)('with all memory that WebAssembly allows', () => {
+  beforeAll(() => init(Buffer.from(kernelBase64, 'base64')));
+
+  test('pairs and boxes are found beyond the first 2 GiB', { timeout: 300_000 }, () => {
+    const count = 25_000;
+    const space = new BroadPhase({ technique: 'brute-force' }).setAll(identical(count, 2)).update();
+    expect(space.pairCount).toBe((count * (count - 1)) / 2);
+    expect(space.stats.pairs).toBe(space.pairCount);
+    const { pairs } = space;
+    expect(pairs.byteLength).toBeGreaterThan(2 ** 31);
+    expect(Array.from(pairs.subarray(-2))).toEqual([count - 2, count - 1]);
+    space.validate();
+    space.boxes(100_000).set(identical(100_000, 2)); // stands behind the pairs
+    expect(() => space.update()).toThrow(/^update: out of memory: \d+ bytes more for 100000 boxes/);
+    space.boxes(1000).set(identical(1000, 2));
+    expect(space.update().validate().pairCount).toBe((1000 * 999) / 2);
+  });
+});
+
+describe('views of memory', () => {
+  beforeAll(() => init(kernelWith(1024 * mebibyte)));
+
+  /** Fills boxes so that the pairs of the next update need more memory than there is yet. */
+  function crowd(space: BroadPhase, count = 3000) {
+    space.boxes(count).set(identical(count, space.dimensions));
+    space.update();
+  }
+
+  test('of boxes stay while memory does not grow', () => {
+    const space = new BroadPhase();
+    crowd(space, 100);
+    const view = space.boxes(100);
+    for (let frame = 0; frame < 5; frame++) {
+      view.set(identical(100, 2));
+      expect(space.update().pairCount).toBe(4950);
+      expect(space.boxes(100) === view).toBe(true);
+    }
+  });
+
+  test('of boxes that were cut off are noticed by the next update', () => {
+    const space = new BroadPhase();
+    const view = space.boxes(3000);
+    crowd(space);
+    expect(view.length).toBe(0);
+    view[0] = 7; // is lost
+    expect(() => space.update()).toThrow(/^update: the array that boxes\(\) gave was cut off when memory grew/);
+    expect(() => space.update()).toThrow(/call boxes\(count\) before each time it is written/);
+    const again = space.boxes(3000);
+    expect(again === view).toBe(false);
+    expect(again).toEqual(identical(3000, 2));
+    expect(space.update().pairCount).toBe((3000 * 2999) / 2);
+  });
+
+  test.each<[string, (space: BroadPhase) => unknown]>([
+    ['set', (space) => space.set(0, 0, 0, 9, 9)],
+    ['setAll', (space) => space.setAll(identical(3000, 2))],
+    ['delete', (space) => space.delete(0)],
+    ['clear', (space) => space.clear()],
+  ])('of boxes are over with %s, so an update after it goes through', (_, change) => {
+    const space = new BroadPhase();
+    crowd(space);
+    change(space);
+    space.update().validate();
+  });
+
+  test('of pairs are made anew when memory has grown', () => {
+    const space = new BroadPhase().setAll([0, 0, 1, 1, 1, 1, 2, 2]).update();
+    const { pairs } = space;
+    expect(Array.from(pairs)).toEqual([0, 1]);
+    crowd(space);
+    expect(pairs.length).toBe(0);
+    expect(space.pairs.length).toBe(3000 * 2999);
+    space.setAll([0, 0, 1, 1, 1, 1, 2, 2]).update();
+    expect(Array.from(space.pairs)).toEqual([0, 1]);
+    expect(space.stats.pairs).toBe(1);
+  });
+
+  test('a bad box written in place is named by its id, though another was deleted since', () => {
+    const space = new BroadPhase();
+    const view = space.boxes(3);
+    view[2 * 4 + 1] = Number.NaN;
+    space.delete(0);
+    expect(() => space.update()).toThrow(/^update: minY of box 2 is NaN/);
+    space.set(1, 0, 0, 0.1, 0.1).validate();
+    expect(() => space.update()).toThrow(/box 2/);
+    space.set(2, 0, 0, 1, 1);
+    expect(Array.from(space.update().validate().pairs)).toEqual([1, 2]);
+  });
+});
