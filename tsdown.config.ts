@@ -1,11 +1,18 @@
-// The published package: one ES module with its types, and the kernel beside it for hosts that load it themselves.
-import { defineConfig } from 'tsdown';
+// The published package: ES modules with their types, and the kernel beside them for hosts that load it themselves.
+// Entries are built apart, so that who imports the library alone gets one file; to each other they are external.
+import { defineConfig, type UserConfig } from 'tsdown';
 
-export default defineConfig({
-  entry: { index: 'src/index.ts' },
-  format: 'esm',
-  platform: 'neutral',
-  target: 'es2022',
-  dts: true,
-  copy: ['build/kernel.wasm'],
-});
+const common: UserConfig = { format: 'esm', platform: 'neutral', target: 'es2022', dts: true };
+const entries = { broadphase: './index.js', 'broadphase/trace': './trace.js' };
+
+/** An entry that imports others of this package by their names, and finds them beside itself. */
+const beside: UserConfig = {
+  deps: { neverBundle: Object.keys(entries) },
+  outputOptions: { paths: entries },
+  clean: false,
+};
+
+export default defineConfig([
+  { ...common, entry: { index: 'src/index.ts' }, copy: ['build/kernel.wasm'] },
+  { ...common, ...beside, entry: { trace: 'src/trace/index.ts' } },
+]);

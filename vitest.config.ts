@@ -4,7 +4,13 @@ import { defineConfig } from 'vitest/config';
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 
 export default defineConfig({
-  resolve: { alias: { 'broadphase/ro': path('./src/ro/index.ts'), broadphase: path('./src/index.ts') } },
+  resolve: {
+    alias: {
+      'broadphase/ro': path('./src/ro/index.ts'),
+      'broadphase/trace': path('./src/trace/index.ts'),
+      broadphase: path('./src/index.ts'),
+    },
+  },
   test: {
     projects: [
       {

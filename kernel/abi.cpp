@@ -63,6 +63,9 @@ EXPORT(set_static)(u32 id, u32 on) -> u32 {
   with_space([&](auto& space) { space.exclude(slot, is_static, on != 0); });
   return 1;
 }
+EXPORT(contents)() -> void {
+  with_space([](auto& space) { space.contents(io); });
+}
 
 EXPORT(stage)(u32 count) -> f32* {
   return with_space([&](auto& space) { return space.stage(count); });

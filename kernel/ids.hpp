@@ -38,6 +38,8 @@ class Ids {
 
   u32 count() const { return count_; }
   bool same() const { return !named_; }
+  /// The id of each slot, or null where slot and id are the same.
+  const u32* names() const { return named_ ? id_of_.data() : nullptr; }
   u32 id(u32 slot) const { return !named_ ? slot : id_of_[slot]; }
 
   u32 slot(u32 id) const {

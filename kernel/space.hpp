@@ -105,6 +105,13 @@ template <int D> class Space {
     exposed_ = rounding_ = false;
   }
 
+  /// Where everything stands, for a recorder: the ids (0: slots), the boxes, the doubles they were given as (0: none).
+  COLD void contents(f64* out) const {
+    out[0] = f64(u64(ids_.names()));
+    out[1] = f64(u64(boxes_.data()));
+    out[2] = rounding_ ? f64(u64(exact_.data())) : 0;
+  }
+
   /// Memory into which the next `replace` expects its boxes, as float32 or as doubles.
   COLD f32* stage(u32 count) { return staged_.reserve(u64(count) * width + padding); }
   COLD f64* stage_exact(u32 count) {

@@ -13,8 +13,14 @@ const headers = {
 export default defineConfig({
   root: path('.'),
   base: './',
-  resolve: { alias: { broadphase: path('../src/index.ts') } },
-  build: { target: 'es2022', outDir: path('dist'), emptyOutDir: true, assetsInlineLimit: 0 },
+  resolve: { alias: { 'broadphase/ro': path('../src/ro/index.ts'), broadphase: path('../src/index.ts') } },
+  build: {
+    target: 'es2022',
+    outDir: path('dist'),
+    emptyOutDir: true,
+    assetsInlineLimit: 0,
+    rolldownOptions: { input: { index: path('index.html'), article: path('article/index.html') } },
+  },
   server: { headers, fs: { allow: [path('..')] } },
   preview: { headers },
 });

@@ -3,6 +3,7 @@
 // gives views of what comes out. Nothing here runs once per box or per pair of an update.
 import { badBox, badCount, badId, badValue, checkBits, maxId, noBox } from './errors.ts';
 import { Queries } from './queries.ts';
+import { type Watcher, watch } from './watch.ts';
 
 /** Options of {@link BroadPhase}, all optional. */
 export interface BroadPhaseOptions {
@@ -100,6 +101,7 @@ export class BroadPhase extends Queries {
   #technique: TechniqueName;
   /** What `boxes()` gave last, while it is in use. */
   #view: Float32Array | undefined;
+  #watcher: Watcher | undefined;
 
   /**
    * @throws RangeError or TypeError that names the option
@@ -360,6 +362,7 @@ export class BroadPhase extends Queries {
       badBox('update', bad, box, this.dimensions);
     }
     this.#readStats();
+    if (this.#watcher !== undefined) this.#show(this.#watcher);
     return this;
   }
 
@@ -448,6 +451,15 @@ export class BroadPhase extends Queries {
     this.#view = undefined;
   }
 
+  /**
+   * For broadphase/trace: calls `watcher` after each update from now on; without one, no longer.
+   * @internal
+   */
+  [watch](watcher?: Watcher): void {
+    if (watcher && this.#watcher) throw new Error('this BroadPhase is being recorded already');
+    this.#watcher = watcher;
+  }
+
   static {
     splitColours = (space, red) => {
       try {
@@ -456,6 +468,17 @@ export class BroadPhase extends Queries {
         space.recover(error, 'findPairsBetween');
       }
     };
+  }
+
+  #show(watcher: Watcher): void {
+    this.kernel.contents();
+    const [ids, boxes, doubles] = this.io();
+    const { buffer } = this.kernel.memory;
+    const length = this.size * this.width;
+    watcher(
+      doubles ? new Float64Array(buffer, doubles, length) : new Float32Array(buffer, boxes, length),
+      ids ? new Uint32Array(buffer, ids, this.size) : undefined,
+    );
   }
 
   #readStats(): void {
@@ -477,11 +500,13 @@ export class BroadPhase extends Queries {
   #stagedView(at: number, length: number, single: boolean): Float32Array | Float64Array {
     const { buffer } = this.kernel.memory;
     const views = this.#stagedViews;
+    const kind = single ? Float32Array : Float64Array;
     for (let k = 0; k < views.length; k++) {
       const view = views[k]!;
-      if (view.buffer === buffer && view.byteOffset === at && view.length === length) return view;
+      if (view.buffer === buffer && view.byteOffset === at && view.length === length && view instanceof kind)
+        return view;
     }
-    const view = new (single ? Float32Array : Float64Array)(buffer, at, length);
+    const view = new kind(buffer, at, length);
     if (views.push(view) > 2) views.shift();
     return view;
   }

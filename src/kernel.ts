@@ -21,6 +21,7 @@ export interface KernelExports {
   clear(): void;
   set_filter(id: number, layer: number, mask: number): number;
   set_static(id: number, on: number): number;
+  contents(): void;
   stage(count: number): number;
   stage_exact(count: number): number;
   replace(count: number, doubles: number): number;

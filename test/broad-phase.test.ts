@@ -66,6 +66,17 @@ describe('setAll and boxes', () => {
     expect(pairsOf(space)).toEqual([]);
   });
 
+  test('doubles are taken as doubles where floats were staged before', () => {
+    // The memory of the first setAll comes back for the second: as many numbers, at the same place, of another kind.
+    const space = new BroadPhase({ dimensions: 3 });
+    space.setAll(Float32Array.from({ length: 24 }, () => 1));
+    space.set(1000, 0, 0, 0, 0, 0, 0);
+    for (const id of [4, 5, 6]) space.set(id, 0, 0, 0, 1, 1, 1);
+    const doubles = Array.from({ length: 24 }, (_, k) => 0.1 * k);
+    space.setAll(doubles);
+    expect(Array.from({ length: 4 }, (_, id) => [...space.get(id)!]).flat()).toEqual(doubles);
+  });
+
   test('boxes is the memory that update reads', () => {
     const space = new BroadPhase();
     const view = space.boxes(2);

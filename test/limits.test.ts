@@ -102,7 +102,7 @@ describe('with 64 MiB of memory', () => {
 
 // Takes 4 GiB and half a minute, so only where it is asked for: LARGE_MEMORY=1.
 describe.runIf(process.env.LARGE_MEMORY)('with all memory that WebAssembly allows', () => {
-  beforeAll(() => init(Buffer.from(kernelBase64, 'base64')));
+  beforeAll(() => init(Buffer.from(kernelHex, 'hex')));
 
   test('pairs and boxes are found beyond the first 2 GiB', { timeout: 300_000 }, () => {
     const count = 25_000;

@@ -18,6 +18,8 @@ export type TraceName = keyof typeof files;
 
 export const traceNames = Object.keys(files) as TraceName[];
 
+export const traceFile = (name: TraceName): string => fileURLToPath(new URL(files[name], import.meta.url));
+
 export function readTrace(name: TraceName): Recording {
-  return readRecording(gunzipSync(readFileSync(fileURLToPath(new URL(files[name], import.meta.url)))));
+  return readRecording(gunzipSync(readFileSync(traceFile(name))));
 }

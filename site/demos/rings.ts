@@ -1,4 +1,5 @@
-// Rings of resting squares, and on each ring one that goes round. Squares that collide are darker; a click adds a ring.
+// Rings of resting squares, and on each ring one that goes round. Squares that collide are darker; a click adds a ring,
+// and so does the Enter key.
 import type { ro as Ro } from 'broadphase/ro';
 
 const SIDE = 10; // of a square, in pixels
@@ -9,21 +10,23 @@ export function rings(
   ro: typeof Ro,
   canvas: HTMLCanvasElement | null,
   coltech: Ro.coltech.Technique,
-  colors = { resting: '#9db4d3', colliding: '#24456f' },
+  colors = { box: '#9db4d3', hit: '#24456f' },
 ) {
   const movers: { square: Ro.Entity; radius: number; angle: number }[] = [];
+  let pairCount = 0;
 
   const world = new ro.World(canvas, {
     coltech,
 
     draw() {
-      for (const square of this.entities) square.draw(colors.resting);
+      for (const square of this.entities) square.draw(colors.box);
     },
 
     handleCollisions(_dt, pairs) {
+      pairCount = pairs.length;
       for (const [a, b] of pairs) {
-        a.draw(colors.colliding);
-        b.draw(colors.colliding);
+        a.draw(colors.hit);
+        b.draw(colors.hit);
       }
     },
 
@@ -58,7 +61,26 @@ export function rings(
     movers.push({ square: addSquare(radius, 0), radius, angle: 0 });
   }
 
+  function startOver() {
+    for (const square of world.entities) world.removeEntity(square);
+    movers.length = 0;
+    addRing();
+  }
+
   addRing();
   canvas?.addEventListener('click', addRing);
-  return { world, addRing };
+  canvas?.addEventListener('keydown', ({ key }) => {
+    if (key === 'Enter') addRing();
+  });
+  return {
+    world,
+    addRing,
+    startOver,
+    get ringCount() {
+      return movers.length;
+    },
+    get pairCount() {
+      return pairCount;
+    },
+  };
 }

@@ -1,0 +1,92 @@
+// Fig. 13: adding an entity to a world, one operation at a time. Entities come and go; numbers are never given twice.
+import { Entity, World } from 'broadphase/ro';
+import worldSource from '../../../src/ro/world.ts?raw';
+import { prefersStill } from '../kit/attend.ts';
+import { button, columns, counters, createStepper, element, excerpt, listing, row, sayer } from '../kit/index.ts';
+import { type AddingOperation, recordAdding } from '../record.ts';
+
+const most = 8;
+const pace = 450;
+const lights: Readonly<Record<AddingOperation, string>> = {
+  asked: 'if (entity.world !== null)',
+  aabb: 'entity.updateAABB()',
+  id: 'entity._roId = this.uniq',
+  technique: 'this.#broadPhase.addEntity',
+  uniq: 'this.uniq++',
+  world: 'entity.world = this',
+  done: 'this.#entities.push',
+};
+
+export function mount(root: HTMLElement): () => void {
+  const world = new World(null);
+  const [left, right] = columns(root);
+  const source = listing(left, 'ro/world.ts', excerpt(worldSource, 'addEntity(entity: E): void {'));
+
+  const chips = element('ul', { class: 'chips', 'aria-label': 'The entities of the world' });
+  right.append(chips);
+  const say = sayer(right);
+  const count = counters(right, { entities: 'Entities', uniq: 'The next number (uniq)' });
+  const tools = row(right);
+
+  /** @param numbered whether the entity that is being added has its number by now */
+  const show = (adding?: Entity, numbered = true) => {
+    const entities = world.entities.map((entity) => {
+      const unnumbered = entity === adding && !numbered;
+      const name = unnumbered ? '–' : String(entity._roId);
+      const chip = element('button', { type: 'button', 'aria-label': `Take out entity ${name}` }, name);
+      chip.disabled = entity === adding;
+      chip.addEventListener('click', () => takeOut(entity));
+      return element('li', entity === adding ? { 'data-now': true } : {}, chip);
+    });
+    chips.replaceChildren(...entities);
+    count('entities', world.entities.length);
+    count('uniq', world.uniq);
+    add.disabled = world.entities.length >= most;
+  };
+
+  const takeOut = (entity: Entity) => {
+    stepper.stop();
+    world.removeEntity(entity);
+    source.light(null);
+    say(`Entity ${entity._roId} is gone. Its number stays used; the next to come gets ${world.uniq}.`);
+    show();
+    add.focus();
+  };
+
+  const begin = (): { entity: Entity; steps: AddingOperation[] } => {
+    const entity = new Entity(0, 0, 10, 10);
+    return { entity, steps: recordAdding(world, entity) };
+  };
+
+  let current = begin();
+  const words: Readonly<Record<AddingOperation, (id: number) => string>> = {
+    asked: () => 'Is it in a world already? No: it may come in.',
+    aabb: () => 'Its AABB is brought up to date.',
+    id: (id) => `It gets the number that is next: ${id}.`,
+    technique: (id) => `The technique is told about entity ${id}.`,
+    uniq: (id) => `The next number is raised to ${id + 1}.`,
+    world: (id) => `Entity ${id} remembers which world it is in.`,
+    done: (id) => `Entity ${id} is in the list. That was all.`,
+  };
+
+  const add = button(tools, 'Add an entity', () => {
+    current = begin();
+    stepper.load(current.steps);
+    if (!prefersStill()) stepper.play();
+  });
+  add.classList.add('main');
+
+  const stepper = createStepper(root, {
+    steps: current.steps,
+    pace,
+    show(operation, index) {
+      const { entity, steps } = current;
+      source.light(lights[operation]);
+      say(words[operation](entity._roId));
+      show(index === steps.length - 1 ? undefined : entity, index >= steps.indexOf('id'));
+      count('uniq', index >= steps.indexOf('uniq') ? entity._roId + 1 : entity._roId);
+      count('entities', world.entities.length - (index === steps.length - 1 ? 0 : 1));
+    },
+  });
+  return () => stepper.stop();
+}

@@ -1,0 +1,166 @@
+// Fig. 24: the test of one box against four at once, lane by lane, and what that is worth, timed here and now.
+import { ro } from 'broadphase/ro';
+import { createRandom } from '../../../src/scenes/random.ts';
+import { type Box, place } from '../../demos/cells.ts';
+import { timeStep } from '../../demos/timing.ts';
+import source from '../../demos/timing.ts?raw';
+import { demoColumns } from '../demo.ts';
+import { boxOn, fitWorld, text } from '../kit/drawing.ts';
+import { button, createView, element, excerpt, listing, makeDraggable, row, sayer, slider } from '../kit/index.ts';
+
+const width = 480;
+const height = 300;
+/** The four boxes, and where the one that is compared with them begins. */
+const four: readonly Box[] = [
+  [30, 26, 84, 60],
+  [196, 40, 62, 74],
+  [306, 20, 92, 50],
+  [404, 64, 50, 50],
+];
+const first: Box = [92, 52, 120, 46];
+/** Where the comparisons are written. */
+const table = { left: 190, top: 160, across: 66, down: 30 };
+
+const contenders: readonly (readonly [name: string, make: (extent: number) => ro.coltech.Technique])[] = [
+  ['Brute force, one by one', () => new ro.coltech.BruteForce()],
+  ['Brute force, four at a time', () => new ro.coltech.BroadPhase({ technique: 'brute-force' })],
+  ['Spatial grid of this article', (extent) => new ro.coltech.SpatialGrid(0, 0, extent, extent, 15)],
+  ['The library, its own choice', () => new ro.coltech.BroadPhase()],
+];
+
+export function mount(root: HTMLElement): void {
+  const [left, right] = demoColumns(root);
+  const one: [number, number, number, number] = [...first];
+  let count = 800;
+  let timer = 0;
+
+  const view = createView(left, {
+    label: 'One box compared with four.',
+    height: (across) => (across * height) / width,
+    draw(ctx, across, down, colors) {
+      const fit = fitWorld({ width: across, height: down }, [0, 0, width, height], [0, 0, 0, 0]);
+      const at = (x: number, y: number) => [fit.x + x * fit.scale, fit.y + y * fit.scale] as const;
+      const rows = lanes();
+      four.forEach((box, lane) => {
+        const hit = rows.every(({ answers }) => answers[lane]);
+        const label = `b${lane}`;
+        boxOn(ctx, fit, box, {
+          fill: hit ? colors.hit : colors.box,
+          label,
+          labelColor: hit ? colors.surface : colors.text,
+        });
+      });
+      boxOn(ctx, fit, one, { line: colors.now, lineWidth: 3, label: 'a', labelColor: colors.now });
+
+      four.forEach((_, lane) => {
+        text(ctx, `b${lane}`, ...at(table.left + (lane + 0.5) * table.across, table.top - 12), colors.muted);
+      });
+      rows.forEach(({ question, answers }, i) => {
+        const y = table.top + i * table.down;
+        text(ctx, question, ...at(table.left - 10, y + table.down / 2), colors.text, 'right');
+        answers.forEach((yes, lane) => {
+          const cell = [table.left + lane * table.across + 2, y + 2, table.across - 4, table.down - 4] as const;
+          const look = yes
+            ? { fill: colors.hit, labelColor: colors.surface }
+            : { line: colors.grid, labelColor: colors.muted };
+          boxOn(ctx, fit, cell, { ...look, label: yes ? 'yes' : 'no' });
+        });
+      });
+    },
+  });
+  const world = (pixels: number) => (pixels * width) / view.width;
+  makeDraggable(view, {
+    label: 'A box that can be moved',
+    holds: (x, y) =>
+      world(x) >= one[0] && world(x) <= one[0] + one[2] && world(y) >= one[1] && world(y) <= one[1] + one[3],
+    moved: (dx, dy) => move(world(dx), world(dy)),
+    stepped: (dx, dy) => move(4 * dx, 4 * dy),
+  });
+  const say = sayer(left);
+
+  const controls = row(right);
+  slider(controls, {
+    label: 'Boxes',
+    min: 100,
+    max: 2000,
+    step: 100,
+    value: count,
+    format: (value) => value.toLocaleString('en'),
+    moved(value) {
+      count = value;
+      soon();
+    },
+  });
+  button(controls, 'Time again', time);
+  const bars = contenders.map(([name]) => {
+    const piece = element('span', { 'data-part': name.startsWith('Brute') ? 'tests' : 'visits' });
+    const sum = element('b', {}, '–');
+    return {
+      piece,
+      sum,
+      line: element('p', { class: 'bar' }, element('span', {}, name), element('span', {}, piece), sum),
+    };
+  });
+  right.append(element('div', { class: 'bars timed' }, ...bars.map(({ line }) => line)));
+  const sayTime = sayer(right);
+  listing(right, 'site/demos/timing.ts', excerpt(source, 'export function timeStep'));
+  show();
+  soon();
+
+  /** The four questions, each asked of all four boxes, and whether all were answered with yes. */
+  function lanes() {
+    const [x, y, across, down] = one;
+    const ask = (question: string, answer: (box: Box) => boolean) => ({ question, answers: four.map(answer) });
+    return [
+      ask('a.left ≤ b.right', (b) => x <= b[0] + b[2]),
+      ask('a.right ≥ b.left', (b) => x + across >= b[0]),
+      ask('a.top ≤ b.bottom', (b) => y <= b[1] + b[3]),
+      ask('a.bottom ≥ b.top', (b) => y + down >= b[1]),
+    ];
+  }
+
+  function move(dx: number, dy: number): void {
+    one[0] = Math.min(Math.max(one[0] + dx, 0), width - one[2]);
+    one[1] = Math.min(Math.max(one[1] + dy, 0), 130 - one[3]);
+    show();
+  }
+
+  function show(): void {
+    const rows = lanes();
+    const hits = four.map((_, lane) => lane).filter((lane) => rows.every(({ answers }) => answers[lane]));
+    const who = hits.length > 0 ? hits.map((lane) => `b${lane}`).join(' and ') : 'none';
+    say(`Four instructions, one for each row, and four boxes are compared. Yes in every row: ${who}.`);
+    view.describe(
+      `Box a is compared with four boxes at once. ` +
+        rows
+          .map(({ question, answers }) => `${question}: ${answers.map((yes) => (yes ? 'yes' : 'no')).join(', ')}.`)
+          .join(' '),
+    );
+    view.redraw();
+  }
+
+  /** Times once the slider has come to rest: it takes a moment. */
+  function soon(): void {
+    clearTimeout(timer);
+    timer = window.setTimeout(time, 200);
+  }
+
+  function time(): void {
+    const extent = Math.sqrt(count * 500);
+    const random = createRandom(count);
+    const boxes = Array.from({ length: count }, (): Box => [random() * extent, random() * extent, 10, 10]);
+    const results = contenders.map(([, make]) => timeStep(place(make(extent), boxes)));
+    const slowest = Math.max(...results.map(({ milliseconds }) => milliseconds));
+    results.forEach(({ milliseconds }, i) => {
+      bars[i].piece.style.width = `${(100 * milliseconds) / slowest}%`;
+      bars[i].sum.textContent = `${milliseconds.toFixed(milliseconds < 1 ? 3 : 2)} ms`;
+    });
+    const [brute, lanesAtOnce, grid, own] = results.map(({ milliseconds }) => milliseconds);
+    const times = (a: number, b: number) => (a / b < 10 ? (a / b).toFixed(1) : Math.round(a / b));
+    sayTime(
+      `${count.toLocaleString('en')} boxes, ${results[0].pairs.toLocaleString('en')} pairs each time. Brute force is ` +
+        `${times(brute, lanesAtOnce)} times as fast in the kernel; the library’s own choice is ${times(grid, own)} times ` +
+        'as fast as the grid.',
+    );
+  }
+}

@@ -1,0 +1,130 @@
+// Fig. 14: the table of tested pairs, filled look-up by look-up, with cells of a size that the reader chooses.
+import gridSource from '../../../src/ro/coltech/spatial-grid.ts?raw';
+import {
+  boxOn,
+  choice,
+  columns,
+  counters,
+  createStepper,
+  createView,
+  element,
+  fitWorld,
+  gridOn,
+  listing,
+  lookOf,
+  passage,
+  sayer,
+} from '../kit/index.ts';
+import { type Box, type QueryOperation, recordGrid } from '../record.ts';
+
+const width = 240;
+const height = 120;
+const cellSizes = [
+  [120, 'large'],
+  [40, 'fitting'],
+  [8, 'small'],
+] as const;
+const boxes: readonly Box[] = [
+  [8, 10, 36, 30],
+  [22, 20, 38, 30],
+  [74, 8, 32, 38],
+  [88, 22, 38, 32],
+  [148, 12, 36, 32],
+  [166, 26, 36, 34],
+  [16, 76, 40, 28],
+  [104, 78, 38, 30],
+  [190, 84, 36, 24],
+];
+type LookUp = Extract<QueryOperation, { kind: 'look-up' }>;
+
+export function mount(root: HTMLElement): () => void {
+  const possible = (boxes.length * (boxes.length - 1)) / 2;
+  let cellSize: number = cellSizes[1][0];
+  let recorded = recordGrid(boxes, { width, height, cellSize });
+  const lookUps = () => recorded.query.filter((each): each is LookUp => each.kind === 'look-up');
+  let run = lookUps();
+  let at = 0;
+
+  const [left, right] = columns(root);
+  choice(left, 'Cells', cellSizes, cellSize, (value) => {
+    cellSize = value;
+    recorded = recordGrid(boxes, { width, height, cellSize });
+    run = lookUps();
+    stepper.load(run);
+  });
+  const view = createView(left, {
+    label: 'Nine boxes on a grid.',
+    height: (across) => across * 0.52,
+    draw(ctx, across, down, colors) {
+      const fit = fitWorld({ width: across, height: down }, [0, 0, width, height]);
+      const now = run[at];
+      for (const { col, cell } of recorded.cells) {
+        boxOn(ctx, fit, [col * cellSize, cell * cellSize, cellSize, cellSize], { fill: colors.cell });
+      }
+      const size = { minX: 0, minY: 0, columns: width / cellSize, rows: height / cellSize, cellSize };
+      gridOn(ctx, fit, size, colors.grid);
+      const hit = new Set<number>();
+      for (const each of recorded.query) {
+        if (each.kind === 'test' && each.hit && compared().has(`${each.a}:${each.b}`)) hit.add(each.a).add(each.b);
+      }
+      boxes.forEach((box, id) => {
+        const look = lookOf(colors, hit.has(id) ? 'hit' : 'alone', String(id));
+        const isNow = id === now.a || id === now.b;
+        boxOn(ctx, fit, box, isNow ? { ...look, line: colors.now, lineWidth: 3 } : look);
+      });
+      boxOn(ctx, fit, [now.col * cellSize, now.cell * cellSize, cellSize, cellSize], {
+        line: colors.now,
+        lineWidth: 2,
+      });
+    },
+  });
+  const say = sayer(left, true);
+  const count = counters(left, { lookups: 'Look-ups', tests: 'Comparisons', saved: 'Saved' });
+
+  const source = listing(
+    right,
+    'ro/coltech/spatial-grid.ts',
+    passage(gridSource, 'const hashA', 'if (this.aabb2DIntersection'),
+  );
+
+  const table = element('ul', { class: 'keys', 'aria-label': 'The table of tested pairs' });
+  right.append(table);
+  /** The pairs in the table after the look-up at hand. */
+  const compared = () =>
+    new Set(
+      run
+        .slice(0, at + 1)
+        .filter(({ known }) => !known)
+        .map(({ a, b }) => `${a}:${b}`),
+    );
+
+  const stepper = createStepper(root, {
+    steps: run,
+    label: 'Look-up',
+    pace: 350,
+    show(now, index) {
+      at = index;
+      source.light(now.known ? 'continue' : 'checked.add(hashA)');
+      const keys = [...compared()];
+      table.replaceChildren(
+        ...keys.map((key) => {
+          const [a, b] = key.split(':').map(Number);
+          const isNow = (a === now.a && b === now.b) || (a === now.b && b === now.a);
+          return element('li', isNow ? { 'data-now': true } : {}, element('code', {}, `${a}:${b}  ${b}:${a}`));
+        }),
+      );
+      const words = now.known
+        ? `${now.a} and ${now.b} meet again, in cell grid[${now.col}][${now.cell}]. The table knows them: no comparison.`
+        : `${now.a} and ${now.b} meet for the first time, in cell grid[${now.col}][${now.cell}]. Compared, and noted down.`;
+      say(words);
+      count('lookups', at + 1);
+      count('tests', keys.length);
+      count('saved', at + 1 - keys.length);
+      view.describe(
+        `Nine boxes on a grid with cells of ${cellSize}. ${words} ${keys.length} of ${possible} pairs have been compared.`,
+      );
+      view.redraw();
+    },
+  });
+  return () => stepper.stop();
+}

@@ -1,0 +1,17 @@
+// Fig. 22: the boxes of a tree, live, and those of every other technique the library has.
+import { BroadPhase } from 'broadphase';
+import { structureFigure } from '../structure-figure.ts';
+
+export function mount(root: HTMLElement): () => void {
+  const isTree = (name: string) => name.includes('tree');
+  const named = BroadPhase.techniques.filter((name) => name !== 'auto');
+  const techniques = [...named.filter(isTree), ...named.filter((name) => !isTree(name)).toReversed()];
+  return structureFigure(root, {
+    techniques,
+    unit: 'Nodes or cells',
+    count: 150,
+    most: 600,
+    sides: [4, 60],
+    speed: 0.8,
+  });
+}

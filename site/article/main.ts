@@ -1,0 +1,42 @@
+// Brings the figures to life: each is loaded and mounted shortly before it comes into sight, and told when it leaves.
+
+interface FigureModule {
+  // biome-ignore lint/suspicious/noConfusingVoidType: a figure that has nothing to stop returns nothing
+  mount(root: HTMLElement): void | (() => void);
+}
+
+const modules = import.meta.glob<FigureModule>('./figures/*.ts');
+/** How far below the screen a figure is mounted, so that it is there when it is scrolled to. */
+const ahead = '900px 0px';
+
+async function mount(figure: HTMLElement): Promise<void> {
+  const load = modules[`./figures/${figure.dataset.figure}.ts`];
+  const live = figure.querySelector<HTMLElement>('.live')!;
+  if (!load) return;
+  try {
+    const { mount } = await load();
+    const rest = mount(live);
+    if (rest) {
+      new IntersectionObserver(([entry]) => {
+        if (!entry.isIntersecting) rest();
+      }).observe(figure);
+    }
+    figure.dataset.state = 'live';
+  } catch (error) {
+    figure.dataset.state = 'failed';
+    live.textContent = `This figure stopped: ${error instanceof Error ? error.message : String(error)}`;
+    throw error;
+  }
+}
+
+const nearing = new IntersectionObserver(
+  (entries) => {
+    for (const { isIntersecting, target } of entries) {
+      if (!isIntersecting) continue;
+      nearing.unobserve(target);
+      void mount(target as HTMLElement);
+    }
+  },
+  { rootMargin: ahead },
+);
+for (const figure of document.querySelectorAll('figure[data-figure]')) nearing.observe(figure);

@@ -1,0 +1,120 @@
+// The stage of a figure whose world moves: a canvas that runs while the reader attends to it, a Step button for who
+// wants no motion, numbers that are read while it runs, and a text alternative that stays true.
+import type { World } from 'broadphase/ro';
+import {
+  button,
+  type Colors,
+  counters,
+  element,
+  onThemeChange,
+  row,
+  runWhileAttended,
+  themeColors,
+  worldCanvas,
+} from './kit/index.ts';
+
+/** How often the numbers are read while it runs, in milliseconds. */
+const refresh = 100;
+
+export interface StageOptions<D extends { readonly world: World }> {
+  /** In world units. */
+  width: number;
+  height: number;
+  /** Sets up the demo. The colours are kept those of the theme: the object stays the same. */
+  build(canvas: HTMLCanvasElement, colors: Colors): D;
+  /** The counters below the canvas: the key of each, and how it is called on the page. */
+  counters: Readonly<Record<string, string>>;
+  /** What they are now. `rate` is the frames per second, 0 at rest. */
+  count(demo: D, rate: number): Readonly<Record<string, string | number>>;
+  /** Called for every frame that is shown: for a second picture beside the world's own. */
+  frame?(demo: D): void;
+  /** The picture in words. */
+  inWords(demo: D): string;
+}
+
+export interface Stage<D> {
+  readonly demo: D;
+  readonly canvas: HTMLCanvasElement;
+  /** The row of buttons below the canvas. */
+  readonly controls: HTMLElement;
+  /** Draws and counts anew without moving on, after something was changed. */
+  refresh(): void;
+  /** Stops it. */
+  rest(): void;
+}
+
+export function createStage<D extends { readonly world: World }>(
+  root: HTMLElement,
+  options: StageOptions<D>,
+): Stage<D> {
+  const { width, height, build, count, inWords } = options;
+  const place = element('div', { class: 'stage' });
+  root.append(place);
+  const canvas = worldCanvas(place, width, height, '');
+  place.append(element('p', { class: 'stage-hint', 'aria-hidden': true }));
+  const controls = row(root);
+  const write = counters(root, options.counters);
+
+  const colors = { ...themeColors() };
+  const demo = build(canvas, colors);
+  const { world } = demo;
+
+  let rate = 0;
+  let frame = 0;
+  const tell = () => {
+    for (const [name, value] of Object.entries(count(demo, rate))) write(name, value);
+    canvas.setAttribute('aria-label', `${inWords(demo)} ${world.isRunning ? 'Running.' : 'At rest.'}`);
+  };
+  const still = () => {
+    if (world.isRunning) return;
+    world.step(0);
+    options.frame?.(demo);
+    tell();
+  };
+
+  /** Counts the frames of the display while the world runs, and tells now and then. */
+  const watch = () => {
+    let frames = 0;
+    let since = performance.now();
+    const each = (now: number) => {
+      frame = requestAnimationFrame(each);
+      options.frame?.(demo);
+      frames++;
+      if (now - since < refresh) return;
+      const measured = (1000 * frames) / (now - since);
+      rate = rate === 0 ? measured : 0.7 * rate + 0.3 * measured;
+      frames = 0;
+      since = now;
+      tell();
+    };
+    frame = requestAnimationFrame(each);
+  };
+
+  const attended = runWhileAttended(
+    place,
+    () => {
+      world.start();
+      watch();
+    },
+    () => {
+      world.stop();
+      cancelAnimationFrame(frame);
+      rate = 0;
+      tell();
+    },
+  );
+  button(controls, 'Step', () => {
+    attended.stop();
+    world.step();
+    still();
+  });
+
+  onThemeChange(() => {
+    Object.assign(colors, themeColors());
+    still();
+  });
+  new ResizeObserver(still).observe(canvas);
+  still();
+
+  return { demo, canvas, controls, refresh: () => (world.isRunning ? tell() : still()), rest: attended.stop };
+}

@@ -1,0 +1,84 @@
+// A buffer to write bytes to that grows, and a cursor over bytes that never leaves them.
+import { TraceError } from './format.ts';
+
+export class ByteWriter {
+  bytes = new Uint8Array(1024);
+  length = 0;
+
+  /** Makes room for `count` bytes more. */
+  reserve(count: number): void {
+    if (this.length + count <= this.bytes.length) return;
+    const grown = new Uint8Array(Math.max(2 * this.bytes.length, this.length + count));
+    grown.set(this.bytes.subarray(0, this.length));
+    this.bytes = grown;
+  }
+
+  byte(value: number): void {
+    this.reserve(1);
+    this.bytes[this.length++] = value;
+  }
+
+  /** Seven bits a byte, lowest first; the top bit says that more follow. */
+  varint(value: number): void {
+    this.reserve(5);
+    while (value > 127) {
+      this.bytes[this.length++] = (value & 127) | 128;
+      value >>>= 7;
+    }
+    this.bytes[this.length++] = value;
+  }
+
+  /** 32 bits, lowest byte first, written at a place. */
+  putUint32(at: number, value: number): void {
+    for (let k = 0; k < 4; k++) this.bytes[at + k] = value >>> (8 * k);
+  }
+}
+
+export const uint32At = (bytes: Uint8Array, at: number): number =>
+  (bytes[at] | (bytes[at + 1] << 8) | (bytes[at + 2] << 16) | (bytes[at + 3] << 24)) >>> 0;
+
+/** Reads the body of one frame. What is wrong is reported with the frame and its place in the file. */
+export class Cursor {
+  at = 0;
+  readonly bytes: Uint8Array;
+  readonly #frame: number;
+  readonly #offset: number;
+
+  constructor(bytes: Uint8Array, frame: number, offset: number) {
+    this.bytes = bytes;
+    this.#frame = frame;
+    this.#offset = offset;
+  }
+
+  get left(): number {
+    return this.bytes.length - this.at;
+  }
+
+  fail(what: string): never {
+    throw new TraceError(what, this.#frame, this.#offset + this.at);
+  }
+
+  /** Before anything of that size is made or read. */
+  need(count: number, what: string): void {
+    if (count > this.left) this.fail(`${what} would take ${count} bytes, and the frame has ${this.left} left`);
+  }
+
+  byte(what: string): number {
+    this.need(1, what);
+    return this.bytes[this.at++];
+  }
+
+  /** An integer from 0 to `most`. */
+  varint(what: string, most: number): number {
+    let value = 0;
+    for (let shift = 0; shift < 35; shift += 7) {
+      const byte = this.byte(what);
+      value += (byte & 127) * 2 ** shift;
+      if (byte < 128) {
+        if (value > most) this.fail(`${what} is ${value}, expected at most ${most}`);
+        return value;
+      }
+    }
+    this.fail(`${what} has more than 32 bits`);
+  }
+}

@@ -1,0 +1,79 @@
+// All techniques on the same frames, side by side.
+import { BroadPhase, type TechniqueName } from 'broadphase';
+import type { FrameSource } from './format.ts';
+import { type ReplayOptions, timeUpdate } from './replay.ts';
+import { type Summary, summarize } from './statistics.ts';
+
+export interface CompareOptions extends Omit<ReplayOptions, 'technique'> {
+  /** Which techniques; left out: all of {@link BroadPhase.techniques}. */
+  techniques?: readonly TechniqueName[];
+  /** How often the frames are gone through; each frame counts with its fastest time (3). */
+  passes?: number;
+  progress?: (done: number, total: number) => void;
+}
+
+/** How one technique did. */
+export interface Compared {
+  technique: TechniqueName;
+  /** Milliseconds of `update()` per frame, and their summary. */
+  times: number[];
+  ms: Summary;
+  /** Boxes tested against boxes, on average. */
+  tests: number;
+  /** The most memory in use. */
+  bytes: number;
+  /** What ran: for `auto`, what it chose. */
+  ran: TechniqueName[];
+  /** The first frame whose pairs are not those of the first technique; `null` where they all agree. */
+  disagrees: number | null;
+}
+
+/** Plays the frames with every technique, taking turns in each frame, so that what else the machine does hits all. */
+export function compare(source: FrameSource, options: CompareOptions = {}): Compared[] {
+  const { techniques = BroadPhase.techniques, passes = 3, progress, ...settings } = options;
+  const contenders = techniques.map((technique) => ({
+    technique,
+    space: new BroadPhase({ ...settings, technique, dimensions: source.dimensions }),
+    times: [] as number[],
+    tests: 0,
+    bytes: 0,
+    ran: new Set<TechniqueName>(),
+    disagrees: null as number | null,
+  }));
+  for (let pass = 0; pass < passes; pass++) {
+    for (const frame of source) {
+      let expected: number | undefined;
+      for (const contender of contenders) {
+        const { space, times } = contender;
+        const ms = timeUpdate(space, frame, pass === 0 && frame.index === 0 ? 1 : 0);
+        times[frame.index] = pass === 0 ? ms : Math.min(ms, times[frame.index]);
+        if (pass > 0) continue;
+        contender.tests += space.stats.tests;
+        contender.bytes = Math.max(contender.bytes, space.stats.bytes);
+        contender.ran.add(space.stats.technique);
+        const digest = pairsDigest(space.pairs);
+        expected ??= digest;
+        if (digest !== expected) contender.disagrees ??= frame.index;
+      }
+      progress?.(pass * source.frames + frame.index + 1, passes * source.frames);
+    }
+  }
+  return contenders.map(({ technique, space, times, tests, bytes, ran, disagrees }) => {
+    space.dispose();
+    const frames = Math.max(1, source.frames);
+    return { technique, times, ms: summarize(times), tests: tests / frames, bytes, ran: [...ran], disagrees };
+  });
+}
+
+/** A number that is the same for the same pairs in any order, and hardly ever for others. */
+export function pairsDigest(pairs: Uint32Array): number {
+  let low = 0;
+  let high = pairs.length;
+  for (let k = 0; k < pairs.length; k += 2) {
+    let mixed = Math.imul(pairs[k] ^ 0x9e3779b9, 0x85ebca6b) ^ Math.imul(pairs[k + 1], 0xc2b2ae35);
+    mixed = Math.imul(mixed ^ (mixed >>> 15), 0x2c1b3c6d);
+    low = (low + mixed) | 0;
+    high = (high + Math.imul(mixed ^ (mixed >>> 13), 0x297a2d39)) | 0;
+  }
+  return (high >>> 0) * 2 ** 21 + (low >>> 11);
+}

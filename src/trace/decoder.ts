@@ -1,0 +1,167 @@
+// Reads the bodies of frames, one after the other. A body is looked through before anything is made of it: memory is
+// taken only for boxes whose numbers are there, at most some 50 bytes for each byte of the file.
+import { Cursor } from './bytes.ts';
+import { doublesFlag, type Frame, frameKind, maxBoxes } from './format.ts';
+import { predict, takeDistance } from './numbers.ts';
+import { IdSet, TraceState } from './state.ts';
+
+export class FrameDecoder {
+  readonly #state: TraceState;
+  readonly #seen = new IdSet();
+  /** The boxes once more as float32, while frames hold such. */
+  #floats = new Float32Array();
+  #index = 0;
+
+  constructor(dimensions: 2 | 3) {
+    this.#state = new TraceState(dimensions);
+  }
+
+  /** How many frames have been read. */
+  get frames(): number {
+    return this.#index;
+  }
+
+  /**
+   * The next frame; `undefined` at the end of the trace.
+   * @param body its bytes, whose checksum was right
+   * @param offset where they begin in the file, for messages
+   * @throws TraceError where they do not describe a frame
+   */
+  decode(body: Uint8Array, offset: number): Frame | undefined {
+    const cursor = new Cursor(body, this.#index, offset);
+    const first = cursor.byte('the kind of frame');
+    if (first === frameKind.end) {
+      const frames = cursor.varint('the number of frames', 0xffffffff);
+      if (frames !== this.#index) cursor.fail(`the end counts ${frames} frames, but ${this.#index} were read`);
+      this.#finish(cursor);
+      return undefined;
+    }
+    const doubles = (first & doublesFlag) !== 0;
+    const kind = first & ~doublesFlag;
+    if (kind !== frameKind.snapshot && kind !== frameKind.changes) cursor.fail(`a frame of unknown kind ${first}`);
+    if (kind === frameKind.changes && this.#index === 0) cursor.fail('the first frame is not a snapshot');
+    return this.#decodeBoxes(cursor, kind === frameKind.snapshot, doubles);
+  }
+
+  #decodeBoxes(cursor: Cursor, snapshot: boolean, doubles: boolean): Frame {
+    const state = this.#state;
+    const { width } = state;
+    const had = snapshot ? 0 : state.count;
+    const count = cursor.varint('the number of boxes', maxBoxes);
+    const idsAt = cursor.at;
+    const renamed = skipIds(cursor, count);
+    const runsAt = cursor.at;
+    const changed = skipRuns(cursor, count, had);
+    const sizesAt = cursor.at;
+    cursor.need((changed * width) / 2, 'the sizes of numbers');
+
+    if (snapshot) state.forget();
+    const shrank = count < state.count;
+    state.resize(count);
+    if (renamed > 0) this.#readIds(cursor, idsAt, renamed);
+    if (renamed > 0 || (state.named && (shrank || count > had))) this.#checkIds(cursor);
+    cursor.at = sizesAt + (changed * width) / 2;
+    this.#readNumbers(cursor, runsAt, sizesAt, doubles);
+    this.#finish(cursor);
+    const boxes = doubles ? state.before.subarray(0, count * width) : this.#asFloats();
+    state.turn(had);
+    const ids = state.named ? state.ids.subarray(0, count) : undefined;
+    return { index: this.#index++, count, ids, boxes, changed };
+  }
+
+  #readIds(cursor: Cursor, at: number, renamed: number): void {
+    cursor.at = at;
+    cursor.varint('', maxBoxes);
+    const { ids } = this.#state;
+    for (let k = 0, place = 0; k < renamed; k++, place++) {
+      place += cursor.varint('', maxBoxes);
+      ids[place] = cursor.varint('', maxBoxes);
+    }
+  }
+
+  #checkIds(cursor: Cursor): void {
+    const { ids, count } = this.#state;
+    this.#state.lookAtIds();
+    if (!this.#state.named) return;
+    this.#seen.clear();
+    for (let k = 0; k < count; k++) if (!this.#seen.add(ids[k])) cursor.fail(`id ${ids[k]} is there twice`);
+  }
+
+  /** Fills `before`, whose numbers are needed no more once the prediction is made, with those of this frame. */
+  #readNumbers(cursor: Cursor, runsAt: number, sizesAt: number, doubles: boolean): void {
+    const { was, before, width, count } = this.#state;
+    const { bytes } = cursor;
+    const runs = new Cursor(bytes, this.#index, 0);
+    runs.at = runsAt;
+    const runCount = runs.varint('', maxBoxes);
+    const largest = doubles ? 8 : 4;
+    let sizes = sizesAt;
+    let box = 0;
+    for (let run = 0; run < runCount; run++) {
+      const start = box + runs.varint('', maxBoxes);
+      before.set(was.subarray(box * width, start * width), box * width);
+      const end = start + runs.varint('', maxBoxes);
+      for (box = start; box < end; box++) {
+        const at = box * width;
+        for (let k = 0; k < width; k++) {
+          const size = k % 2 === 0 ? bytes[sizes] & 15 : bytes[sizes++] >> 4;
+          if (size > largest) cursor.fail(`a number of box ${box} has ${size} bytes, expected at most ${largest}`);
+          cursor.need(size, `a number of box ${box}`);
+          const expected = predict(was, before, before, at, k, width / 2);
+          before[at + k] = takeDistance(bytes, cursor.at, size, expected, doubles);
+          cursor.at += size;
+        }
+        for (let k = at; k < at + width / 2; k++) {
+          if (before[k] <= before[k + width / 2]) continue;
+          cursor.fail(`box ${box} is [${[...before.subarray(at, at + width)].join(', ')}], which is none`);
+        }
+      }
+    }
+    before.set(was.subarray(box * width, count * width), box * width);
+  }
+
+  #asFloats(): Float32Array {
+    const { before, width, count } = this.#state;
+    const length = count * width;
+    if (length > this.#floats.length) this.#floats = new Float32Array(before.length);
+    const floats = this.#floats.subarray(0, length);
+    floats.set(before.subarray(0, length));
+    return floats;
+  }
+
+  #finish(cursor: Cursor): void {
+    if (cursor.left > 0) cursor.fail(`${cursor.left} bytes too many in the frame`);
+  }
+}
+
+/** Looks whether a list of new ids is sound; returns how many they are. */
+function skipIds(cursor: Cursor, count: number): number {
+  const renamed = cursor.varint('the number of new ids', count);
+  cursor.need(2 * renamed, 'the new ids');
+  for (let k = 0, next = 0; k < renamed; k++) {
+    const place = next + cursor.varint('the place of an id', maxBoxes);
+    if (place >= count) cursor.fail(`an id for place ${place} of ${count}`);
+    cursor.varint('an id', maxBoxes - 1);
+    next = place + 1;
+  }
+  return renamed;
+}
+
+/** Looks whether the runs of changed boxes are sound; returns how many boxes they hold. */
+function skipRuns(cursor: Cursor, count: number, had: number): number {
+  const runs = cursor.varint('the number of runs', count);
+  cursor.need(2 * runs, 'the runs of changed boxes');
+  let changed = 0;
+  let fresh = 0;
+  let end = 0;
+  for (let k = 0; k < runs; k++) {
+    const start = end + cursor.varint('the gap before a run', count);
+    end = start + cursor.varint('the length of a run', count);
+    if (end === start) cursor.fail('an empty run of changed boxes');
+    if (end > count) cursor.fail(`a run of changed boxes up to ${end} of ${count}`);
+    changed += end - start;
+    fresh += Math.max(0, end - Math.max(start, had));
+  }
+  if (fresh < count - had) cursor.fail(`${count - had} boxes are new, but ${fresh} of them are given`);
+  return changed;
+}

@@ -1,0 +1,95 @@
+// The exact answer, without the kernel: what a replay is checked against. Sorts along one axis and sweeps, in doubles.
+// A set of pairs is a sorted Float64Array with one number a pair: the smaller id times 2^24, plus the larger.
+
+const idLimit = 2 ** 24;
+
+/** The pairs of closed boxes that overlap. Box k has the id `ids[k]`, or k. */
+export function exactPairs(boxes: ArrayLike<number>, dimensions: 2 | 3, ids?: ArrayLike<number>): Float64Array {
+  const width = 2 * dimensions;
+  const count = boxes.length / width;
+  const axis = longestAxis(boxes, dimensions);
+  const starts = Float64Array.from({ length: count }, (_, box) => boxes[box * width + axis]);
+  const order = Uint32Array.from(starts, (_, box) => box).sort((a, b) =>
+    starts[a] < starts[b] ? -1 : starts[a] > starts[b] ? 1 : 0,
+  );
+  const others = [0, 1, 2].slice(0, dimensions).filter((other) => other !== axis);
+  const keys: number[] = [];
+  for (let i = 0; i < count; i++) {
+    const box = order[i];
+    const at = box * width;
+    const end = boxes[at + dimensions + axis];
+    for (let j = i + 1; j < count && starts[order[j]] <= end; j++) {
+      const other = order[j];
+      let apart = false;
+      for (const a of others) {
+        const p = at + a;
+        const q = other * width + a;
+        apart ||= boxes[p] > boxes[q + dimensions] || boxes[q] > boxes[p + dimensions];
+      }
+      if (!apart) keys.push(ids ? key(ids[box], ids[other]) : key(box, other));
+    }
+  }
+  return Float64Array.from(keys).sort();
+}
+
+/** The pairs [a, b, a, b, …] as such a set; a pair given twice is there twice. */
+export function pairKeys(pairs: ArrayLike<number>): Float64Array {
+  return Float64Array.from({ length: pairs.length / 2 }, (_, k) => key(pairs[2 * k], pairs[2 * k + 1])).sort();
+}
+
+/** How two sets of pairs differ. */
+export interface Difference {
+  /** How many pairs were expected and not found, and found but not expected (or twice). */
+  missing: number;
+  extra: number;
+  /** The first pair of either kind. */
+  pair: [number, number];
+}
+
+/** What is wrong with the pairs `found`; `undefined` where nothing is. */
+export function differenceOf(found: Float64Array, expected: Float64Array): Difference | undefined {
+  let missing = 0;
+  let extra = 0;
+  let first = Number.NaN;
+  for (let f = 0, e = 0; f < found.length || e < expected.length; ) {
+    if (found[f] === expected[e]) {
+      f++;
+      e++;
+      continue;
+    }
+    const isExtra = e >= expected.length || found[f] < expected[e];
+    if (Number.isNaN(first)) first = isExtra ? found[f] : expected[e];
+    if (isExtra) {
+      extra++;
+      f++;
+    } else {
+      missing++;
+      e++;
+    }
+  }
+  return missing + extra > 0 ? { missing, extra, pair: [Math.floor(first / idLimit), first % idLimit] } : undefined;
+}
+
+const key = (a: number, b: number): number => (a < b ? a * idLimit + b : b * idLimit + a);
+
+/** The axis along which the boxes lie furthest apart, counted in their usual extent. */
+function longestAxis(boxes: ArrayLike<number>, dimensions: number): number {
+  const width = 2 * dimensions;
+  const count = boxes.length / width;
+  let best = 0;
+  let longest = -1;
+  for (let axis = 0; axis < dimensions; axis++) {
+    const starts = Float64Array.from({ length: count }, (_, box) => boxes[box * width + axis]).sort();
+    const extents = Float64Array.from(
+      { length: count },
+      (_, box) => boxes[box * width + dimensions + axis] - boxes[box * width + axis],
+    ).sort();
+    const spread = starts[Math.floor(0.9 * count)] - starts[Math.floor(0.1 * count)];
+    const ratio = spread / (extents[count >> 1] + Number.MIN_VALUE);
+    if (ratio > longest) {
+      longest = ratio;
+      best = axis;
+    }
+  }
+  return best;
+}

@@ -1,0 +1,61 @@
+// The numbers that make up a trace file (docs/trace-format.md), and the error that says where one is broken.
+
+/** Like PNG's: not text, and broken visibly by whatever changes line ends. */
+export const magic = Uint8Array.of(0x89, 0x42, 0x50, 0x54, 0x0d, 0x0a, 0x1a, 0x0a);
+
+/** The version that is written, and the newest that is read. */
+export const formatVersion = 1;
+
+/** Magic, version (2 bytes), dimensions, a reserved zero, checksum of those twelve. */
+export const headerBytes = 16;
+
+/** Before the body of each frame: its length and its checksum. */
+export const frameHeaderBytes = 8;
+
+/** What a frame is: the low four bits of its first byte. */
+export const frameKind = { end: 0, snapshot: 1, changes: 2 } as const;
+
+/** Set in the first byte of a frame whose numbers are doubles. */
+export const doublesFlag = 0x10;
+
+/** Ids, and so boxes, end here. */
+export const maxBoxes = 2 ** 24;
+
+/** No body is longer: every box new, in 3D, all numbers doubles of 8 bytes, and its id. */
+export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10) + 64;
+
+/** A trace that cannot be read: what is wrong, and where. */
+export class TraceError extends Error {
+  override readonly name = 'TraceError';
+  /** The frame it is in, counted from 0; -1 for the header. */
+  readonly frame: number;
+  /** The byte of the (uncompressed) file. */
+  readonly offset: number;
+
+  constructor(what: string, frame: number, offset: number) {
+    super(`trace: ${frame < 0 ? 'header' : `frame ${frame}`}, byte ${offset}: ${what}`);
+    this.frame = frame;
+    this.offset = offset;
+  }
+}
+
+/** One frame as it is read. Its arrays are views that are valid until the next frame is read. */
+export interface Frame {
+  /** From 0. */
+  readonly index: number;
+  /** How many boxes stand in the space. */
+  readonly count: number;
+  /** The id of each box, all different; `undefined` where they are 0 … count - 1. */
+  readonly ids: Uint32Array | undefined;
+  /** Minima then maxima of each box: float32 where that holds all of them exactly. */
+  readonly boxes: Float32Array | Float64Array;
+  /** How many boxes are new or differ from the frame before. */
+  readonly changed: number;
+}
+
+/** Frames to go through, as often as wanted: a trace or an imported recording. */
+export interface FrameSource extends Iterable<Frame> {
+  readonly dimensions: 2 | 3;
+  /** How many frames there are. */
+  readonly frames: number;
+}

@@ -1,0 +1,136 @@
+// Opens whatever holds frames: traces, and recordings of physics engines in the raw and packed layouts of
+// ../scenes/recorded.ts, each gzipped or not.
+import { packedMagic, type Recording, rawMagic, readRecording } from '../scenes/recorded.ts';
+import { uint32At } from './bytes.ts';
+import { type Frame, type FrameSource, headerBytes, maxBoxes, TraceError } from './format.ts';
+import { type OpenOptions, openTrace } from './reader.ts';
+
+/** Gzipped files that are larger than this when unpacked are refused, unless more is allowed: 1 GiB. */
+export const maxUnpackedBytes = 2 ** 30;
+
+/** No recording has more frames: ones without boxes take no bytes, and would go on for ever. */
+const maxEmptyFrames = 1e6;
+
+/**
+ * Unpacks gzip, in browsers and in Node.
+ * @throws TraceError where it is not sound, and as soon as it gives more than `most` bytes
+ */
+export async function gunzip(bytes: Uint8Array, most = maxUnpackedBytes): Promise<Uint8Array> {
+  const unpacked = new Blob([bytes as Uint8Array<ArrayBuffer>]).stream().pipeThrough(new DecompressionStream('gzip'));
+  const reader = unpacked.getReader();
+  const pieces: Uint8Array[] = [];
+  let length = 0;
+  for (;;) {
+    const { done, value } = await reader.read().catch((error: Error) => {
+      throw new TraceError(`the gzip around it is broken: ${error.message}`, -1, length);
+    });
+    if (done) break;
+    pieces.push(value);
+    length += value.length;
+    if (length > most) {
+      await reader.cancel();
+      throw new TraceError(`unpacked it is larger than ${most} bytes, which is not allowed`, -1, length);
+    }
+  }
+  const all = new Uint8Array(length);
+  let at = 0;
+  for (const piece of pieces) {
+    all.set(piece, at);
+    at += piece.length;
+  }
+  return all;
+}
+
+/** Whether bytes are a raw or packed recording. */
+export function isRecording(bytes: Uint8Array): boolean {
+  const start = bytes.length < 4 ? 0 : uint32At(bytes, 0);
+  return start === rawMagic || start === packedMagic;
+}
+
+/**
+ * The frames of a raw or packed recording, unpacked from gzip.
+ * @throws TraceError where it is none, or holds what is no box
+ */
+export function importRecording(bytes: Uint8Array): FrameSource {
+  let recording: Recording;
+  try {
+    recording = readRecording(bytes);
+  } catch (error) {
+    throw new TraceError((error as Error).message, -1, 0);
+  }
+  const { dimensions, count, frames } = recording;
+  if (count > maxBoxes) throw new TraceError(`${count} boxes, expected at most ${maxBoxes}`, -1, 8);
+  if (count === 0 && frames > maxEmptyFrames) throw new TraceError(`${frames} frames without boxes`, -1, 12);
+  for (let k = 0; k < frames; k++) checkFrame(recording, k);
+  return {
+    dimensions,
+    frames,
+    *[Symbol.iterator](): Generator<Frame> {
+      for (let index = 0; index < frames; index++) {
+        const boxes = recording.frame(index);
+        const changed = index === 0 ? count : countChanged(recording.frame(index - 1), boxes, 2 * dimensions);
+        yield { index, count, ids: undefined, boxes, changed };
+      }
+    },
+  };
+}
+
+/**
+ * Opens a trace or a recording, gzipped or not.
+ * @throws TraceError where it is broken
+ */
+export async function openAny(bytes: Uint8Array, options?: OpenOptions): Promise<FrameSource> {
+  const plain = bytes[0] === 0x1f && bytes[1] === 0x8b ? await gunzip(bytes) : bytes;
+  return isRecording(plain) ? importRecording(plain) : openTrace(plain, options);
+}
+
+/**
+ * A raw recording of the same frames.
+ * @throws RangeError where that layout cannot hold them: ids, doubles, or a number of boxes that changes
+ */
+export function exportRecording(source: FrameSource): Uint8Array<ArrayBuffer> {
+  let count = -1;
+  let all = new Uint8Array();
+  for (const frame of source) {
+    if (count < 0) {
+      count = frame.count;
+      all = new Uint8Array(headerBytes + 8 * source.dimensions * count * source.frames);
+    }
+    const where = `frame ${frame.index} cannot be written in the raw layout:`;
+    if (frame.count !== count) throw new RangeError(`${where} it has ${frame.count} boxes, the first had ${count}`);
+    if (frame.ids) throw new RangeError(`${where} its boxes have ids of their own`);
+    if (frame.boxes instanceof Float64Array) throw new RangeError(`${where} its numbers are doubles`);
+    const { buffer, byteOffset, byteLength } = frame.boxes;
+    all.set(new Uint8Array(buffer, byteOffset, byteLength), headerBytes + frame.index * byteLength);
+  }
+  if (count < 0) all = new Uint8Array(headerBytes);
+  const header = new DataView(all.buffer);
+  for (const [k, value] of [rawMagic, source.dimensions, Math.max(0, count), source.frames].entries()) {
+    header.setInt32(4 * k, value, true);
+  }
+  return all;
+}
+
+function checkFrame(recording: Recording, index: number): void {
+  const { dimensions, count } = recording;
+  const boxes = recording.frame(index);
+  const width = 2 * dimensions;
+  for (let at = 0; at < boxes.length; at += width) {
+    for (let k = at; k < at + dimensions; k++) {
+      if (boxes[k] <= boxes[k + dimensions]) continue;
+      const box = boxes.subarray(at, at + width).join(', ');
+      const offset = headerBytes + 4 * (index * count * width + k);
+      throw new TraceError(`box ${at / width} is [${box}], which is none`, index, offset);
+    }
+  }
+}
+
+function countChanged(was: Float32Array, now: Float32Array, width: number): number {
+  let changed = 0;
+  for (let at = 0; at < now.length; at += width) {
+    let k = 0;
+    while (k < width && Object.is(was[at + k], now[at + k])) k++;
+    if (k < width) changed++;
+  }
+  return changed;
+}

@@ -1,0 +1,211 @@
+// Reads traces: whole ones from bytes, or as a stream while they arrive.
+import { uint32At } from './bytes.ts';
+import { crc32 } from './crc32.ts';
+import { FrameDecoder } from './decoder.ts';
+import {
+  type Frame,
+  type FrameSource,
+  formatVersion,
+  frameHeaderBytes,
+  headerBytes,
+  magic,
+  maxBodyBytes,
+  TraceError,
+} from './format.ts';
+
+/** How a trace is opened. */
+export interface OpenOptions {
+  /**
+   * For the trace of a run that crashed: take the whole frames up to where the file is cut off or broken, instead of
+   * throwing. What was left out is then told by {@link Trace.fault}.
+   */
+  salvage?: boolean;
+}
+
+/** A trace held as bytes. Its lengths and checksums were right when it was opened; go through it with `for … of`. */
+export class Trace implements FrameSource {
+  readonly dimensions: 2 | 3;
+  readonly frames: number;
+  /** With `salvage`: what is wrong with the file behind its last good frame. */
+  readonly fault: TraceError | undefined;
+  readonly #bytes: Uint8Array;
+
+  /** @throws TraceError that says what is wrong, in which frame, at which byte */
+  constructor(bytes: Uint8Array, options: OpenOptions = {}) {
+    this.#bytes = bytes;
+    const { dimensions, checksum } = readHeader(bytes);
+    this.dimensions = dimensions;
+    let frames = 0;
+    try {
+      const decoder = new FrameDecoder(dimensions);
+      const bodies = checkedBodies(bytes, checksum);
+      // Decoded once here, so that what goes through the frames later never meets an error.
+      for (const { body, offset } of bodies) if (decoder.decode(body, offset)) frames++;
+    } catch (error) {
+      if (!(options.salvage && error instanceof TraceError)) throw error;
+      this.fault = error;
+    }
+    this.frames = frames;
+  }
+
+  *[Symbol.iterator](): Generator<Frame> {
+    const decoder = new FrameDecoder(this.dimensions);
+    let at = headerBytes;
+    for (let k = 0; k < this.frames; k++) {
+      const start = at + frameHeaderBytes;
+      at = start + uint32At(this.#bytes, at);
+      yield decoder.decode(this.#bytes.subarray(start, at), start)!;
+    }
+  }
+}
+
+/**
+ * Opens a trace: checks the file, and gives its frames as often as wanted.
+ * @throws TraceError where it is truncated, corrupted, newer than this reader, or no trace
+ */
+export function openTrace(bytes: Uint8Array | ArrayBuffer, options?: OpenOptions): Trace {
+  return new Trace(bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes), options);
+}
+
+/**
+ * The frames of a trace while it arrives, each as soon as its bytes are there; no more than one frame is kept.
+ * @throws TraceError as {@link openTrace}, after the frames that are good
+ */
+export async function* readTrace(
+  chunks: AsyncIterable<Uint8Array> | ReadableStream<Uint8Array>,
+): AsyncGenerator<Frame & { readonly dimensions: 2 | 3 }> {
+  const queue = new ChunkQueue('getReader' in chunks ? chunksOf(chunks) : chunks);
+  const head = await queue.take(headerBytes);
+  if (!head) throw truncatedHeader(queue.bytesLeft);
+  let { dimensions, checksum } = readHeader(head);
+  const decoder = new FrameDecoder(dimensions);
+  let offset = headerBytes;
+  for (let index = 0; ; index++) {
+    const start = await queue.take(frameHeaderBytes);
+    if (!start) throw truncated(index, offset, queue.bytesLeft, frameHeaderBytes);
+    const length = bodyLength(start, 0, index, offset);
+    const body = await queue.take(length);
+    if (!body) throw truncated(index, offset, frameHeaderBytes + queue.bytesLeft, frameHeaderBytes + length);
+    checksum = checkFrame(start, body, checksum, index, offset);
+    const frame = decoder.decode(body, offset + frameHeaderBytes);
+    offset += frameHeaderBytes + length;
+    if (!frame) break;
+    yield Object.assign(frame, { dimensions });
+  }
+  if (await queue.take(1)) throw tooMany(decoder.frames, offset);
+}
+
+function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; checksum: number } {
+  const known = Math.min(bytes.length, magic.length);
+  for (let k = 0; k < known; k++) {
+    if (bytes[k] === magic[k]) continue;
+    const hint = bytes[0] === 0x1f && bytes[1] === 0x8b ? ': it looks like gzip, decompress it first' : '';
+    throw new TraceError(`not a trace${hint}`, -1, k);
+  }
+  if (bytes.length < headerBytes) throw truncatedHeader(bytes.length);
+  const version = bytes[8] | (bytes[9] << 8);
+  if (version > formatVersion) {
+    throw new TraceError(`of format ${version}, newer than ${formatVersion}, which this version can read`, -1, 8);
+  }
+  const checksum = crc32(bytes, 0, headerBytes - 4);
+  if (uint32At(bytes, headerBytes - 4) !== checksum) throw new TraceError('corrupted: wrong checksum', -1, 12);
+  const dimensions = bytes[10];
+  if (dimensions !== 2 && dimensions !== 3) throw new TraceError(`${dimensions} dimensions, expected 2 or 3`, -1, 10);
+  if (version === 0 || bytes[11] !== 0) throw new TraceError('not a header of this format', -1, 8);
+  return { dimensions, checksum };
+}
+
+/** The bodies of all frames, the end's included, each after its checksum was found right. */
+function* checkedBodies(bytes: Uint8Array, checksum: number): Generator<{ body: Uint8Array; offset: number }> {
+  let at = headerBytes;
+  for (let index = 0; ; index++) {
+    const left = bytes.length - at;
+    if (left < frameHeaderBytes) throw truncated(index, at, left, frameHeaderBytes);
+    const length = bodyLength(bytes, at, index, at);
+    if (left < frameHeaderBytes + length) throw truncated(index, at, left, frameHeaderBytes + length);
+    const offset = at + frameHeaderBytes;
+    const body = bytes.subarray(offset, offset + length);
+    checksum = checkFrame(bytes.subarray(at, offset), body, checksum, index, at);
+    at = offset + length;
+    yield { body, offset };
+    if (body[0] !== 0) continue;
+    if (at < bytes.length) throw tooMany(index, at);
+    return;
+  }
+}
+
+function bodyLength(bytes: Uint8Array, at: number, frame: number, offset: number): number {
+  const length = uint32At(bytes, at);
+  if (length === 0 || length > maxBodyBytes) {
+    throw new TraceError(`corrupted: its length is ${length}, expected 1 to ${maxBodyBytes}`, frame, offset);
+  }
+  return length;
+}
+
+function checkFrame(head: Uint8Array, body: Uint8Array, before: number, frame: number, offset: number): number {
+  const checksum = crc32(body, 0, body.length, crc32(head, 0, 4, before));
+  if (uint32At(head, 4) !== checksum) throw new TraceError('corrupted: wrong checksum', frame, offset);
+  return checksum;
+}
+
+const truncatedHeader = (got: number) =>
+  new TraceError(`truncated: ${got} bytes, fewer than the ${headerBytes} of a header`, -1, got);
+
+const truncated = (frame: number, offset: number, got: number, expected: number) =>
+  new TraceError(`truncated: ${got} of ${expected} bytes are there`, frame, offset);
+
+const tooMany = (frame: number, offset: number) => new TraceError('more bytes after the end', frame, offset);
+
+/** Bytes as they arrive, handed out in pieces of the length asked for. */
+class ChunkQueue {
+  readonly #source: AsyncIterator<Uint8Array>;
+  #chunks: Uint8Array[] = [];
+  bytesLeft = 0;
+
+  constructor(source: AsyncIterable<Uint8Array>) {
+    this.#source = source[Symbol.asyncIterator]();
+  }
+
+  /** So many bytes; `undefined` where the stream ends before. Takes memory only for what has arrived. */
+  async take(count: number): Promise<Uint8Array | undefined> {
+    while (this.bytesLeft < count) {
+      const { done, value } = await this.#source.next();
+      if (done) return undefined;
+      this.#chunks.push(value);
+      this.bytesLeft += value.length;
+    }
+    this.bytesLeft -= count;
+    const [first] = this.#chunks;
+    if (first && first.length >= count) {
+      this.#chunks[0] = first.subarray(count);
+      return first.subarray(0, count);
+    }
+    const taken = new Uint8Array(count);
+    let filled = 0;
+    let used = 0;
+    while (filled < count) {
+      const chunk = this.#chunks[used];
+      const piece = chunk.subarray(0, count - filled);
+      taken.set(piece, filled);
+      filled += piece.length;
+      if (piece.length < chunk.length) this.#chunks[used] = chunk.subarray(piece.length);
+      else used++;
+    }
+    this.#chunks = this.#chunks.slice(used);
+    return taken;
+  }
+}
+
+/** ReadableStream is not async iterable in every browser yet. */
+export async function* chunksOf(stream: ReadableStream<Uint8Array>): AsyncGenerator<Uint8Array> {
+  const reader = stream.getReader();
+  try {
+    for (;;) {
+      const { done, value } = await reader.read();
+      if (done) return;
+      yield value;
+    }
+  } finally {
+    await reader.cancel().catch(() => {}); // nothing is lost: whoever stops early wants no more
+  }
+}

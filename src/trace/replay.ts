@@ -1,0 +1,84 @@
+// Plays frames into a BroadPhase and measures each update.
+import { BroadPhase, type BroadPhaseOptions, type TechniqueName } from 'broadphase';
+import { type Difference, differenceOf, exactPairs, pairKeys } from './exact.ts';
+import type { Frame, FrameSource } from './format.ts';
+
+/**
+ * Puts the boxes of a frame into a space in place of all others, in the order they had when they were recorded, so
+ * that the pairs come in the same order too. `update()` is the caller's.
+ */
+export function applyFrame(space: BroadPhase, frame: Frame): void {
+  const { ids, boxes, count } = frame;
+  if (!ids) {
+    space.setAll(boxes);
+    return;
+  }
+  space.clear();
+  if (space.dimensions === 2) {
+    for (let k = 0, at = 0; k < count; k++, at += 4) {
+      space.set(ids[k], boxes[at], boxes[at + 1], boxes[at + 2], boxes[at + 3]);
+    }
+    return;
+  }
+  for (let k = 0, at = 0; k < count; k++, at += 6) {
+    space.set(ids[k], boxes[at], boxes[at + 1], boxes[at + 2], boxes[at + 3], boxes[at + 4], boxes[at + 5]);
+  }
+}
+
+/** How a space is set up to play frames into: its dimensions come from them. */
+export type ReplayOptions = Omit<BroadPhaseOptions, 'dimensions'>;
+
+/** What one update of a replay took and gave. */
+export interface ReplayedFrame {
+  index: number;
+  boxes: number;
+  changed: number;
+  /** Milliseconds of `update()` alone. */
+  ms: number;
+  /** The technique that ran. */
+  technique: TechniqueName;
+  tests: number;
+  candidates: number;
+  pairs: number;
+  cells: number;
+  entries: number;
+  bytes: number;
+  /** Where it was checked: how the pairs differ from the exact answer, `null` if they do not. */
+  difference?: Difference | null;
+}
+
+/** A few updates of the first frame that are not counted: engines compile what has run for a while. */
+const warmUpUpdates = 3;
+
+/**
+ * Plays all frames, one result each.
+ * @param verify compare the pairs of each frame with an exact sweep that is written apart from the kernel
+ */
+export function* replay(source: FrameSource, options: ReplayOptions = {}, verify = false): Generator<ReplayedFrame> {
+  const space = new BroadPhase({ ...options, dimensions: source.dimensions });
+  for (const frame of source) {
+    const ms = timeUpdate(space, frame, frame.index === 0 ? warmUpUpdates : 0);
+    const { technique, tests, candidates, pairs, cells, entries, bytes } = space.stats;
+    const { index, count: boxes, changed } = frame;
+    const result = { index, boxes, changed, ms, technique, tests, candidates, pairs, cells, entries, bytes };
+    if (!verify) {
+      yield result;
+      continue;
+    }
+    const expected = exactPairs(frame.boxes, source.dimensions, frame.ids);
+    yield { ...result, difference: differenceOf(pairKeys(space.pairs), expected) ?? null };
+  }
+  space.dispose();
+}
+
+/** Plays one frame and gives the milliseconds of its update. */
+export function timeUpdate(space: BroadPhase, frame: Frame, warmUp = 0): number {
+  for (let k = 0; k < warmUp; k++) {
+    applyFrame(space, frame);
+    space.update();
+  }
+  applyFrame(space, frame);
+  const started = performance.now();
+  space.update();
+  return performance.now() - started;
+}

@@ -1,0 +1,82 @@
+// What writer and reader both remember of the frames before, grown and carried on in the same way by both.
+
+export class TraceState {
+  readonly width: number;
+  count = 0;
+  /** Whether any id differs from its place. */
+  named = false;
+  ids = new Uint32Array();
+  /** The boxes of the frame before, and of the one before that. */
+  was = new Float64Array();
+  before = new Float64Array();
+
+  constructor(dimensions: 2 | 3) {
+    this.width = 2 * dimensions;
+  }
+
+  /** A snapshot starts from nothing. */
+  forget(): void {
+    this.resize(0);
+    this.named = false;
+  }
+
+  /** For as many boxes: new ones have their place as id, and zeros. */
+  resize(count: number): void {
+    const { width, count: had } = this;
+    if (count > this.ids.length) {
+      const room = Math.max(count, Math.min(2 * this.ids.length, 2 ** 24));
+      this.ids = grown(this.ids, new Uint32Array(room));
+      this.was = grown(this.was, new Float64Array(room * width));
+      this.before = grown(this.before, new Float64Array(room * width));
+    }
+    for (let k = had; k < count; k++) this.ids[k] = k;
+    if (count > had) {
+      this.was.fill(0, had * width, count * width);
+      this.before.fill(0, had * width, count * width);
+    }
+    this.count = count;
+  }
+
+  /**
+   * What stands in `before` by now was the frame that is becoming the one before.
+   * @param had how many boxes were there already: new ones begin at rest
+   */
+  turn(had: number): void {
+    const { was, before, width, count } = this;
+    this.was = before;
+    this.before = was;
+    if (count > had) was.set(before.subarray(had * width, count * width), had * width);
+  }
+
+  /** Looks whether any id differs from its place. */
+  lookAtIds(): void {
+    const { ids, count } = this;
+    this.named = false;
+    for (let k = 0; k < count && !this.named; k++) this.named = ids[k] !== k;
+  }
+}
+
+function grown<Numbers extends Uint32Array | Float64Array>(from: Numbers, to: Numbers): Numbers {
+  to.set(from);
+  return to;
+}
+
+/** A set of ids, one bit each: only as large as the largest needs. */
+export class IdSet {
+  #bits = new Uint32Array(64);
+
+  /** Whether it was not in yet. */
+  add(id: number): boolean {
+    const at = id >>> 5;
+    if (at >= this.#bits.length)
+      this.#bits = grown(this.#bits, new Uint32Array(Math.max(at + 1, 2 * this.#bits.length)));
+    const bit = 1 << (id & 31);
+    if (this.#bits[at] & bit) return false;
+    this.#bits[at] |= bit;
+    return true;
+  }
+
+  clear(): void {
+    this.#bits.fill(0);
+  }
+}

@@ -1,0 +1,263 @@
+// Which technique, and which cell size, for these frames? Tries all techniques on a few frames, searches the cell size
+// of those that have one, and lets the best run against each other, and against `auto`, on all frames.
+//
+// Machines are noisy, so every time is the fastest of several, candidates take turns, and what is far behind the best
+// is given up early. Whether a technique looks at the cell size at all is found by trying: its counters change.
+import { BroadPhase, type TechniqueName } from 'broadphase';
+import type { Frame, FrameSource } from './format.ts';
+import { timeUpdate } from './replay.ts';
+import { percentile, type Summary, summarize } from './statistics.ts';
+import { longestSides } from './survey.ts';
+
+export interface TuneOptions {
+  /** Which techniques are tried; left out: all of {@link BroadPhase.techniques}. `auto` is always measured too. */
+  techniques?: readonly TechniqueName[];
+  /** For how many seconds the finalists run against each other (8). */
+  seconds?: number;
+  /** Try every technique with every cell size on all frames: slow, and what the search is checked against. */
+  exhaustive?: boolean;
+  progress?: (what: string, done: number, total: number) => void;
+}
+
+/** What can be given to `new BroadPhase`. */
+export interface Candidate {
+  technique: TechniqueName;
+  cellSize?: number;
+}
+
+export interface Measured extends Candidate {
+  /** Milliseconds of `update()` per frame: the fastest of all passes. */
+  times: number[];
+  ms: Summary;
+}
+
+export interface Tuned {
+  /** Recommended; `auto` itself where nothing is faster by more than the noise. */
+  best: Measured;
+  auto: Measured;
+  /** How many times faster than `auto` that is. */
+  margin: number;
+  /** All that ran on all frames, fastest first. */
+  finalists: Measured[];
+  /** Mean milliseconds of each technique on a few frames, in its best setting, fastest first. */
+  techniques: (Candidate & { ms: number })[];
+  /** The same over the cell size, for techniques that have one. */
+  curves: { technique: TechniqueName; points: { cellSize: number; ms: number }[] }[];
+  /** The frames that were used: all of them, or windows out of a long trace. */
+  frames: { index: number; boxes: number; changed: number; pairs: number }[];
+  /** To paste. */
+  code: string;
+}
+
+/** Frames are kept in memory while tuning, up to so many bytes; of longer traces, windows. */
+const keptBytes = 2 ** 27;
+const windows = 4;
+
+/** The first look is at so many frames, from the middle, in so many passes. */
+const screenFrames = 5;
+const screenPasses = 3;
+
+/** A candidate this many times slower than the best so far is given up in the middle. */
+const hopeless = 4;
+
+/** Finalists are at most this much slower than the best at first sight, and no more than this many. */
+const closeEnough = 1.5;
+const mostFinalists = 6;
+const leastPasses = 3;
+const mostPasses = 25;
+
+/** Below this, being faster than `auto` is noise, and not worth an option that may not suit the next level. */
+const worthwhile = 1.03;
+
+export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
+  const { techniques = BroadPhase.techniques, seconds = 8, exhaustive = false, progress } = options;
+  const { dimensions } = source;
+  const frames = keepFrames(source);
+  if (frames.length === 0) throw new RangeError('tune: the trace has no frames');
+  const middle = Math.max(0, (frames.length - screenFrames) >> 1);
+  const few = exhaustive ? frames : frames.slice(middle, middle + screenFrames);
+
+  const screened: (Candidate & { ms: number })[] = [];
+  let fastest = Infinity;
+  const screen = (candidate: Candidate): number => {
+    const ms = measure(candidate, dimensions, few, exhaustive ? leastPasses : screenPasses, hopeless * fastest);
+    fastest = Math.min(fastest, ms);
+    screened.push({ ...candidate, ms });
+    return ms;
+  };
+  techniques.forEach((technique, k) => {
+    progress?.(technique, k, techniques.length);
+    screen({ technique });
+    if (technique === 'auto' || !heedsCellSize(technique, dimensions, few[0])) return;
+    const typical = typicalSide(few[0], dimensions);
+    const at = (steps: number) => screen({ technique, cellSize: rounded(typical * 2 ** (steps / 4)) });
+    if (exhaustive) for (let steps = -8; steps <= 32; steps++) at(steps);
+    else searchSteps(at);
+  });
+  screened.sort((a, b) => a.ms - b.ms);
+
+  const close = screened.filter(({ ms }, k) => k < mostFinalists && ms <= closeEnough * screened[0].ms);
+  if (!close.some(isAuto)) close.push({ technique: 'auto', ms: 0 });
+  const finalists = runFinal(close, dimensions, frames, seconds, (done) => progress?.('final', done, 1));
+  const auto = finalists.find(isAuto)!;
+  const [first] = finalists;
+  const best = auto.ms.mean / first.ms.mean < worthwhile ? auto : first;
+  return {
+    best,
+    auto,
+    margin: auto.ms.mean / best.ms.mean,
+    finalists,
+    techniques: techniques.map((name) => screened.find(({ technique }) => technique === name)!).sort(byTime),
+    curves: techniques.flatMap((technique) => {
+      const points = screened.flatMap(({ technique: name, cellSize, ms }) =>
+        name === technique && cellSize !== undefined ? [{ cellSize, ms }] : [],
+      );
+      return points.length > 0 ? [{ technique, points: points.sort((a, b) => a.cellSize - b.cellSize) }] : [];
+    }),
+    frames: describeFrames(frames, dimensions),
+    code: codeOf(best, dimensions),
+  };
+}
+
+const byTime = (a: { ms: number }, b: { ms: number }) => a.ms - b.ms;
+const isAuto = ({ technique }: Candidate) => technique === 'auto';
+
+/** Three digits are enough, and what is measured is what is recommended. */
+const rounded = (value: number) => Number(value.toPrecision(3));
+
+/** Copies of all frames, or of evenly spaced windows of successive ones: techniques that keep state need those. */
+function keepFrames(source: FrameSource): Frame[] {
+  const kept: Frame[] = [];
+  let allowed = source.frames;
+  for (const frame of source) {
+    if (frame.index === 0) {
+      const most = Math.floor(keptBytes / Math.max(1, frame.boxes.byteLength));
+      allowed = Math.max(windows, Math.min(source.frames, most));
+    }
+    const windowLength = Math.ceil(allowed / windows);
+    if (allowed < source.frames && frame.index % Math.ceil(source.frames / windows) >= windowLength) continue;
+    kept.push({ ...frame, boxes: frame.boxes.slice(), ids: frame.ids?.slice() });
+  }
+  return kept;
+}
+
+/** Mean milliseconds a frame; given up where it is clear that it will be above `limit`. */
+function measure(
+  candidate: Candidate,
+  dimensions: 2 | 3,
+  frames: readonly Frame[],
+  passes: number,
+  limit: number,
+): number {
+  const space = new BroadPhase({ ...candidate, dimensions });
+  const times: number[] = [];
+  for (let pass = 0; pass < passes; pass++) {
+    for (const [k, frame] of frames.entries()) {
+      const ms = timeUpdate(space, frame, pass === 0 && k === 0 ? 1 : 0);
+      times[k] = pass === 0 ? ms : Math.min(ms, times[k]);
+      if (ms > limit && times[k] > limit) break;
+    }
+    if (meanOf(times) > limit) break;
+  }
+  space.dispose();
+  return meanOf(times);
+}
+
+const meanOf = (times: readonly number[]) => times.reduce((sum, ms) => sum + ms, 0) / times.length;
+
+/** Whether other cells change what the technique counts. */
+function heedsCellSize(technique: TechniqueName, dimensions: 2 | 3, frame: Frame): boolean {
+  const typical = typicalSide(frame, dimensions);
+  const counters = [1, 8].map((factor) => {
+    const space = new BroadPhase({ technique, dimensions, cellSize: rounded(factor * typical) });
+    timeUpdate(space, frame);
+    const { tests, cells, entries } = space.stats;
+    space.dispose();
+    return `${tests} ${cells} ${entries}`;
+  });
+  return counters[0] !== counters[1];
+}
+
+function typicalSide(frame: Frame, dimensions: 2 | 3): number {
+  const sides = longestSides(frame.boxes, dimensions).filter((side) => side > 0 && Number.isFinite(side));
+  return percentile(sides.sort(), 0.5) || 1;
+}
+
+/**
+ * Finds a low point of the cost over the cell size, counted in quarters of a doubling from the typical box: first by
+ * doublings, as far as it gets better or not much worse, then closer around the best.
+ */
+function searchSteps(costAt: (steps: number) => number): void {
+  const tried = new Map<number, number>();
+  const cost = (steps: number) => {
+    const known = tried.get(steps) ?? costAt(steps);
+    tried.set(steps, known);
+    return known;
+  };
+  let best = 0;
+  const look = (steps: number) => {
+    if (cost(steps) < cost(best)) best = steps;
+    return cost(steps) < 2 * cost(best);
+  };
+  look(0);
+  for (const direction of [4, -4]) {
+    let worse = 0;
+    for (let steps = direction; steps <= 32 && steps >= -8 && worse < 2; steps += direction) {
+      worse = look(steps) ? 0 : worse + 1;
+    }
+  }
+  for (const step of [2, 1]) {
+    const centre = best;
+    look(centre - step);
+    look(centre + step);
+  }
+}
+
+/** All against all, taking turns, until the time is over; fastest first. */
+function runFinal(
+  candidates: readonly Candidate[],
+  dimensions: 2 | 3,
+  frames: readonly Frame[],
+  seconds: number,
+  progress: (done: number) => void,
+): Measured[] {
+  const runs = candidates.map(({ technique, cellSize }) => {
+    const candidate: Candidate = cellSize === undefined ? { technique } : { technique, cellSize };
+    return { candidate, space: new BroadPhase({ ...candidate, dimensions }), times: [] as number[] };
+  });
+  const started = performance.now();
+  for (let pass = 0; pass < mostPasses; pass++) {
+    const spent = (performance.now() - started) / 1000 / seconds;
+    progress(Math.min(1, Math.max(spent, pass / mostPasses)));
+    if (pass >= leastPasses && spent > 1) break;
+    for (const { space, times } of runs) {
+      for (const [k, frame] of frames.entries()) {
+        const ms = timeUpdate(space, frame, pass === 0 && k === 0 ? 1 : 0);
+        times[k] = pass === 0 ? ms : Math.min(ms, times[k]);
+      }
+    }
+  }
+  return runs
+    .map(({ candidate, space, times }) => {
+      space.dispose();
+      return { ...candidate, times, ms: summarize(times) };
+    })
+    .sort((a, b) => a.ms.mean - b.ms.mean);
+}
+
+function describeFrames(frames: readonly Frame[], dimensions: 2 | 3): Tuned['frames'] {
+  const space = new BroadPhase({ dimensions });
+  return frames.map((frame) => {
+    timeUpdate(space, frame);
+    return { index: frame.index, boxes: frame.count, changed: frame.changed, pairs: space.pairCount };
+  });
+}
+
+function codeOf({ technique, cellSize }: Candidate, dimensions: 2 | 3): string {
+  const options = [
+    dimensions === 3 ? 'dimensions: 3' : '',
+    technique === 'auto' ? '' : `technique: '${technique}'`,
+    cellSize === undefined ? '' : `cellSize: ${cellSize}`,
+  ].filter(Boolean);
+  return `const space = new BroadPhase(${options.length > 0 ? `{ ${options.join(', ')} }` : ''});`;
+}

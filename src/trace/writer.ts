@@ -1,0 +1,193 @@
+// Writes traces: frames in, bytes out, nothing kept but the last two frames. Where the bytes go is the caller's.
+import { ByteWriter } from './bytes.ts';
+import { crc32 } from './crc32.ts';
+import { doublesFlag, formatVersion, frameHeaderBytes, frameKind, headerBytes, magic, maxBoxes } from './format.ts';
+import { predict, putDistance } from './numbers.ts';
+import { IdSet, TraceState } from './state.ts';
+
+/**
+ * Turns frames into the bytes of a trace. A file is `header()`, then `frame()` for each frame, then `end()`; the
+ * bytes of each are the caller's to keep.
+ */
+export class TraceWriter {
+  readonly dimensions: 2 | 3;
+  /** How many frames have been written. */
+  frames = 0;
+  readonly #state: TraceState;
+  readonly #out = new ByteWriter();
+  #checksum = 0;
+  /** Where boxes that changed begin and end, of this frame. */
+  readonly #runs: number[] = [];
+  readonly #places: number[] = [];
+  readonly #seen = new IdSet();
+
+  /** @throws RangeError for other than 2 or 3 dimensions */
+  constructor(dimensions: 2 | 3) {
+    if (dimensions !== 2 && dimensions !== 3) throw new RangeError(`a trace has 2 or 3 dimensions, not ${dimensions}`);
+    this.dimensions = dimensions;
+    this.#state = new TraceState(dimensions);
+  }
+
+  /** The start of the file. */
+  header(): Uint8Array<ArrayBuffer> {
+    const out = new ByteWriter();
+    out.bytes.set(magic);
+    out.bytes[8] = formatVersion;
+    out.bytes[10] = this.dimensions;
+    this.#checksum = crc32(out.bytes, 0, headerBytes - 4);
+    out.putUint32(headerBytes - 4, this.#checksum);
+    return out.bytes.slice(0, headerBytes);
+  }
+
+  /**
+   * One frame. `header()` must have been called before.
+   * @param boxes minima then maxima, box after box
+   * @param ids the id of each box; left out: 0, 1, 2, …
+   * @throws RangeError for a box that is none, for an id twice or out of range, and where lengths do not fit: nothing
+   *   is written then
+   */
+  frame(boxes: Float32Array | Float64Array, ids?: ArrayLike<number>): Uint8Array<ArrayBuffer> {
+    const state = this.#state;
+    const { width } = state;
+    const count = boxes.length / width;
+    if (!Number.isInteger(count) || count > maxBoxes) {
+      throw new RangeError(`trace: ${boxes.length} numbers, expected ${width} for each of at most ${maxBoxes} boxes`);
+    }
+    checkBoxes(boxes, this.dimensions);
+    if (ids) checkIds(ids, count, this.#seen);
+    const doubles = boxes instanceof Float64Array;
+    const out = this.#begin((this.frames === 0 ? frameKind.snapshot : frameKind.changes) | (doubles ? doublesFlag : 0));
+    const had = state.count;
+    state.resize(count);
+    out.varint(count);
+    this.#writeIds(ids);
+    const changed = this.#findRuns(boxes, had);
+    out.varint(this.#runs.length / 2);
+    for (let k = 0, end = 0; k < this.#runs.length; k += 2) {
+      out.varint(this.#runs[k] - end);
+      end = this.#runs[k + 1];
+      out.varint(end - this.#runs[k]);
+    }
+    this.#writeNumbers(boxes, changed, doubles);
+    state.before.set(boxes);
+    state.turn(had);
+    this.frames++;
+    return this.#seal();
+  }
+
+  /** The end of the file: says that nothing is missing. More frames may follow all the same, in place of it. */
+  end(): Uint8Array<ArrayBuffer> {
+    const before = this.#checksum;
+    this.#begin(frameKind.end).varint(this.frames);
+    const bytes = this.#seal();
+    this.#checksum = before;
+    return bytes;
+  }
+
+  #begin(kind: number): ByteWriter {
+    const out = this.#out;
+    out.length = frameHeaderBytes;
+    out.byte(kind);
+    return out;
+  }
+
+  /** Length and checksum in front; the checksum goes on from that of the frame before. */
+  #seal(): Uint8Array<ArrayBuffer> {
+    const out = this.#out;
+    out.putUint32(0, out.length - frameHeaderBytes);
+    this.#checksum = crc32(out.bytes, frameHeaderBytes, out.length, crc32(out.bytes, 0, 4, this.#checksum));
+    out.putUint32(4, this.#checksum);
+    return out.bytes.slice(0, out.length);
+  }
+
+  #writeIds(ids: ArrayLike<number> | undefined): void {
+    const state = this.#state;
+    const out = this.#out;
+    const { count } = state;
+    const changed = this.#places;
+    changed.length = 0;
+    if (ids || state.named) {
+      for (let k = 0; k < count; k++) if (state.ids[k] !== (ids ? ids[k] : k)) changed.push(k);
+    }
+    out.varint(changed.length);
+    let next = 0;
+    for (const place of changed) {
+      const id = ids ? ids[place] : place;
+      out.varint(place - next);
+      out.varint(id);
+      state.ids[place] = id;
+      next = place + 1;
+    }
+    state.named = ids !== undefined;
+  }
+
+  /** Where the boxes differ from the frame before; returns how many do. All that are new count. */
+  #findRuns(boxes: Float32Array | Float64Array, had: number): number {
+    const { was, width, count } = this.#state;
+    const runs = this.#runs;
+    runs.length = 0;
+    let changed = 0;
+    let begun = false;
+    for (let box = 0; box < count; box++) {
+      let differs = box >= had;
+      for (let k = box * width; !differs && k < (box + 1) * width; k++) {
+        const value = boxes[k];
+        differs = value !== was[k] || (value === 0 && !Object.is(value, was[k]));
+      }
+      if (differs) changed++;
+      if (differs === begun) continue;
+      runs.push(box);
+      begun = differs;
+    }
+    if (begun) runs.push(count);
+    return changed;
+  }
+
+  /** How many bytes each number has, two to a byte; then the bytes. */
+  #writeNumbers(boxes: Float32Array | Float64Array, changed: number, doubles: boolean): void {
+    const { was, before, width } = this.#state;
+    const out = this.#out;
+    const runs = this.#runs;
+    out.reserve(changed * width * (doubles ? 8.5 : 4.5) + 8);
+    const { bytes } = out;
+    const now = boxes as Float64Array; // only read, and both read the same
+    let sizes = out.length;
+    let at = sizes + (changed * width) / 2;
+    for (let run = 0; run < runs.length; run += 2) {
+      for (let box = runs[run]; box < runs[run + 1]; box++) {
+        for (let k = 0; k < width; k++) {
+          const expected = predict(was, before, now, box * width, k, width / 2);
+          const size = putDistance(bytes, at, boxes[box * width + k], expected, doubles);
+          if (k % 2 === 0) bytes[sizes] = size;
+          else bytes[sizes++] |= size << 4;
+          at += size;
+        }
+      }
+    }
+    out.length = at;
+  }
+}
+
+function checkBoxes(boxes: Float32Array | Float64Array, dimensions: number): void {
+  const width = 2 * dimensions;
+  for (let at = 0; at < boxes.length; at += width) {
+    for (let k = at; k < at + dimensions; k++) {
+      if (!(boxes[k] <= boxes[k + dimensions])) {
+        const box = [...boxes.subarray(at, at + width)].join(', ');
+        throw new RangeError(`trace: box ${at / width} is [${box}], expected minima not above maxima and no NaN`);
+      }
+    }
+  }
+}
+
+function checkIds(ids: ArrayLike<number>, count: number, seen: IdSet): void {
+  if (ids.length !== count) throw new RangeError(`trace: ${ids.length} ids for ${count} boxes`);
+  seen.clear();
+  for (let k = 0; k < count; k++) {
+    const id = ids[k];
+    if (!(Number.isInteger(id) && id >= 0 && id < maxBoxes)) {
+      throw new RangeError(`trace: an id is ${id}, expected an integer from 0 to ${maxBoxes - 1}`);
+    }
+    if (!seen.add(id)) throw new RangeError(`trace: id ${id} is there twice`);
+  }
+}

@@ -1,0 +1,11 @@
+// How broadphase/trace sees what stands in a space: a method under a registered symbol, since the two entries of the
+// package are bundled apart and share nothing else.
+
+/** The key of the method of BroadPhase that sets its watcher. */
+export const watch: unique symbol = Symbol.for('broadphase.watch') as never;
+
+/**
+ * Called after each update with the boxes in the kernel's order, float32 where that holds all of them exactly, and
+ * the id of each, or nothing where the ids are 0, 1, 2, … Both are views, valid during the call.
+ */
+export type Watcher = (boxes: Float32Array | Float64Array, ids: Uint32Array | undefined) => void;

@@ -1,0 +1,66 @@
+// Random frames, for the property tests of the trace format: boxes that rest, move, come and go, with numbers of every
+// kind, and ids of their own or none.
+import { TraceWriter } from 'broadphase/trace';
+import fc from 'fast-check';
+
+export interface GivenFrame {
+  boxes: Float32Array | Float64Array;
+  ids?: number[];
+}
+
+const place = fc.oneof(
+  { weight: 8, arbitrary: fc.integer({ min: -50, max: 50 }) },
+  { weight: 4, arbitrary: fc.double({ min: -100, max: 100, noNaN: true }) },
+  { weight: 1, arbitrary: fc.constantFrom(-Infinity, Infinity, -0, 0, 5e-324, -1e-45, 1e300, -1e39) },
+  { weight: 1, arbitrary: fc.double({ noNaN: true }) },
+);
+
+const aBox = (dimensions: number) =>
+  fc.array(fc.tuple(place, place), { minLength: dimensions, maxLength: dimensions }).map((sides) => {
+    const low = (a: number, b: number) => (a < b || Object.is(a, -0) ? a : b);
+    return [...sides.map(([a, b]) => low(a, b)), ...sides.map(([a, b]) => (low(a, b) === a ? b : a))].map(
+      (v, k, all) => (k >= dimensions && v < all[k - dimensions] ? all[k - dimensions] : v),
+    );
+  });
+
+/** Frames that follow from each other: some boxes stay, the others are replaced; doubles and floats take turns. */
+export const someFrames = (dimensions: 2 | 3): fc.Arbitrary<GivenFrame[]> =>
+  fc
+    .array(
+      fc.record({
+        boxes: fc.array(fc.tuple(aBox(dimensions), fc.boolean()), { maxLength: 12 }),
+        ids: fc.option(
+          fc.uniqueArray(fc.oneof(fc.nat(20), fc.constantFrom(70_000, 2 ** 24 - 1)), { minLength: 12, maxLength: 12 }),
+        ),
+        doubles: fc.boolean(),
+      }),
+      { maxLength: 8 },
+    )
+    .map((frames) => {
+      let was: number[][] = [];
+      return frames.map(({ boxes, ids, doubles }) => {
+        was = boxes.map(([box, stays], k) => (stays && was[k]) || box);
+        const numbers = new (doubles ? Float64Array : Float32Array)(was.flat());
+        return ids ? { boxes: numbers, ids: ids.slice(0, was.length) } : { boxes: numbers };
+      });
+    });
+
+export function write(dimensions: 2 | 3, frames: readonly GivenFrame[]): Uint8Array {
+  const writer = new TraceWriter(dimensions);
+  return concat([writer.header(), ...frames.map(({ boxes, ids }) => writer.frame(boxes, ids)), writer.end()]);
+}
+
+export function concat(pieces: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
+  return new Uint8Array(pieces.flatMap((piece) => [...piece]));
+}
+
+/** What a frame says, kept for comparison: bits, so that -0 is not 0. */
+export function factsOf(dimensions: number, { boxes, ids }: { boxes: Float32Array | Float64Array; ids?: unknown }) {
+  const count = boxes.length / (2 * dimensions);
+  const named = ids ? [...(ids as ArrayLike<number> as number[])] : undefined;
+  return {
+    doubles: boxes instanceof Float64Array,
+    numbers: [...new Uint8Array(boxes.slice().buffer)],
+    ids: named?.some((id, k) => id !== k) ? named : Array.from({ length: count }, (_, k) => k),
+  };
+}

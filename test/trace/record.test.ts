@@ -1,0 +1,182 @@
+// Recording a space: whatever is called between updates, the trace holds what stood there, and replays to its pairs.
+import { PassThrough, Writable } from 'node:stream';
+import { BroadPhase } from 'broadphase';
+import { applyFrame, openTrace, record, TraceError } from 'broadphase/trace';
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import { setBox } from '../set-box.ts';
+import { concat } from './arbitrary.ts';
+
+const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 31));
+const numRuns = Number(process.env.RUNS ?? 100);
+
+type Call = (space: BroadPhase) => void;
+
+function aCall(dimensions: 2 | 3): fc.Arbitrary<Call> {
+  const side = fc.oneof(fc.integer({ min: -9, max: 9 }), fc.double({ min: -9, max: 9, noNaN: true }));
+  const size = fc.integer({ min: 0, max: 40 }).map((tenths) => tenths / 10);
+  const axes = { minLength: dimensions, maxLength: dimensions };
+  const box = fc
+    .array(fc.tuple(side, size), axes)
+    .map((sides) => [...sides.map(([min]) => min), ...sides.map(([min, extent]) => min + extent)]);
+  const id = fc.oneof(fc.nat(12), fc.constantFrom(5000, 2 ** 24 - 1));
+  const boxes = fc.array(box, { maxLength: 10 }).map((list) => list.flat());
+  return fc.oneof(
+    {
+      weight: 6,
+      arbitrary: fc.tuple(id, box).map(
+        ([id, box]): Call =>
+          (space) =>
+            void setBox(space, id, box),
+      ),
+    },
+    {
+      weight: 3,
+      arbitrary: id.map(
+        (id): Call =>
+          (space) =>
+            void space.delete(id),
+      ),
+    },
+    { weight: 4, arbitrary: fc.constant<Call>((space) => void space.update()) },
+    { weight: 1, arbitrary: fc.constant<Call>((space) => space.clear()) },
+    {
+      weight: 1,
+      arbitrary: boxes.map(
+        (list): Call =>
+          (space) =>
+            void space.setAll(list),
+      ),
+    },
+    {
+      weight: 1,
+      arbitrary: boxes.map(
+        (list): Call =>
+          (space) =>
+            void space.setAll(Float32Array.from(list)),
+      ),
+    },
+    {
+      weight: 1,
+      arbitrary: boxes.map(
+        (list): Call =>
+          (space) =>
+            space.boxes(list.length / (2 * dimensions)).set(list),
+      ),
+    },
+  );
+}
+
+describe.each([2, 3] as const)(`a recording in ${'%d'} dimensions (SEED=${seed})`, (dimensions) => {
+  test('replays to the same boxes and the same pairs, in the same order', () => {
+    const property = fc.property(fc.array(aCall(dimensions), { maxLength: 60, size: 'max' }), (calls) => {
+      const space = new BroadPhase({ dimensions });
+      setBox(space, 3, dimensions === 2 ? [0, 0, 1, 1] : [0, 0, 0, 1, 1, 1]); // there before the recording begins
+      const recording = record(space);
+      const pairs: number[][] = [];
+      const sizes: number[] = [];
+      const update = space.update.bind(space);
+      space.update = () => {
+        update();
+        pairs.push([...space.pairs]);
+        sizes.push(space.size);
+        return space;
+      };
+      for (const call of calls) call(space);
+      space.update();
+      const twin = new BroadPhase({ dimensions });
+      const trace = openTrace(recording.bytes());
+      expect(trace.frames).toBe(pairs.length);
+      for (const frame of trace) {
+        applyFrame(twin, frame);
+        expect([...twin.update().pairs]).toEqual(pairs[frame.index]);
+        expect(frame.count).toBe(sizes[frame.index]);
+      }
+      for (let id = 0; id < 13; id++) expect(twin.get(id)).toEqual(space.get(id));
+    });
+    fc.assert(property, { seed, numRuns });
+  });
+});
+
+const moving = (space: BroadPhase, recorded: () => number) => {
+  for (let k = 0; k < 10; k++)
+    space
+      .set(1, k, 0, k + 1, 1)
+      .set(2, 5, 0, 6, 1)
+      .update();
+  return recorded();
+};
+
+test('a space is recorded once at a time, from record to stop', async () => {
+  const space = new BroadPhase();
+  const recording = record(space);
+  expect(() => record(space)).toThrow('recorded already');
+  expect(moving(space, () => recording.frames)).toBe(10);
+  await recording.stop();
+  await recording.stop();
+  expect(moving(space, () => recording.frames)).toBe(10);
+  const trace = openTrace(recording.bytes());
+  expect(trace.frames).toBe(10);
+  expect(recording.bytes().length).toBe(recording.byteLength);
+  const again = record(space);
+  space.update();
+  expect(again.frames).toBe(1);
+});
+
+test('the bytes so far are a whole trace while the recording goes on', () => {
+  const space = new BroadPhase();
+  const recording = record(space);
+  expect(openTrace(recording.bytes()).frames).toBe(0);
+  space.update();
+  expect(openTrace(recording.bytes()).frames).toBe(1);
+  space.set(0, 0, 0, 1, 1).update();
+  expect(Array.from(openTrace(recording.bytes()), (frame) => frame.count)).toEqual([0, 1]);
+});
+
+test('an update that fails is no frame', () => {
+  const space = new BroadPhase();
+  const recording = record(space);
+  space.boxes(1)[0] = Number.NaN;
+  expect(() => space.update()).toThrow('NaN');
+  expect(recording.frames).toBe(0);
+});
+
+test('a stream gets the same bytes, and after a crash all frames but the last are there', async () => {
+  const spaces = [new BroadPhase(), new BroadPhase(), new BroadPhase()];
+  const web: Uint8Array[] = [];
+  const node = new PassThrough();
+  const recordings = [
+    record(spaces[0]),
+    record(spaces[1], { to: new WritableStream<Uint8Array>({ write: (bytes) => void web.push(bytes) }) }),
+    record(spaces[2], { to: node }),
+  ];
+  for (const space of spaces) moving(space, () => 0);
+  await Promise.all(recordings.map((recording) => recording.stop()));
+  expect(concat(web)).toEqual(recordings[0].bytes());
+  expect(new Uint8Array(node.read())).toEqual(recordings[0].bytes());
+  expect(() => recordings[1].bytes()).toThrow('was not kept');
+
+  const crashed = concat(web.slice(0, 8)).subarray(0, -3);
+  expect(() => openTrace(crashed)).toThrow(TraceError);
+  expect(openTrace(crashed, { salvage: true }).frames).toBe(6);
+});
+
+test('a stream that fails ends the recording, not the game', async () => {
+  const full = new Error('disk full');
+  const web = new BroadPhase();
+  const webRecording = record(web, { to: new WritableStream({ write: () => Promise.reject(full) }) });
+  const node = new BroadPhase();
+  const nodeRecording = record(node, {
+    to: new Writable({ write: (_chunk, _encoding, done) => done(full) }),
+  });
+  for (let k = 0; k < 3; k++) {
+    moving(web, () => 0);
+    moving(node, () => 0);
+    await new Promise((resolve) => setTimeout(resolve, 1));
+  }
+  expect(webRecording.frames).toBeLessThan(30);
+  expect(nodeRecording.frames).toBeLessThan(30);
+  expect(webRecording.fault).toBe(full);
+  await expect(webRecording.stop()).rejects.toBe(full);
+  await expect(nodeRecording.stop()).rejects.toBe(full);
+});
