@@ -15,4 +15,5 @@ const beside: UserConfig = {
 export default defineConfig([
   { ...common, entry: { index: 'src/index.ts' }, copy: ['build/kernel.wasm'] },
   { ...common, ...beside, entry: { trace: 'src/trace/index.ts' } },
+  { ...common, ...beside, entry: { cli: 'src/cli/index.ts' }, platform: 'node', dts: false, fixedExtension: false },
 ]);

@@ -45,7 +45,7 @@ export function compare(source: FrameSource, options: CompareOptions = {}): Comp
       let expected: number | undefined;
       for (const contender of contenders) {
         const { space, times } = contender;
-        const ms = timeUpdate(space, frame, pass === 0 && frame.index === 0 ? 1 : 0);
+        const ms = timeUpdate(space, frame, pass === 0 && frame.index === 0);
         times[frame.index] = pass === 0 ? ms : Math.min(ms, times[frame.index]);
         if (pass > 0) continue;
         contender.tests += space.stats.tests;

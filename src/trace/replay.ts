@@ -47,9 +47,6 @@ export interface ReplayedFrame {
   difference?: Difference | null;
 }
 
-/** A few updates of the first frame that are not counted: engines compile what has run for a while. */
-const warmUpUpdates = 3;
-
 /**
  * Plays all frames, one result each.
  * @param verify compare the pairs of each frame with an exact sweep that is written apart from the kernel
@@ -57,7 +54,7 @@ const warmUpUpdates = 3;
 export function* replay(source: FrameSource, options: ReplayOptions = {}, verify = false): Generator<ReplayedFrame> {
   const space = new BroadPhase({ ...options, dimensions: source.dimensions });
   for (const frame of source) {
-    const ms = timeUpdate(space, frame, frame.index === 0 ? warmUpUpdates : 0);
+    const ms = timeUpdate(space, frame, frame.index === 0);
     const { technique, tests, candidates, pairs, cells, entries, bytes } = space.stats;
     const { index, count: boxes, changed } = frame;
     const result = { index, boxes, changed, ms, technique, tests, candidates, pairs, cells, entries, bytes };
@@ -71,9 +68,17 @@ export function* replay(source: FrameSource, options: ReplayOptions = {}, verify
   space.dispose();
 }
 
-/** Plays one frame and gives the milliseconds of its update. */
-export function timeUpdate(space: BroadPhase, frame: Frame, warmUp = 0): number {
-  for (let k = 0; k < warmUp; k++) {
+/** Engines compile anew what has run for a while: it runs for so many milliseconds, and updates, before it is timed. */
+const warmUpTime = 30;
+const warmUpUpdates = 50;
+
+/**
+ * Plays one frame and gives the milliseconds of its update.
+ * @param first of its space: it is then played a few times before
+ */
+export function timeUpdate(space: BroadPhase, frame: Frame, first = false): number {
+  const begun = performance.now();
+  for (let k = 0; first && k < warmUpUpdates && performance.now() - begun < warmUpTime; k++) {
     applyFrame(space, frame);
     space.update();
   }

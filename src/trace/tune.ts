@@ -53,12 +53,13 @@ export interface Tuned {
 const keptBytes = 2 ** 27;
 const windows = 4;
 
-/** The first look is at so many frames, from the middle, in so many passes. */
+/** The first look is at so many frames, from the middle: in as many passes as fit in so many milliseconds, within limits. */
 const screenFrames = 5;
-const screenPasses = 3;
+const screenTime = 40;
+const screenPasses = { least: 3, most: 20 };
 
-/** A candidate this many times slower than the best so far is given up in the middle. */
-const hopeless = 4;
+/** What is this many times slower than the best so far, or than its technique's best, is given up in the middle. */
+const hopeless = { atAll: 20, ofTechnique: 4 };
 
 /** Finalists are at most this much slower than the best at first sight, and no more than this many. */
 const closeEnough = 1.5;
@@ -79,14 +80,18 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
 
   const screened: (Candidate & { ms: number })[] = [];
   let fastest = Infinity;
+  let fastestOfTechnique = Infinity;
   const screen = (candidate: Candidate): number => {
-    const ms = measure(candidate, dimensions, few, exhaustive ? leastPasses : screenPasses, hopeless * fastest);
+    const limit = Math.min(hopeless.atAll * fastest, hopeless.ofTechnique * fastestOfTechnique);
+    const ms = measure(candidate, dimensions, few, limit);
     fastest = Math.min(fastest, ms);
+    fastestOfTechnique = Math.min(fastestOfTechnique, ms);
     screened.push({ ...candidate, ms });
     return ms;
   };
   techniques.forEach((technique, k) => {
     progress?.(technique, k, techniques.length);
+    fastestOfTechnique = Infinity;
     screen({ technique });
     if (technique === 'auto' || !heedsCellSize(technique, dimensions, few[0])) return;
     const typical = typicalSide(few[0], dimensions);
@@ -142,20 +147,18 @@ function keepFrames(source: FrameSource): Frame[] {
 }
 
 /** Mean milliseconds a frame; given up where it is clear that it will be above `limit`. */
-function measure(
-  candidate: Candidate,
-  dimensions: 2 | 3,
-  frames: readonly Frame[],
-  passes: number,
-  limit: number,
-): number {
+function measure(candidate: Candidate, dimensions: 2 | 3, frames: readonly Frame[], limit: number): number {
   const space = new BroadPhase({ ...candidate, dimensions });
   const times: number[] = [];
-  for (let pass = 0; pass < passes; pass++) {
+  const { least, most } = screenPasses;
+  const started = performance.now();
+  for (let pass = 0; pass < most && (pass < least || performance.now() - started < screenTime); pass++) {
     for (const [k, frame] of frames.entries()) {
-      const ms = timeUpdate(space, frame, pass === 0 && k === 0 ? 1 : 0);
-      times[k] = pass === 0 ? ms : Math.min(ms, times[k]);
-      if (ms > limit && times[k] > limit) break;
+      let ms = timeUpdate(space, frame, pass === 0 && k === 0);
+      // Once more, since it may have been the machine's doing.
+      if (ms > limit) ms = Math.min(ms, timeUpdate(space, frame));
+      times[k] = Math.min(ms, times[k] ?? Infinity);
+      if (ms > limit) break;
     }
     if (meanOf(times) > limit) break;
   }
@@ -232,7 +235,7 @@ function runFinal(
     if (pass >= leastPasses && spent > 1) break;
     for (const { space, times } of runs) {
       for (const [k, frame] of frames.entries()) {
-        const ms = timeUpdate(space, frame, pass === 0 && k === 0 ? 1 : 0);
+        const ms = timeUpdate(space, frame, pass === 0 && k === 0);
         times[k] = pass === 0 ? ms : Math.min(ms, times[k]);
       }
     }

@@ -1,0 +1,135 @@
+// Command lines: Node's own parser, and on top of it what each command takes, checked, with help made from the same.
+import { parseArgs } from 'node:util';
+
+/** Exit codes: what a script can rely on. */
+export const exitCode = {
+  /** All went well. */
+  ok: 0,
+  /** The pairs are wrong: `replay --verify` or `compare` found a difference. */
+  different: 1,
+  /** The command line is wrong. */
+  usage: 2,
+  /** A file is broken, too new, or no trace. */
+  badTrace: 3,
+  /** A file cannot be read or written. */
+  files: 4,
+  /** A fault of this program. */
+  fault: 70,
+} as const;
+
+/** The command line is wrong: says how. */
+export class UsageError extends Error {}
+
+export interface Option {
+  /** What stands for the value in the help; left out for a switch. */
+  value?: string;
+  help: string;
+}
+
+/** Where a command writes: results to `out`, all else to `err`. */
+export interface Terminal {
+  out(text: string): void;
+  err(text: string): void;
+  /** Whether a person is watching `err`. */
+  interactive: boolean;
+  columns: number;
+}
+
+export interface Command {
+  summary: string;
+  /** The arguments without a dash, by name. */
+  operands: readonly string[];
+  options: Readonly<Record<string, Option>>;
+  /** Returns the exit code. */
+  run(input: Input, terminal: Terminal): Promise<number>;
+}
+
+/** Every command has these. */
+const common: Record<string, Option> = {
+  json: { help: 'write the result as JSON' },
+  help: { help: 'show this' },
+};
+
+/** The arguments of a command, as given; each is checked when it is asked for. */
+export class Input {
+  readonly operands: readonly string[];
+  readonly #values: Readonly<Record<string, string | boolean | undefined>>;
+
+  constructor(operands: readonly string[], values: Readonly<Record<string, string | boolean | undefined>>) {
+    this.operands = operands;
+    this.#values = values;
+  }
+
+  has(name: string): boolean {
+    return this.#values[name] !== undefined;
+  }
+
+  text(name: string): string | undefined {
+    const value = this.#values[name];
+    return typeof value === 'string' ? value : undefined;
+  }
+
+  number(name: string, least: number, whole = false): number | undefined {
+    const text = this.text(name);
+    if (text === undefined) return undefined;
+    const value = Number(text);
+    if (text.trim() === '' || !(value >= least && value < Infinity) || (whole && !Number.isInteger(value))) {
+      throw new UsageError(`--${name} is ${text}, expected ${whole ? 'an integer' : 'a number'} from ${least}`);
+    }
+    return value;
+  }
+
+  /** One of the names, or with commas between them several. */
+  names<Name extends string>(name: string, known: readonly Name[]): Name[] | undefined {
+    const names = this.text(name)?.split(',');
+    for (const each of names ?? []) {
+      if (!known.includes(each as Name)) {
+        throw new UsageError(`--${name}: no ${each || 'empty name'}, expected one of ${known.join(', ')}`);
+      }
+    }
+    return names as Name[] | undefined;
+  }
+}
+
+/**
+ * Reads the arguments after the name of a command.
+ * @throws UsageError that names what is wrong
+ */
+export function parse(command: Command, argv: readonly string[]): Input {
+  const options = { ...common, ...command.options };
+  const asked = Object.entries(options).map(
+    ([name, { value }]) => [name, { type: value ? 'string' : 'boolean' }] as const,
+  );
+  try {
+    const { values, positionals } = parseArgs({
+      args: [...argv],
+      options: Object.fromEntries(asked) as Record<string, { type: 'string' | 'boolean' }>,
+      allowPositionals: true,
+    });
+    const input = new Input(positionals, values as Record<string, string | boolean | undefined>);
+    if (positionals.length !== command.operands.length && !input.has('help')) {
+      const expected = command.operands.map((name) => `<${name}>`).join(' ');
+      throw new UsageError(`expected ${expected}, got ${positionals.length} arguments`);
+    }
+    return input;
+  } catch (error) {
+    if (error instanceof TypeError && 'code' in error) throw new UsageError(error.message);
+    throw error;
+  }
+}
+
+/** What `--help` shows of a command. */
+export function helpOf(name: string, command: Command): string {
+  const options = Object.entries({ ...command.options, ...common }).map(
+    ([option, { value, help }]) => [`--${option}${value ? ` <${value}>` : ''}`, help] as const,
+  );
+  const column = Math.max(...options.map(([left]) => left.length)) + 2;
+  return [
+    `broadphase ${[name, ...command.operands.map((operand) => `<${operand}>`)].join(' ')} [options]`,
+    '',
+    command.summary,
+    '',
+    ...options.map(([left, help]) => `  ${left.padEnd(column)}${help}`),
+    '',
+  ].join('\n');
+}

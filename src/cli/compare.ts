@@ -1,0 +1,56 @@
+// `broadphase compare`: all techniques on the same frames.
+import { BroadPhase } from 'broadphase';
+import { compare } from 'broadphase/trace';
+import { type Command, exitCode } from './arguments.ts';
+import { openSource, sourceOptions } from './files.ts';
+import { cellSizeOption, readCellSize, techniqueHelp } from './replay.ts';
+import { bytes, number, progressBar, table, time } from './terminal.ts';
+
+export const compareCommand: Command = {
+  summary: 'all techniques side by side: time, tests, memory',
+  operands: ['trace'],
+  options: {
+    techniques: { value: 'names', help: `some of ${techniqueHelp}, with commas (all)` },
+    ...cellSizeOption,
+    passes: { value: 'n', help: 'how often the frames are played; the fastest time of each counts (3)' },
+    ...sourceOptions,
+  },
+  async run(input, terminal) {
+    const techniques = input.names('techniques', BroadPhase.techniques) ?? BroadPhase.techniques;
+    const passes = input.number('passes', 1, true) ?? 3;
+    const source = await openSource(input, terminal);
+    const progress = progressBar(terminal);
+    const settings = readCellSize(input, source.dimensions);
+    const results = compare(source, {
+      ...settings,
+      techniques,
+      passes,
+      progress: (done, total) => progress.show('frames', done, total),
+    });
+    progress.end();
+    results.sort((a, b) => a.ms.mean - b.ms.mean);
+    const wrong = results.filter(({ disagrees }) => disagrees !== null);
+    const code = wrong.length > 0 ? exitCode.different : exitCode.ok;
+    if (input.has('json')) {
+      const { dimensions, frames } = source;
+      terminal.out(
+        `${JSON.stringify({ dimensions, frames, passes, agree: wrong.length === 0, techniques: results })}\n`,
+      );
+      return code;
+    }
+    const fastest = results[0]?.ms.mean || 1;
+    const rows = results.map(({ technique, ms, tests, bytes: memory, ran }) => [
+      ran.length === 1 && ran[0] === technique ? technique : `${technique} (${ran.join(', ')})`,
+      ...[ms.mean, ms.median, ms.p95, ms.max].map(time),
+      `${(ms.mean / fastest).toFixed(2)}x`,
+      number(tests),
+      bytes(memory),
+    ]);
+    terminal.out(table(['technique', 'mean ms', 'median', '95 %', 'worst', 'to best', 'tests', 'memory'], rows));
+    for (const { technique, disagrees } of wrong) {
+      terminal.err(`${technique} finds other pairs than ${techniques[0]}, first in frame ${disagrees}\n`);
+    }
+    if (wrong.length === 0) terminal.out('\nall agree on the pairs of every frame\n');
+    return code;
+  },
+};

@@ -1,0 +1,91 @@
+// Files in and out: any kind of trace comes in, and out goes what the name asks for.
+import { readFile, writeFile } from 'node:fs/promises';
+import { gzipSync } from 'node:zlib';
+import {
+  exportRecording,
+  type Frame,
+  type FrameSource,
+  openAny,
+  Trace,
+  type TraceError,
+  TraceWriter,
+} from 'broadphase/trace';
+import { type Input, type Option, type Terminal, UsageError } from './arguments.ts';
+
+/** A file that cannot be read or written. */
+export class FileError extends Error {}
+
+/** The options by which each command that reads a trace lets choose what of it. */
+export const sourceOptions: Record<string, Option> = {
+  frames: { value: 'a..b', help: 'only these frames, both included, counted from 0' },
+  salvage: { help: 'take the whole frames of a trace that was cut off, instead of refusing it' },
+};
+
+/**
+ * Opens the trace or recording that the first operand names.
+ * @throws FileError, TraceError or UsageError
+ */
+export async function openSource(input: Input, terminal: Terminal): Promise<FrameSource> {
+  const [path] = input.operands;
+  const bytes = await readFile(path).catch((error: Error) => {
+    throw new FileError(`cannot read ${path}: ${error.message}`);
+  });
+  const source = await openAny(bytes, { salvage: input.has('salvage') });
+  const fault: TraceError | undefined = source instanceof Trace ? source.fault : undefined;
+  if (fault) terminal.err(`broadphase: ${source.frames} frames salvaged; ${fault.message}\n`);
+  const range = input.text('frames');
+  return range === undefined ? source : slice(source, range);
+}
+
+export async function write(path: string, data: Uint8Array | string): Promise<void> {
+  await writeFile(path, data).catch((error: Error) => {
+    throw new FileError(`cannot write ${path}: ${error.message}`);
+  });
+}
+
+/** Writes frames as the name says: `.bin` is the raw layout, all else a trace; with `.gz` after it, gzipped. */
+export async function writeFrames(path: string, source: FrameSource): Promise<number> {
+  const zipped = path.endsWith('.gz');
+  const plain = /\.bin(\.gz)?$/.test(path) ? exportRaw(source) : exportTrace(source);
+  const data = zipped ? gzipSync(plain, { level: 9 }) : plain;
+  await write(path, data);
+  return data.length;
+}
+
+function exportRaw(source: FrameSource): Uint8Array {
+  try {
+    return exportRecording(source);
+  } catch (error) {
+    if (error instanceof RangeError) throw new UsageError(error.message);
+    throw error;
+  }
+}
+
+function exportTrace(source: FrameSource): Uint8Array {
+  const writer = new TraceWriter(source.dimensions);
+  const pieces: Uint8Array[] = [writer.header()];
+  for (const { boxes, ids } of source) pieces.push(writer.frame(boxes, ids));
+  pieces.push(writer.end());
+  return Buffer.concat(pieces);
+}
+
+function slice(source: FrameSource, range: string): FrameSource {
+  const [, first, last] = /^(\d+)\.\.(\d+)$/.exec(range) ?? [];
+  const from = Number(first);
+  const to = Number(last);
+  if (!(from <= to && to < source.frames)) {
+    throw new UsageError(`--frames is ${range}, expected two from 0 to ${source.frames - 1}, such as 0..9`);
+  }
+  return {
+    dimensions: source.dimensions,
+    frames: to - from + 1,
+    *[Symbol.iterator](): Generator<Frame> {
+      for (const frame of source) {
+        if (frame.index > to) return;
+        if (frame.index < from) continue;
+        const changed = frame.index === from ? frame.count : frame.changed;
+        yield { ...frame, index: frame.index - from, changed };
+      }
+    },
+  };
+}

@@ -1,0 +1,44 @@
+// `broadphase generate`: a trace of a seeded scene.
+import type { Frame, FrameSource } from 'broadphase/trace';
+import { createScene, type SceneName, sceneNames } from '../scenes/index.ts';
+import { type Command, exitCode, UsageError } from './arguments.ts';
+import { writeFrames } from './files.ts';
+import { bytes } from './terminal.ts';
+
+export const generateCommand: Command = {
+  summary: 'a trace of a seeded scene',
+  operands: ['scene', 'file'],
+  options: {
+    count: { value: 'n', help: 'how many boxes (10000)' },
+    frames: { value: 'n', help: 'how many frames (60)' },
+    seed: { value: 'n', help: 'same seed, same scene (1)' },
+    speed: { value: 'n', help: 'the furthest a box moves in a frame; boxes are some 10 wide (2)' },
+  },
+  async run(input, terminal) {
+    const [name, path] = input.operands;
+    if (!sceneNames.includes(name as SceneName)) {
+      throw new UsageError(`no scene ${name}, expected one of ${sceneNames.join(', ')}`);
+    }
+    const count = input.number('count', 0, true) ?? 10_000;
+    const frames = input.number('frames', 0, true) ?? 60;
+    const seed = input.number('seed', 0, true) ?? 1;
+    const speed = input.number('speed', 0) ?? 2;
+    const dimensions = name.endsWith('3d') ? 3 : 2;
+    const source: FrameSource = {
+      dimensions,
+      frames,
+      *[Symbol.iterator](): Generator<Frame> {
+        const scene = createScene(name as SceneName, count, { seed, speed });
+        for (let index = 0; index < frames; index++) {
+          if (index > 0) scene.step();
+          yield { index, count, ids: undefined, boxes: scene.boxes, changed: count };
+        }
+      },
+    };
+    const size = await writeFrames(path, source);
+    if (input.has('json')) {
+      terminal.out(`${JSON.stringify({ path, scene: name, dimensions, count, frames, bytes: size })}\n`);
+    } else terminal.out(`${path}: ${frames} frames of ${count} boxes, ${bytes(size)}\n`);
+    return exitCode.ok;
+  },
+};

@@ -1,0 +1,75 @@
+// The `broadphase` command: finds the subcommand, runs it, and turns what goes wrong into a message and an exit code.
+import { TraceError } from 'broadphase/trace';
+import { type Command, exitCode, helpOf, parse, type Terminal, UsageError } from './arguments.ts';
+import { compareCommand } from './compare.ts';
+import { convertCommand } from './convert.ts';
+import { FileError } from './files.ts';
+import { generateCommand } from './generate.ts';
+import { infoCommand } from './info.ts';
+import { replayCommand } from './replay.ts';
+import { tuneCommand } from './tune.ts';
+
+const commands: Readonly<Record<string, Command>> = {
+  info: infoCommand,
+  replay: replayCommand,
+  compare: compareCommand,
+  tune: tuneCommand,
+  convert: convertCommand,
+  generate: generateCommand,
+};
+
+/** Runs a command line, given without the program's own name. Returns the exit code. */
+export async function main(argv: readonly string[], terminal: Terminal): Promise<number> {
+  const [name = '', ...rest] = argv;
+  try {
+    if (name === '--help' || name === 'help') {
+      terminal.out(overview());
+      return exitCode.ok;
+    }
+    const command = Object.hasOwn(commands, name) ? commands[name] : undefined;
+    if (!command) throw new UsageError(name ? `no command ${name}` : 'expected a command');
+    const input = parse(command, rest);
+    if (input.has('help')) {
+      terminal.out(helpOf(name, command));
+      return exitCode.ok;
+    }
+    return await command.run(input, terminal);
+  } catch (error) {
+    const code = codeOf(error);
+    const message = error instanceof Error ? error.message : String(error);
+    if (argv.includes('--json')) {
+      const place = error instanceof TraceError ? { frame: error.frame, offset: error.offset } : {};
+      terminal.out(`${JSON.stringify({ error: { code, message, ...place } })}\n`);
+    }
+    terminal.err(`broadphase: ${code === exitCode.fault && error instanceof Error ? error.stack : message}\n`);
+    if (code === exitCode.usage)
+      terminal.err(`Try: broadphase ${Object.hasOwn(commands, name) ? `${name} ` : ''}--help\n`);
+    return code;
+  }
+}
+
+function codeOf(error: unknown): number {
+  if (error instanceof UsageError) return exitCode.usage;
+  if (error instanceof TraceError) return exitCode.badTrace;
+  if (error instanceof FileError) return exitCode.files;
+  return exitCode.fault;
+}
+
+function overview(): string {
+  const lines = Object.entries(commands).map(([name, { summary, operands }]) => {
+    const call = [name, ...operands.map((operand) => `<${operand}>`)].join(' ');
+    return `  ${call.padEnd(26)}${summary}`;
+  });
+  return [
+    'broadphase <command> [options]',
+    '',
+    'Looks into, replays, compares and tunes on traces: recordings of the boxes of a game.',
+    '',
+    ...lines,
+    '',
+    'Each takes --help and --json. A <trace> is a file of broadphase/trace, or a raw recording; gzipped or not.',
+    '',
+    'Exit codes: 0 all well · 1 wrong pairs · 2 wrong command line · 3 broken trace · 4 file trouble · 70 a fault here',
+    '',
+  ].join('\n');
+}

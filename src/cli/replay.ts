@@ -1,0 +1,76 @@
+// `broadphase replay`: plays a trace with one technique, and checks the pairs of every frame if asked.
+import { BroadPhase, type TechniqueName } from 'broadphase';
+import { type ReplayedFrame, type ReplayOptions, replay } from 'broadphase/trace';
+import { summarize } from '../trace/statistics.ts';
+import { type Command, exitCode, type Input, type Option, UsageError } from './arguments.ts';
+import { openSource, sourceOptions } from './files.ts';
+import { bytes, number, progressBar, table, time } from './terminal.ts';
+
+export const techniqueHelp = BroadPhase.techniques.join(', ');
+
+export const cellSizeOption: Record<string, Option> = {
+  'cell-size': { value: 'size', help: 'the side of a cell, or one per axis with commas' },
+};
+
+/** `--cell-size` as an option of BroadPhase. */
+export function readCellSize(input: Input, dimensions: 2 | 3): Pick<ReplayOptions, 'cellSize'> {
+  const text = input.text('cell-size');
+  if (text === undefined) return {};
+  const sizes = text.split(',').map(Number);
+  if ((sizes.length !== 1 && sizes.length !== dimensions) || !sizes.every((size) => size > 0 && size < Infinity)) {
+    throw new UsageError(`--cell-size is ${text}, expected a number above 0, or ${dimensions} with commas`);
+  }
+  return { cellSize: sizes.length === 1 ? sizes[0] : sizes };
+}
+
+export const replayCommand: Command = {
+  summary: 'play it: time and counters of every frame',
+  operands: ['trace'],
+  options: {
+    technique: { value: 'name', help: `one of ${techniqueHelp} (auto)` },
+    ...cellSizeOption,
+    verify: { help: 'check the pairs of every frame against an exact sweep' },
+    ...sourceOptions,
+  },
+  async run(input, terminal) {
+    const names: TechniqueName[] = input.names('technique', BroadPhase.techniques) ?? ['auto'];
+    if (names.length !== 1) throw new UsageError('--technique: expected one name; `compare` takes several');
+    const [technique] = names;
+    const source = await openSource(input, terminal);
+    const progress = progressBar(terminal);
+    const frames: ReplayedFrame[] = [];
+    const settings = { technique, ...readCellSize(input, source.dimensions) };
+    for (const frame of replay(source, settings, input.has('verify'))) {
+      frames.push(frame);
+      progress.show('frames', frames.length, source.frames);
+    }
+    progress.end();
+    const wrong = frames.filter(({ difference }) => difference);
+    const ms = summarize(frames.map((frame) => frame.ms));
+    if (input.has('json')) {
+      const verified = input.has('verify') ? wrong.length === 0 : null;
+      terminal.out(`${JSON.stringify({ dimensions: source.dimensions, ...settings, verified, ms, frames })}\n`);
+      return wrong.length > 0 ? exitCode.different : exitCode.ok;
+    }
+    const head = ['frame', 'boxes', 'changed', 'ms', 'tests', 'candidates', 'pairs', 'cells', 'memory', 'technique'];
+    const rows = frames.map((frame) => [
+      String(frame.index),
+      ...[frame.boxes, frame.changed].map(number),
+      time(frame.ms),
+      ...[frame.tests, frame.candidates, frame.pairs, frame.cells].map(number),
+      bytes(frame.bytes),
+      frame.technique,
+    ]);
+    terminal.out(table(head, rows));
+    terminal.out(
+      `\nmean ${time(ms.mean)} ms, median ${time(ms.median)}, 95 % ${time(ms.p95)}, worst ${time(ms.max)}\n`,
+    );
+    for (const { index, difference } of wrong) {
+      const { missing, extra, pair } = difference!;
+      terminal.err(`frame ${index}: ${missing} pairs missing, ${extra} too many, first [${pair.join(', ')}]\n`);
+    }
+    if (input.has('verify') && wrong.length === 0)
+      terminal.out(`verified: the pairs of all ${frames.length} frames are exact\n`);
+    return wrong.length > 0 ? exitCode.different : exitCode.ok;
+  },
+};

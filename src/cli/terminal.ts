@@ -1,0 +1,73 @@
+// What the terminal shows: numbers, tables, histograms, and a progress bar where a person is watching.
+import type { Bin } from '../trace/statistics.ts';
+import type { Terminal } from './arguments.ts';
+
+/** Three or four digits, thousands apart. */
+export function number(value: number): string {
+  const size = Math.abs(value);
+  if (size >= 1e15 || (size > 0 && size < 1e-4)) return value.toExponential(2);
+  const digits = size >= 100 || Number.isInteger(value) ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 4;
+  return value.toLocaleString('en', { maximumFractionDigits: digits, minimumFractionDigits: size < 1 ? 0 : digits });
+}
+
+/** Milliseconds. */
+export const time = (ms: number): string => ms.toFixed(ms < 1 ? 4 : ms < 100 ? 3 : 1);
+
+export const percent = (share: number): string => `${(100 * share).toFixed(share > 0 && share < 0.01 ? 2 : 1)} %`;
+
+export function bytes(count: number): string {
+  const [unit, size] = count < 2 ** 20 ? ['kB', 1e3] : ['MB', 1e6];
+  return `${number(count / size)} ${unit}`;
+}
+
+/** Rows under a head: the first column to the left, the others to the right. */
+export function table(head: readonly string[], rows: readonly (readonly string[])[]): string {
+  const widths = head.map((title, k) => Math.max(title.length, ...rows.map((row) => row[k].length)));
+  const line = (cells: readonly string[]) =>
+    cells.map((cell, k) => (k === 0 ? cell.padEnd(widths[k]) : cell.padStart(widths[k]))).join('  ');
+  return [line(head), line(widths.map((width) => '─'.repeat(width))), ...rows.map(line)].join('\n') + '\n';
+}
+
+const eighths = ['', '▏', '▎', '▍', '▌', '▋', '▊', '▉'];
+
+/** A bar of whole and part blocks. */
+function bar(share: number, width: number): string {
+  const parts = Math.round(Math.min(1, share) * width * 8);
+  return '█'.repeat(parts >> 3) + eighths[parts & 7];
+}
+
+export function histogram(bins: readonly Bin[], columns: number): string {
+  const most = Math.max(1, ...bins.map(({ count }) => count));
+  const labels = bins.map(({ from, to }) => (to === 0 ? '0' : `${number(from)} … ${number(to)}`));
+  const left = Math.max(0, ...labels.map((label) => label.length));
+  const right = number(most).length;
+  const room = Math.max(10, Math.min(60, columns - left - right - 4));
+  return bins
+    .map(({ count }, k) => {
+      const drawn = bar(count / most, room) || (count > 0 ? eighths[1] : '');
+      return `  ${labels[k].padStart(left)}  ${number(count).padStart(right)} ${drawn}\n`;
+    })
+    .join('');
+}
+
+/** Draws at most so often. */
+const redrawEvery = 100;
+
+/** A line on `err` that shows how far the work is, and goes when it is done. Nothing where nobody watches. */
+export function progressBar(terminal: Terminal): {
+  show(what: string, done: number, total: number): void;
+  end(): void;
+} {
+  let drawn = -Infinity;
+  return {
+    show(what, done, total) {
+      if (!terminal.interactive || performance.now() - drawn < redrawEvery) return;
+      drawn = performance.now();
+      const share = total > 0 ? done / total : 0;
+      terminal.err(`\r\x1b[K${bar(share, 30).padEnd(30, '░')} ${percent(share)} ${what}`);
+    },
+    end() {
+      if (drawn > 0) terminal.err('\r\x1b[K');
+    },
+  };
+}

@@ -1,0 +1,49 @@
+// `broadphase tune`: the technique and cell size that suit a trace best, with a report of how they were found.
+import { BroadPhase } from 'broadphase';
+import { tune } from 'broadphase/trace';
+import { type Command, exitCode, UsageError } from './arguments.ts';
+import { openSource, sourceOptions, write } from './files.ts';
+import { techniqueHelp } from './replay.ts';
+import { nameOf, reportOf, verdictOf } from './report.ts';
+import { progressBar, table, time } from './terminal.ts';
+
+export const tuneCommand: Command = {
+  summary: 'find the options that suit it best, as code to paste',
+  operands: ['trace'],
+  options: {
+    techniques: { value: 'names', help: `some of ${techniqueHelp}, with commas (all)` },
+    seconds: { value: 'n', help: 'how long the finalists run against each other (8)' },
+    exhaustive: { help: 'try every technique with every cell size on all frames: slow' },
+    report: { value: 'file', help: 'write an HTML page with plots, which needs nothing else' },
+    ...sourceOptions,
+  },
+  async run(input, terminal) {
+    const techniques = input.names('techniques', BroadPhase.techniques) ?? BroadPhase.techniques;
+    const seconds = input.number('seconds', 0) ?? 8;
+    const source = await openSource(input, terminal);
+    if (source.frames === 0) throw new UsageError('the trace has no frames to tune on');
+    const progress = progressBar(terminal);
+    const tuned = tune(source, {
+      techniques,
+      seconds,
+      exhaustive: input.has('exhaustive'),
+      progress: (what, done, total) => progress.show(what, done, total),
+    });
+    progress.end();
+    const report = input.text('report');
+    if (report !== undefined) await write(report, reportOf(input.operands[0], source.dimensions, tuned));
+    if (input.has('json')) {
+      terminal.out(`${JSON.stringify(tuned)}\n`);
+      return exitCode.ok;
+    }
+    const rows = tuned.finalists.map(({ ms, ...candidate }) => [
+      nameOf(candidate),
+      ...[ms.mean, ms.p95, ms.max].map(time),
+      `${(ms.mean / tuned.best.ms.mean).toFixed(2)}x`,
+    ]);
+    terminal.out(table(['finalists', 'mean ms', '95 %', 'worst', 'to recommended'], rows));
+    terminal.out(`\n${verdictOf(tuned)}\n\n  ${tuned.code}\n`);
+    if (report !== undefined) terminal.out(`\nreport: ${report}\n`);
+    return exitCode.ok;
+  },
+};

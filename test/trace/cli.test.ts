@@ -1,0 +1,212 @@
+// The command, end to end in this process: what it prints, what it writes, and how it exits.
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { gunzipSync } from 'node:zlib';
+import { BroadPhase } from 'broadphase';
+import { openTrace, type Tuned } from 'broadphase/trace';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { main } from '../../src/cli/main.ts';
+import { sceneNames } from '../../src/scenes/index.ts';
+import { traceFile } from '../traces.ts';
+
+const folder = mkdtempSync(join(tmpdir(), 'broadphase-'));
+const file = (name: string) => join(folder, name);
+const small = file('small.trace');
+
+/** Runs a command line. */
+async function run(...argv: string[]) {
+  let out = '';
+  let err = '';
+  const code = await main(argv, {
+    out: (text) => {
+      out += text;
+    },
+    err: (text) => {
+      err += text;
+    },
+    interactive: false,
+    columns: 80,
+  });
+  return { code, out, err };
+}
+
+async function json(...argv: string[]) {
+  const { code, out, err } = await run(...argv, '--json');
+  return { code, err, result: JSON.parse(out) };
+}
+
+beforeAll(async () => {
+  expect(await run('generate', 'mixed2d', small, '--count', '400', '--frames', '6')).toMatchObject({
+    code: 0,
+    err: '',
+  });
+});
+
+afterAll(() => rmSync(folder, { recursive: true }));
+
+describe('help and wrong command lines', () => {
+  test.each([['--help'], ['help']])('%s lists the commands', async (argument) => {
+    const { code, out } = await run(argument);
+    expect(code).toBe(0);
+    for (const name of ['info', 'replay', 'compare', 'tune', 'convert', 'generate', 'Exit codes']) {
+      expect(out).toContain(name);
+    }
+  });
+
+  test('each command explains itself', async () => {
+    for (const name of ['info', 'replay', 'compare', 'tune', 'convert', 'generate']) {
+      const { code, out } = await run(name, '--help');
+      expect(code).toBe(0);
+      expect(out).toContain(`broadphase ${name}`);
+      expect(out).toContain('--json');
+    }
+  });
+
+  test.each([
+    [[], 'expected a command'],
+    [['toString'], 'no command toString'],
+    [['info'], 'expected <trace>'],
+    [['info', 'a', 'b'], 'got 2 arguments'],
+    [['info', small, '--colour'], '--colour'],
+    [['replay', small, '--technique', 'magic'], 'no magic, expected one of brute-force'],
+    [['replay', small, '--technique', 'auto,auto'], 'expected one name'],
+    [['replay', small, '--cell-size', '-1'], '--cell-size'],
+    [['replay', small, '--cell-size', '1,2,3'], '2 with commas'],
+    [['replay', small, '--frames', '3..9'], 'from 0 to 5'],
+    [['compare', small, '--passes', '0'], '--passes is 0'],
+    [['tune', small, '--seconds', 'long'], '--seconds is long'],
+    [['generate', 'mixed4d', file('x')], 'no scene mixed4d'],
+    [['generate', 'mixed2d', file('x'), '--count', '1.5'], 'an integer from 0'],
+  ])('%j is refused with code 2', async (argv, message) => {
+    const { code, err, out } = await run(...argv);
+    expect({ code, out }).toEqual({ code: 2, out: '' });
+    expect(err).toContain(message);
+    expect(err).toContain('--help');
+  });
+});
+
+describe('files that are none', () => {
+  test('one that is not there: code 4', async () => {
+    expect(await run('info', file('nowhere'))).toMatchObject({ code: 4, err: expect.stringContaining('cannot read') });
+    expect(await run('convert', small, file('no/where'))).toMatchObject({ code: 4 });
+  });
+
+  test('one that is cut off or corrupted: code 3 and the place; cut off it can be salvaged', async () => {
+    const bytes = readFileSync(small);
+    writeFileSync(file('cut'), bytes.subarray(0, -20));
+    const { code, result, err } = await json('info', file('cut'));
+    expect(code).toBe(3);
+    expect(result.error).toMatchObject({ code: 3, frame: 5, offset: expect.any(Number) });
+    expect(err).toContain('frame 5, byte');
+    const salvaged = await json('info', file('cut'), '--salvage');
+    expect(salvaged).toMatchObject({
+      code: 0,
+      result: { frames: 5 },
+      err: expect.stringContaining('5 frames salvaged'),
+    });
+    bytes[100] ^= 4;
+    writeFileSync(file('flipped'), bytes);
+    expect(await run('replay', file('flipped'))).toMatchObject({ code: 3, err: expect.stringContaining('checksum') });
+  });
+});
+
+test('info tells what is in a trace', async () => {
+  const { code, result } = await json('info', traceFile('tumbler'));
+  expect(code).toBe(0);
+  expect(result).toMatchObject({
+    dimensions: 2,
+    frames: 8,
+    ids: false,
+    doubles: false,
+    boxes: { min: 2029, max: 2029 },
+  });
+  expect(result.pairs.min).toBeGreaterThan(2029);
+  expect(result.histograms.side.reduce((sum: number, { count }: { count: number }) => sum + count, 0)).toBe(2029);
+  const { out } = await run('info', traceFile('tumbler'));
+  expect(out).toMatch(/boxes +2,029/);
+  expect(out).toContain('█');
+});
+
+test.each(BroadPhase.techniques)('replay verifies %s', async (technique) => {
+  for (const name of ['smash', 'rapier3d-gravity8k'] as const) {
+    const argv = ['replay', traceFile(name), '--technique', technique, '--frames', '0..1', '--verify'];
+    const { code, result } = await json(...argv, '--cell-size', '3');
+    expect(code).toBe(0);
+    expect(result).toMatchObject({ technique, cellSize: 3, verified: true, frames: [{ index: 0 }, { index: 1 }] });
+    expect(result.frames[1].pairs).toBeGreaterThan(1000);
+  }
+});
+
+test('replay prints a table, and says that all is exact', async () => {
+  const { code, out } = await run('replay', small, '--verify', '--cell-size', '4,8');
+  expect(code).toBe(0);
+  expect(out).toContain('verified: the pairs of all 6 frames are exact');
+});
+
+test('compare runs every technique, and all agree', async () => {
+  const { code, result } = await json('compare', small, '--passes', '1');
+  expect(code).toBe(0);
+  expect(result.agree).toBe(true);
+  const names = result.techniques.map(({ technique }: { technique: string }) => technique);
+  expect(names.sort()).toEqual([...BroadPhase.techniques].sort());
+  for (const { ms, tests, bytes } of result.techniques) {
+    expect(ms.p95).toBeGreaterThanOrEqual(ms.median);
+    expect(tests).toBeGreaterThan(0);
+    expect(bytes).toBeGreaterThan(0);
+  }
+  const { out } = await run('compare', small, '--techniques', 'auto,brute-force', '--passes', '1');
+  expect(out).toContain('all agree');
+  expect(out).not.toContain('spatial-grid  ');
+});
+
+test('tune recommends options, as code, and writes a report that asks for nothing', async () => {
+  const report = file('report.html');
+  const { code, result } = await json('tune', small, '--seconds', '0', '--report', report);
+  const { best, auto, code: paste, finalists, techniques, curves } = result as Tuned;
+  expect(code).toBe(0);
+  expect(best.ms.mean).toBeLessThanOrEqual(auto.ms.mean);
+  expect(finalists.map(({ ms }) => ms.mean)).toEqual(finalists.map(({ ms }) => ms.mean).sort((a, b) => a - b));
+  expect(techniques.map(({ technique }) => technique).sort()).toEqual([...BroadPhase.techniques].sort());
+  expect(curves.map(({ technique }) => technique)).toContain('spatial-grid');
+  expect(() => new Function('BroadPhase', paste)(BroadPhase)).not.toThrow();
+
+  const page = readFileSync(report, 'utf8');
+  expect(page).toContain(`default-src 'none'`);
+  expect(page).toContain('<svg');
+  expect(page).not.toMatch(/https?:|src=|href=|@import|url\(|<script|NaN|undefined/);
+  const { out } = await run('tune', small, '--seconds', '0', '--techniques', 'brute-force');
+  expect(out).toContain('new BroadPhase(');
+});
+
+test('convert goes from raw to trace and back without loss', async () => {
+  const trace = file('spinner.trace.gz');
+  const raw = file('spinner.bin');
+  expect((await json('convert', traceFile('spinner'), trace)).result).toMatchObject({ dimensions: 2 });
+  expect(openTrace(gunzipSync(readFileSync(trace))).frames).toBeGreaterThan(1);
+  expect((await run('convert', trace, raw)).code).toBe(0);
+  expect((await run('convert', raw, `${raw}.gz`)).code).toBe(0);
+  expect(Buffer.compare(gunzipSync(readFileSync(`${raw}.gz`)), readFileSync(raw))).toBe(0);
+  const first = new Float32Array(readFileSync(raw).buffer.slice(16, 32));
+  const [frame] = openTrace(gunzipSync(readFileSync(trace)));
+  expect([...frame.boxes.subarray(0, 4)]).toEqual([...first]);
+});
+
+test.each(sceneNames)('generate makes %s', async (name) => {
+  const path = file(name);
+  const { code, result } = await json('generate', name, path, '--count', '50', '--frames', '3', '--seed', '7');
+  expect({ code, result }).toMatchObject({ code: 0, result: { count: 50, frames: 3 } });
+  expect(openTrace(readFileSync(path))).toMatchObject({ frames: 3, dimensions: name.endsWith('3d') ? 3 : 2 });
+});
+
+test('a scene without boxes or frames can be looked at', async () => {
+  for (const [count, frames] of ['00', '03', '30']) {
+    const path = file(`empty-${count}-${frames}`);
+    expect((await run('generate', 'uniform3d', path, '--count', count, '--frames', frames)).code).toBe(0);
+    for (const command of ['info', 'replay', 'compare']) expect((await run(command, path)).code).toBe(0);
+  }
+  expect(await run('tune', file('empty-3-0'))).toMatchObject({ code: 2, err: expect.stringContaining('no frames') });
+  const argv = ['tune', file('empty-0-3'), '--seconds', '0', '--report', file('empty.html')];
+  expect((await run(...argv)).code).toBe(0);
+  expect(readFileSync(file('empty.html'), 'utf8')).not.toMatch(/NaN|undefined|Infinity/);
+});
