@@ -1,52 +1,30 @@
-// Groups that care about each other or not. Each question has a search of its own, among those alone whom it is about;
-// what nobody asks is not looked for.
-import { findPairs, findPairsBetween } from 'broadphase';
+// Groups that care about each other or not. Everyone is in one space; a filter says for each box what it is (its layer)
+// and whom it cares about (its mask). A pair is found where each one's layer is in the other's mask.
+import { findPairs } from 'broadphase';
 import type { ro as Ro } from 'broadphase/ro';
 import { createRandom } from '../../src/scenes/random.ts';
 import { turnRound } from './crowd.ts';
 
-export type Group = 'players' | 'powerUps' | 'enemies';
+/** One bit each. */
+export const LAYERS = { players: 1, powerUps: 2, enemies: 4 };
+export type Group = keyof typeof LAYERS;
 export type Question = readonly [one: Group, other: Group];
-
-/** Everyone of one group who overlaps someone of the other or, where both are the same, one of its own. */
-export function ask(members: Readonly<Record<Group, readonly Ro.Entity[]>>, [one, other]: Question) {
-  const red = members[one];
-  const blue = members[other];
-  const found = one === other ? findPairs(boxesOf(red)) : findPairsBetween(boxesOf(red), boxesOf(blue));
-  const pairs: [Ro.Entity, Ro.Entity][] = [];
-  for (let i = 0; i < found.length; i += 2) pairs.push([red[found[i]], blue[found[i + 1]]]);
-  return pairs;
-}
-
-/** The boxes of entities as the library takes them: minX, minY, maxX, maxY, one after the other. */
-function boxesOf(entities: readonly Ro.Entity[]): Float64Array {
-  return Float64Array.from(
-    entities.flatMap((entity) => {
-      const { min, max } = entity.getAABB();
-      return [...min, ...max];
-    }),
-  );
-}
 
 export function groups(
   ro: typeof Ro,
   canvas: HTMLCanvasElement | null,
-  coltech: Ro.coltech.Technique,
+  coltech: Ro.coltech.BroadPhase,
   colors = { box: '#9db4d3', accent: '#3f5bd9', now: '#c2410c', text: '#17181b' },
 ) {
   const members: Record<Group, Ro.Entity[]> = { players: [], powerUps: [], enemies: [] };
-  /** The questions that are asked. */
-  const questions = new Set<Question>();
-  let found: [Ro.Entity, Ro.Entity][] = [];
-  let pairCount = 0; // of everyone with everyone: what is found without groups
+  let pairCount = 0;
 
   const world = new ro.World(canvas, {
     coltech,
 
     handleCollisions(_dt, pairs) {
       pairCount = pairs.length;
-      found = [...questions].flatMap((question) => ask(members, question));
-      if (this.screen) mark(this.screen.ctx);
+      if (this.screen) mark(this.screen.ctx, pairs);
     },
 
     draw() {
@@ -61,7 +39,7 @@ export function groups(
   });
 
   /** A frame around everyone who was found, and a line from one to the other. */
-  function mark(ctx: CanvasRenderingContext2D) {
+  function mark(ctx: CanvasRenderingContext2D, found: Ro.coltech.Pair<Ro.Entity>[]) {
     ctx.strokeStyle = colors.text;
     ctx.lineWidth = 2;
     for (const [a, b] of found) {
@@ -89,12 +67,31 @@ export function groups(
     }
   }
 
+  /** From now on these questions are asked, and no others. */
+  function ask(questions: Iterable<Question>) {
+    const masks = { players: 0, powerUps: 0, enemies: 0 };
+    for (const [one, other] of questions) {
+      masks[one] |= LAYERS[other];
+      masks[other] |= LAYERS[one];
+    }
+    for (const group of ['players', 'powerUps', 'enemies'] as const) {
+      for (const entity of members[group]) coltech.space.setFilter(coltech.idOf(entity), LAYERS[group], masks[group]);
+    }
+  }
+
+  /** How many pairs there are without filters. */
+  function countAll() {
+    const boxes = world.entities.flatMap((entity) => {
+      const { min, max } = entity.getAABB();
+      return [...min, ...max];
+    });
+    return findPairs(boxes).length / 2;
+  }
+
   return {
     world,
-    questions,
-    get found() {
-      return found;
-    },
+    ask,
+    countAll,
     get pairCount() {
       return pairCount;
     },

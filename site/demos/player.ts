@@ -3,18 +3,18 @@
 import type { ro as Ro } from 'broadphase/ro';
 import { createRandom } from '../../src/scenes/random.ts';
 import { turnRound } from './crowd.ts';
-import { PairIndex } from './pair-index.ts';
 
 const REACH = 3.2; // of the player, in pixels per step
 
 export function player(
   ro: typeof Ro,
   canvas: HTMLCanvasElement | null,
-  coltech: Ro.coltech.Technique,
+  coltech: Ro.coltech.BroadPhase,
   colors = { box: '#9db4d3', hit: '#24456f', accent: '#3f5bd9', now: '#c2410c' },
 ) {
   const random = createRandom(3);
-  const powerUps = new Set<Ro.Entity>();
+  /** By their ids in the library's space. */
+  const powerUps = new Map<number, Ro.Entity>();
   let pairCount = 0;
   let touched = 0; // power-ups in this step
   let collected = 0; // in all
@@ -24,24 +24,23 @@ export function player(
     coltech,
 
     handleCollisions(_dt, pairs) {
-      const index = new PairIndex(pairs);
+      const { space } = coltech;
       pairCount = pairs.length;
 
       touched = 0;
-      for (const other of index.collisionsOf(hero)) {
-        if (!powerUps.has(other)) continue;
+      for (const id of space.collisionsOf(coltech.idOf(hero))) {
+        const powerUp = powerUps.get(id);
+        if (!powerUp) continue; // someone of the crowd, or the guard
         touched++;
         collected++;
-        scatter(other);
+        scatter(powerUp);
       }
-      caught = index.isColliding(guard, hero);
+      caught = space.isColliding(coltech.idOf(guard), coltech.idOf(hero));
     },
 
     draw(ctx) {
-      for (const entity of this.entities) {
-        if (powerUps.has(entity)) entity.draw(colors.now);
-        else if (entity !== hero && entity !== guard) entity.draw(colors.box);
-      }
+      for (const entity of crowd) entity.draw(colors.box);
+      for (const entity of powerUps.values()) entity.draw(colors.now);
       guard.draw(caught ? colors.now : colors.hit);
       hero.draw(colors.accent);
       ctx.strokeStyle = colors.accent;
@@ -60,9 +59,12 @@ export function player(
   const goal = { x: width / 2, y: height / 2 };
   const hero = add(18);
   const guard = add(30);
-  for (let i = 0; i < 24; i++) powerUps.add(add(8));
-  for (let i = 0; i < 60; i++) {
-    const { pos, ppos } = add(10 + 22 * random());
+  for (let i = 0; i < 24; i++) {
+    const powerUp = add(8);
+    powerUps.set(coltech.idOf(powerUp), powerUp);
+  }
+  const crowd = Array.from({ length: 60 }, () => add(10 + 22 * random()));
+  for (const { pos, ppos } of crowd) {
     ppos.x = pos.x + random() - 0.5;
     ppos.y = pos.y + random() - 0.5;
   }

@@ -305,7 +305,7 @@ test("each page's script is small, every figure included", () => {
     /** The scripts that the page names, those that they name, and so on. */
     const scripts = new Set<string>();
     const collect = (text: string) => {
-      for (const [name] of text.matchAll(/[\w-]+\.js\b/g)) {
+      for (const [, name] of text.matchAll(/[/"'`]([\w-]{1,80}\.js)\b/g)) {
         const file = new URL(`assets/${name}`, site);
         if (scripts.has(name) || !existsSync(file)) continue;
         scripts.add(name);

@@ -1,6 +1,5 @@
 // Fig. 16: two questions about the player, whatever else collides.
 import { ro } from 'broadphase/ro';
-import indexSource from '../../demos/pair-index.ts?raw';
 import { player } from '../../demos/player.ts';
 import source from '../../demos/player.ts?raw';
 import { demoColumns } from '../demo.ts';
@@ -31,6 +30,5 @@ export function mount(root: HTMLElement): () => void {
   });
 
   listing(right, 'site/demos/player.ts', excerpt(source, 'handleCollisions(_dt, pairs) {'));
-  listing(right, 'site/demos/pair-index.ts', excerpt(indexSource, 'export class PairIndex'));
   return stage.rest;
 }

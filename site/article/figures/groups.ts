@@ -1,4 +1,4 @@
-// Fig. 17: three groups, and the questions between them that are asked.
+// Fig. 17: three groups in one space, and the questions between them that are asked.
 import { ro } from 'broadphase/ro';
 import { groups, type Question } from '../../demos/groups.ts';
 import source from '../../demos/groups.ts?raw';
@@ -6,45 +6,46 @@ import { demoColumns } from '../demo.ts';
 import { element, excerpt, listing } from '../kit/index.ts';
 import { createStage } from '../stage.ts';
 
-const questions: readonly (readonly [Question, label: string, asked: boolean])[] = [
-  [['players', 'powerUps'], 'Players, power-ups', true],
-  [['players', 'enemies'], 'Players, enemies', true],
-  [['enemies', 'enemies'], 'Enemies, enemies', false],
-  [['powerUps', 'enemies'], 'Power-ups, enemies', false],
+const questions: readonly (readonly [Question, label: string])[] = [
+  [['players', 'powerUps'], 'Players, power-ups'],
+  [['players', 'enemies'], 'Players, enemies'],
+  [['enemies', 'enemies'], 'Enemies, enemies'],
+  [['powerUps', 'enemies'], 'Power-ups, enemies'],
 ];
 
 export function mount(root: HTMLElement): () => void {
   const [left, right] = demoColumns(root);
+  const coltech = new ro.coltech.BroadPhase();
+  const asked = new Set(questions.slice(0, 2).map(([question]) => question));
 
   const stage = createStage(left, {
     width: 480,
     height: 360,
-    build: (canvas, colors) => groups(ro, canvas, new ro.coltech.BroadPhase(), colors),
-    counters: { found: 'Pairs asked for', all: 'Pairs in all' },
-    count: ({ found, pairCount }) => ({ found: found.length, all: pairCount }),
-    inWords: ({ found, pairCount, questions }) =>
-      `Players in blue, power-ups in orange, enemies in grey. ${questions.size} questions are asked, and ` +
-      `${found.length} pairs found, marked by lines, of ${pairCount} that overlap.`,
+    build(canvas, colors) {
+      const demo = groups(ro, canvas, coltech, colors);
+      demo.ask(asked);
+      return demo;
+    },
+    counters: { found: 'Pairs found', all: 'Without filter' },
+    count: ({ countAll, pairCount }) => ({ found: pairCount, all: countAll() }),
+    inWords: ({ countAll, pairCount }) =>
+      `Players in blue, power-ups in orange, enemies in grey. ${asked.size} questions are asked, and ${pairCount} pairs ` +
+      `found, marked by lines, of ${countAll()} that overlap.`,
   });
   const choices = element('fieldset', { class: 'choice' }, element('legend', {}, 'Who cares about whom'));
-  for (const [question, label, asked] of questions) {
-    const input = element('input', { type: 'checkbox', checked: asked });
+  for (const [question, label] of questions) {
+    const input = element('input', { type: 'checkbox', checked: asked.has(question) });
     input.addEventListener('change', () => {
-      set(question, input.checked);
+      if (input.checked) asked.add(question);
+      else asked.delete(question);
+      stage.demo.ask(asked);
       stage.refresh();
     });
-    set(question, asked);
     choices.append(element('label', {}, input, element('span', {}, label)));
   }
   stage.controls.before(choices);
-  stage.refresh();
 
-  listing(right, 'site/demos/groups.ts', excerpt(source, 'export function ask'));
+  listing(right, 'site/demos/groups.ts', excerpt(source, 'function ask(questions'));
   listing(right, 'site/demos/groups.ts', excerpt(source, 'handleCollisions(_dt, pairs)'));
   return stage.rest;
-
-  function set(question: Question, asked: boolean): void {
-    if (asked) stage.demo.questions.add(question);
-    else stage.demo.questions.delete(question);
-  }
 }
