@@ -1,9 +1,11 @@
 // `broadphase generate`: a trace of a seeded scene.
 import type { Frame, FrameSource } from 'broadphase/trace';
-import { createScene, type SceneName, sceneNames } from '../scenes/index.ts';
+import { createScene, gameNames, type SceneName, sceneNames } from '../scenes/index.ts';
 import { type Command, exitCode, UsageError } from './arguments.ts';
 import { writeFrames } from './files.ts';
 import { bytes } from './terminal.ts';
+
+const names: readonly SceneName[] = [...sceneNames, ...gameNames];
 
 export const generateCommand: Command = {
   summary: 'a trace of a seeded scene',
@@ -16,8 +18,8 @@ export const generateCommand: Command = {
   },
   async run(input, terminal) {
     const [name, path] = input.operands;
-    if (!sceneNames.includes(name as SceneName)) {
-      throw new UsageError(`no scene ${name}, expected one of ${sceneNames.join(', ')}`);
+    if (!names.includes(name as SceneName)) {
+      throw new UsageError(`no scene ${name}, expected one of ${names.join(', ')}`);
     }
     const count = input.number('count', 0, true) ?? 10_000;
     const frames = input.number('frames', 0, true) ?? 60;
