@@ -66,8 +66,5 @@ inline u8x16 swizzle(u8x16 v, u8x16 index) {
 }
 #endif
 
-/// Floats, already clamped to what an int holds, to ints.
-inline i32x4 truncate(f32x4 v) { return __builtin_convertvector(v, i32x4); }
-
 template <class T> inline T smaller(T a, T b) { return b < a ? b : a; }
 template <class T> inline T larger(T a, T b) { return a < b ? b : a; }

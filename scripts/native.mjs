@@ -17,6 +17,7 @@ export const flags = [
   '-ffp-contract=off',
   '-fno-omit-frame-pointer',
   '-fno-sanitize-recover=all',
+  `-DCORPUS="${join(root, 'kernel/test/corpus')}"`,
   `-I${join(root, 'kernel')}`,
   '-Wall',
   '-Wextra',
@@ -47,10 +48,10 @@ export function run(program, options, { show = false, env = {} } = {}) {
 }
 
 /**
- * The first compiler of that name that makes `program` into something that runs. Else `reasons` says why each that
+ * The first compiler of these names that makes `program` into something that runs when `given` these arguments. Else `reasons` says why each that
  * was found does not do: it is empty where there is none at all.
  */
-export async function findCompiler(names, options, program, folder) {
+export async function findCompiler(names, options, program, folder, given = []) {
   mkdirSync(folder, { recursive: true });
   const source = join(folder, 'probe.cpp');
   const made = join(folder, 'probe');
@@ -59,7 +60,7 @@ export async function findCompiler(names, options, program, folder) {
   for (const name of names) {
     const compiled = await run(name, [...flags, ...options, source, '-o', made]);
     if (!compiled.found) continue;
-    const ran = compiled.ok ? await run(made, []) : compiled;
+    const ran = compiled.ok ? await run(made, given) : compiled;
     if (ran.ok) return { compiler: name, reasons };
     reasons.push(`${name}: ${ran.output.trim().split('\n').slice(0, 4).join('\n  ') || 'what it makes does not run'}`);
   }

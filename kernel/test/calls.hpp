@@ -28,6 +28,14 @@ class Bytes {
   }
 };
 
+/// The first byte of a sequence: how many dimensions, and the technique to begin with.
+struct Beginning {
+  int dimensions;
+  Technique technique;
+
+  explicit Beginning(u8 byte) : dimensions(2 + byte % 2), technique(Technique(byte / 2 % technique_count)) {}
+};
+
 template <int D> class Calls {
   static constexpr u32 width = 2 * D;
   static constexpr u32 most_boxes = 700;  // the model tests all against all
@@ -42,16 +50,14 @@ template <int D> class Calls {
  public:
   Calls(Bytes& bytes, Technique first)
       : bytes_(bytes), instance_(open<D>(first)), ids_(instance_->ids), space_(instance_->space) {
+    // Not the extremes, which take the grid a while and have a test of their own.
     u8 with = bytes_.next();
     for (u32 a = 0; a < D; a++) {
-      // Seldom, and seldom far too small: a grid of 2^24 cells takes a while.
-      f64 size = std::exp2(with < 8 ? f64(bytes_.below(80)) - 40 : bytes_.below(10));
-      if (with % 8 == 1) instance_->settings.cell_size[a] = size;
-      if (with % 4 == 2) {
-        f64 low = number(), size = std::exp2(f64(bytes_.below(60)) - 20);
-        if (!std::isfinite(low) || low + size == low) low = 0;
+      if (with % 16 == 1) instance_->settings.cell_size[a] = std::exp2(f64(bytes_.below(12)));
+      if (with % 16 == 2) {
+        f64 low = f64(bytes_.next()) - 128;
         instance_->settings.bounds[a] = low;
-        instance_->settings.bounds[D + a] = low + size;
+        instance_->settings.bounds[D + a] = low + std::exp2(f64(bytes_.below(12)));
       }
     }
   }

@@ -1,6 +1,7 @@
 // Spaces with every technique, in one dimension: their pairs are the model's, on scenes and over sequences of calls.
 #pragma once
 #include "calls.hpp"
+#include "corpus.hpp"
 
 /// Calls `what(technique)` for every technique; messages name it by its number.
 template <class What> void each_technique(What what) {
@@ -100,6 +101,17 @@ template <int D> void check_calls() {
     for (auto& byte : data) byte = u8(random.bits64());
     Bytes bytes(data.data(), data.size());
     Calls<D>(bytes, Technique(round % technique_count)).run();
+  }
+}
+
+/// The sequences that the fuzzer found worth keeping, and those that once failed.
+template <int D> void check_corpus() {
+  CHECK(!corpus().empty());
+  for (size_t k = 0; k < corpus().size(); k++) {
+    testing::Where where("sequence " + std::to_string(k));
+    Bytes bytes(corpus()[k].data(), corpus()[k].size());
+    Beginning beginning(bytes.next());
+    if (beginning.dimensions == D) Calls<D>(bytes, beginning.technique).run();
   }
 }
 
@@ -263,6 +275,7 @@ template <int D> void list_space_tests() {
       {"spaces find the pairs of scenes that need deep cuts", D, check_deep_cuts<D>},
       {"spaces go from any scene and technique to any other", D, check_switches<D>},
       {"spaces follow random calls", D, check_calls<D>},
+      {"spaces follow the fuzzer's calls", D, check_corpus<D>},
       {"spaces keep the numbers they were given", D, check_rounding<D>},
       {"spaces name bad boxes written in place", D, check_exposed<D>},
       {"spaces refuse bad boxes and stay as they were", D, check_bad_boxes<D>},

@@ -1,0 +1,7 @@
+// The fuzzer's corpus: sequences of calls that together reach all of the kernel that it has reached.
+#pragma once
+#include <vector>
+
+#include "simd.hpp"
+
+const std::vector<std::vector<u8>>& corpus();
