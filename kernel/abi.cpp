@@ -131,6 +131,46 @@ EXPORT(partners)(u32 id) -> u32 {
 EXPORT(answers_address)() -> u32* {
   return with_space([](auto& space) { return space.answers.data(); });
 }
+/// Questions. What they ask is in io: the box or twice the point, what it moves by, then at fixed places the radius
+/// (negative: none), the limit, the length of the way, and the rank of the hit to go on behind, whose id is `after`.
+enum : u32 { radius_at = 12, limit_at = 13, length_at = 14, after_at = 15, no_id = 0xffffffff };
+
+template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignored) {
+  for (int a = 0; a < D; a++) {
+    to.lo[a] = io[a];
+    to.hi[a] = io[D + a];
+    to.along[a] = io[2 * D + a];
+  }
+  to.radius = io[radius_at];
+  to.limit = io[limit_at];
+  to.length = io[length_at];
+  to.mask = mask;
+  to.ignored = ignored;
+}
+
+/// The number of ids in answers. Where there may be more, io says from where to go on; else -1.
+EXPORT(ask_area)(u32 mask, u32 ignored, u32 from, u32 most) -> u32 {
+  return with_space([&](auto& space) {
+    read_question(space.question, mask, ignored);
+    u32 count = space.ask_area(from, most);
+    io[0] = count < most ? -1 : f64(from);
+    return count;
+  });
+}
+/// The number of hits.
+EXPORT(ask_order)(u32 moving, u32 mask, u32 ignored, u32 after, u32 most) -> u32 {
+  return with_space([&](auto& space) {
+    read_question(space.question, mask, ignored);
+    Hit last{io[after_at], after, 0};
+    return space.ask_order(moving != 0, most, after == no_id ? nullptr : &last);
+  });
+}
+EXPORT(hits_address)() -> const Hit* {
+  return with_space([](auto& space) { return space.hits.data(); });
+}
+EXPORT(updates)() -> u32 {
+  return with_space([](auto& space) { return space.updates; });
+}
 EXPORT(stats_address)() -> Stats* {
   return with_space([](auto& space) { return &space.stats; });
 }

@@ -8,6 +8,8 @@
 #include "events.hpp"
 #include "filters.hpp"
 #include "neighbours.hpp"
+#include "queries.hpp"
+#include "rounding.hpp"
 #include "techniques.hpp"
 
 template <int D> class Space {
@@ -33,12 +35,17 @@ template <int D> class Space {
   PairTable table_;
   Neighbours neighbours_;
   bool neighbours_made_ = false;
+  Index<D> index_;
+  bool asked_ = false;  // from the first question on, the index keeps what each update saw
 
  public:
   Pairs pairs;
   Events events;  // while `keeps_events`
   bool keeps_events = false;
+  u32 updates = 0;
+  Question<D> question;
   Buffer<u32> answers;  // ids, of the last question
+  Hits hits;            // where the question asks for an order
   Stats stats;
   Buffer<f32> cells;  // what structure() has written
   u32 cell_count = 0;
@@ -207,6 +214,8 @@ template <int D> class Space {
     if (!ids_.same()) name_pairs();
     if (keeps_events) events.follow(pairs, table_);
     table_.made = neighbours_made_ = false;
+    updates++;
+    if (asked_) see();
     stats.pairs = f64(pairs.count);
     // Growing later would cut the views of the pairs off: what the ids take at the first gap is taken now.
     heap::reach(u64(ids_.count()) * 2 * sizeof(u32) + (1 << 16));
@@ -227,6 +236,22 @@ template <int D> class Space {
     if (!neighbours_made_) neighbours_.build(pairs);
     neighbours_made_ = true;
     return neighbours_.of(id, answers);
+  }
+
+  /// Answers the question with the boxes that touch its box or circle: see Queries::area.
+  COLD u32 ask_area(u32& from, u32 most) {
+    return can_answer() ? Queries<D>(index_, question).area(from, most, answers) : 0;
+  }
+
+  /// Answers it with what the moving box meets first, or with what is nearest, at most so many and behind `after`:
+  /// the answers are in `hits`, in order. Returns how many.
+  COLD u32 ask_order(bool moving, u32 most, const Hit* after) {
+    if (!can_answer()) return 0;
+    hits.begin(most, question.limit, after);
+    Queries<D> queries(index_, question);
+    if (moving) queries.cast(hits);
+    else queries.near(hits);
+    return hits.finish();
   }
 
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
@@ -259,6 +284,9 @@ template <int D> class Space {
     pairs.list.release();
     pairs.count = events.began.count = events.ended.count = 0;
     table_.made = neighbours_made_ = false;
+    index_.release();
+    answers.release();
+    hits.release();
     stats = Stats{};
     stats.bytes = f64(heap::used);
   }
@@ -301,22 +329,23 @@ template <int D> class Space {
   }
 
  private:
-  static f32 next_toward(f32 x, bool up) {
-    i32 b = bits<i32>(x == 0 ? (up ? 0.0f : -0.0f) : x);
-    return bits<f32>((b >= 0) == up ? b + 1 : b - 1);
-  }
-  static f32 round_down(f64 x) {
-    f32 near = f32(x);
-    return f64(near) > x ? next_toward(near, false) : near;
-  }
-  static f32 round_up(f64 x) {
-    f32 near = f32(x);
-    return f64(near) < x ? next_toward(near, true) : near;
-  }
-
   f64 number(u32 slot, u32 k) const {
     u64 at = u64(slot) * width + k;
     return rounding_ ? exact_[at] : f64(boxes_[at]);
+  }
+
+  /// The index takes over what stands in the space.
+  COLD void see() {
+    index_.see(boxes_.data(), rounding_ ? exact_.data() : nullptr, ids_, filters_.active() ? filters_.rules() : nullptr);
+  }
+
+  /// Whether there is anything to ask about; if so, the index is made.
+  COLD bool can_answer() {
+    if (!asked_ && updates > 0) see();
+    asked_ = true;
+    if (index_.count() == 0) return false;
+    index_.build();
+    return true;
   }
 
   /// Room for `count` boxes in every array that has one entry a box.

@@ -4,10 +4,15 @@
 /** Ids are integers from 0 to this. */
 export const maxId = 2 ** 24 - 1;
 
-const corners = {
+/** The numbers of a box. */
+export const corners = {
   2: ['minX', 'minY', 'maxX', 'maxY'],
   3: ['minX', 'minY', 'minZ', 'maxX', 'maxY', 'maxZ'],
 } as const;
+
+/** The numbers of a moving box. */
+export const sweep2 = [...corners[2], 'dx', 'dy'];
+export const sweep3 = [...corners[3], 'dx', 'dy', 'dz'];
 
 /** A value as a person would write it. */
 export function show(value: unknown): string {
@@ -73,4 +78,27 @@ export function checkBits(where: string, bits: unknown): void {
 /** Where answers are written to. */
 export function checkOut(where: string, out: unknown): void {
   if (!Array.isArray(out)) badValue(`${where}: out`, out, 'an array', true);
+}
+
+/** A question whose numbers are not what they should be: `names` says which, `expected` what, in front. */
+export function badQuestion(
+  where: string,
+  given: readonly unknown[],
+  names: readonly string[],
+  expected: 'a number' | 'a finite number',
+): never {
+  for (const [k, name] of names.entries()) {
+    const value = given[k];
+    const unbounded = expected === 'a number' && /^m(in|ax)[XYZ]$/.test(name);
+    if (typeof value !== 'number') badValue(`${where}: ${name}`, value, 'a number', true);
+    if (Number.isNaN(value)) badValue(`${where}: ${name}`, value, expected);
+    if (!unbounded && !Number.isFinite(value)) badValue(`${where}: ${name}`, value, 'a finite number');
+  }
+  for (const [k, name] of names.entries()) {
+    const above = names.indexOf(name.replace('min', 'max'));
+    const low = given[k] as number;
+    const high = given[above] as number;
+    if (low > high) badValue(`${where}: ${name}`, low, `no more than ${names[above]}, which is ${high}`);
+  }
+  throw new TypeError(`${where}: got too many arguments, expected ${names.join(', ')}, and options if any`);
 }

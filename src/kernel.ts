@@ -40,6 +40,10 @@ export interface KernelExports {
   is_pair(a: number, b: number): number;
   partners(id: number): number;
   answers_address(): number;
+  ask_area(mask: number, ignored: number, from: number, most: number): number;
+  ask_order(moving: number, mask: number, ignored: number, after: number, most: number): number;
+  hits_address(): number;
+  updates(): number;
   stats_address(): number;
   structure(): number;
   structure_count(): number;

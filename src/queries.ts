@@ -1,11 +1,76 @@
-// What a space can be asked between two updates.
-// Everything is answered as of the last update; what the questions need is made at the first after it.
-import { badId, checkOut, maxId } from './errors.ts';
+// What a space can be asked between two updates: who collides with whom, what is there, what is ahead, what is near.
+// Everything is answered as of the last update; what the questions need is made at the first after it. The kernel
+// answers (kernel/queries.hpp); this file checks the questions, and copies the answers to where they are wanted. A
+// visitor gets them in parts, so that the search ends where it says so, and may ask questions itself.
+import { badId, badQuestion, badValue, checkOut, corners, maxId, sweep2, sweep3 } from './errors.ts';
+import {
+  checkDistance,
+  checkOptions,
+  checkVisitor,
+  everything,
+  type IdsOptions,
+  ignoredOf,
+  maskOf,
+  type NearestOptions,
+  nobody,
+  type QueryOptions,
+  type RayAllOptions,
+  type RayHit,
+  type RayOptions,
+  type SweepHit,
+  type SweepOptions,
+} from './query-options.ts';
 import { Space } from './space.ts';
 
-/** A space that answers. Users meet it as BroadPhase. */
+// Places in the kernel's array of numbers: see kernel/abi.cpp.
+const radiusAt = 12;
+const limitAt = 13;
+const lengthAt = 14;
+const afterAt = 15;
+
+/** How many answers a visitor's search goes ahead. */
+const part = 64;
+
+/** What is remembered of a question while its visitor is called, which may ask other questions. */
+class Visit {
+  readonly question = new Float64Array(16);
+  readonly ids = new Uint32Array(part);
+  readonly ranks = new Float64Array(part);
+}
+
+/** The answer where a visitor got it. */
+const none: readonly unknown[] = Object.freeze([]);
+
+const number = 'a number';
+const finite = 'a finite number';
+const point2 = ['x', 'y'];
+const point3 = ['x', 'y', 'z'];
+const ray2 = [...point2, 'directionX', 'directionY'];
+const ray3 = [...point3, 'directionX', 'directionY', 'directionZ'];
+
+/** A finite number. */
+const isPlace = Number.isFinite as (value: unknown) => value is number;
+const isNumber = (value: unknown): value is number => typeof value === 'number';
+
+/**
+ * A space that answers. Users meet it as BroadPhase.
+ *
+ * All questions are answered by what the last update saw: boxes that were set, moved or deleted since then make no
+ * difference until the next, and before the first update there is nothing. (A space that is never asked keeps no copy
+ * of its boxes; so the very first question, if boxes changed after the update before it, sees them as they are now.)
+ * Boxes are closed: what touches counts. All is decided in double precision. The options are read at each call; to
+ * make no garbage, keep and reuse them with an `out` in them, whose answers stay about as many.
+ *
+ * All questions throw RangeError for NaN, a minimum above its maximum, infinite points, ways and directions, negative
+ * distances, and masks and ids out of range; TypeError for other than numbers and for a wrong number of them.
+ */
 export abstract class Queries extends Space {
   #words = new Uint32Array();
+  #doubles = new Float64Array();
+  readonly #visits: Visit[] = [];
+  /** Left over where an answer was shorter than the one before: for a longer one. */
+  readonly #spare: RayHit[] = [];
+  #visiting = 0;
 
   /**
    * Whether boxes `a` and `b` are a pair of the last update: constant time after the first question.
@@ -38,23 +103,467 @@ export abstract class Queries extends Space {
     }
   }
 
+  /**
+   * The ids of the boxes that overlap or touch a box, which may be infinite: in no particular order, but the same one
+   * for the same boxes.
+   *
+   * @example
+   * space.queryBox(0, 0, 10, 10); // [7, 9]
+   * space.queryBox(0, 0, 10, 10, { mask: enemies, visit: (id) => damage(id) });
+   */
+  queryBox(minX: number, minY: number, maxX: number, maxY: number, options?: IdsOptions): number[];
+  queryBox(
+    minX: number,
+    minY: number,
+    minZ: number,
+    maxX: number,
+    maxY: number,
+    maxZ: number,
+    options?: IdsOptions,
+  ): number[];
+  queryBox(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: IdsOptions): number[] {
+    const io = this.io();
+    if (this.width === 4) {
+      if (!(a <= c && b <= d && isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d)) || f !== undefined) {
+        badQuestion('queryBox', [a, b, c, d, e, f, options], corners[2], number);
+      }
+      options = e as IdsOptions | undefined;
+    } else {
+      const good = a <= d && b <= (e as number) && c <= (f as number) && isNumber(a) && isNumber(b) && isNumber(c);
+      if (!(good && isNumber(d) && isNumber(e) && isNumber(f))) {
+        badQuestion('queryBox', [a, b, c, d, e, f], corners[3], number);
+      }
+      io[4] = e;
+      io[5] = f;
+    }
+    io[0] = a;
+    io[1] = b;
+    io[2] = c;
+    io[3] = d;
+    io[radiusAt] = -1;
+    return this.#area('queryBox', options);
+  }
+
+  /** The ids of the boxes that hold a point or touch it: as {@link Queries.queryBox}. */
+  queryPoint(x: number, y: number, options?: IdsOptions): number[];
+  queryPoint(x: number, y: number, z: number, options?: IdsOptions): number[];
+  queryPoint(x: number, y: number, z?: unknown, options?: IdsOptions): number[] {
+    options = this.#point('queryPoint', x, y, z, options);
+    this.io()[radiusAt] = -1;
+    return this.#area('queryPoint', options);
+  }
+
+  /**
+   * 2D: the ids of the boxes that a circle overlaps or touches: as {@link Queries.queryBox}.
+   * @param radius at least 0
+   */
+  queryCircle(x: number, y: number, radius: number, options?: IdsOptions): number[] {
+    if (this.width !== 4) wrongShape('queryCircle', this.dimensions, 'querySphere');
+    this.#point('queryCircle', x, y);
+    this.io()[radiusAt] = checkDistance('queryCircle: radius', radius);
+    return this.#area('queryCircle', options);
+  }
+
+  /**
+   * 3D: the ids of the boxes that a sphere overlaps or touches: as {@link Queries.queryBox}.
+   * @param radius at least 0
+   */
+  querySphere(x: number, y: number, z: number, radius: number, options?: IdsOptions): number[] {
+    if (this.width !== 6) wrongShape('querySphere', this.dimensions, 'queryCircle');
+    this.#point('querySphere', x, y, z);
+    this.io()[radiusAt] = checkDistance('querySphere: radius', radius);
+    return this.#area('querySphere', options);
+  }
+
+  /**
+   * The first box that a ray meets, or `undefined`: of several at the same distance the one of the smallest id.
+   * The direction may have any length; where it has none the ray is a point.
+   *
+   * @example
+   * const hit = space.rayCast(0, 0, 1, 0, { maxDistance: 100, ignore: me });
+   * if (hit) console.log(hit.id, hit.distance, hit.normal);
+   */
+  rayCast(x: number, y: number, directionX: number, directionY: number, options?: RayOptions): RayHit | undefined;
+  rayCast(
+    x: number,
+    y: number,
+    z: number,
+    directionX: number,
+    directionY: number,
+    directionZ: number,
+    options?: RayOptions,
+  ): RayHit | undefined;
+  rayCast(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayOptions) {
+    options = this.#ray('rayCast', a, b, c, d, e, f, options);
+    if (this.#order('rayCast', true, options, 1) === 0) return undefined;
+    const hit: RayHit = options?.out ?? { id: 0, distance: 0, normal: [] };
+    hit.distance = this.#doubleView()[this.#readHit(0, hit)]!;
+    return hit;
+  }
+
+  /** All boxes that a ray meets, by distance and then by id: as {@link Queries.rayCast}. */
+  rayCastAll(x: number, y: number, directionX: number, directionY: number, options?: RayAllOptions): RayHit[];
+  rayCastAll(
+    x: number,
+    y: number,
+    z: number,
+    directionX: number,
+    directionY: number,
+    directionZ: number,
+    options?: RayAllOptions,
+  ): RayHit[];
+  rayCastAll(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayAllOptions): RayHit[] {
+    options = this.#ray('rayCastAll', a, b, c, d, e, f, options);
+    if (options?.visit !== undefined) {
+      this.#visitOrder('rayCastAll', true, options, everything, options.visit);
+      return none as RayHit[];
+    }
+    const out = options?.out ?? [];
+    checkOut('rayCastAll', out);
+    const count = this.#order('rayCastAll', true, options, everything);
+    for (let k = 0; k < count; k++) {
+      const hit = out[k] ?? this.#spare.pop() ?? { id: 0, distance: 0, normal: [] };
+      hit.distance = this.#doubleView()[this.#readHit(k, hit)]!;
+      out[k] = hit;
+    }
+    while (out.length > count) this.#spare.push(out.pop()!);
+    return out;
+  }
+
+  /**
+   * The first box that a moving box meets, or `undefined`: the swept test for what is too fast to be looked at from
+   * frame to frame. Of several met at the same time the one of the smallest id. A box that is in the space meets
+   * itself: name it in `ignore`.
+   *
+   * @param dx how far it moves along the first axis, and so on
+   *
+   * @example
+   * const hit = space.sweep(0, 0, 1, 1, 40, 0, { ignore: bullet });
+   * if (hit) bullet.x += 40 * hit.time;
+   */
+  sweep(
+    minX: number,
+    minY: number,
+    maxX: number,
+    maxY: number,
+    dx: number,
+    dy: number,
+    options?: SweepOptions,
+  ): SweepHit | undefined;
+  sweep(
+    minX: number,
+    minY: number,
+    minZ: number,
+    maxX: number,
+    maxY: number,
+    maxZ: number,
+    dx: number,
+    dy: number,
+    dz: number,
+    options?: SweepOptions,
+  ): SweepHit | undefined;
+  sweep(
+    a: number,
+    b: number,
+    c: number,
+    d: number,
+    e: number,
+    f: number,
+    g?: unknown,
+    h?: unknown,
+    i?: unknown,
+    options?: SweepOptions,
+  ) {
+    const io = this.io();
+    if (this.width === 4) {
+      const good = a <= c && b <= d && isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d);
+      if (!(good && isPlace(e) && isPlace(f)) || h !== undefined) {
+        badQuestion('sweep', [a, b, c, d, e, f, g, h, i, options], sweep2, number);
+      }
+      options = g as SweepOptions | undefined;
+    } else {
+      const good = a <= d && b <= e && c <= f && isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d);
+      if (!(good && isNumber(e) && isNumber(f) && isPlace(g) && isPlace(h) && isPlace(i))) {
+        badQuestion('sweep', [a, b, c, d, e, f, g, h, i], sweep3, number);
+      }
+      io[6] = g;
+      io[7] = h;
+      io[8] = i;
+    }
+    io[0] = a;
+    io[1] = b;
+    io[2] = c;
+    io[3] = d;
+    io[4] = e;
+    io[5] = f;
+    io[limitAt] = 1;
+    io[lengthAt] = 1;
+    if (options?.visit !== undefined) {
+      this.#visitOrder('sweep', true, options, everything, options.visit);
+      return undefined;
+    }
+    if (this.#order('sweep', true, options, 1) === 0) return undefined;
+    const hit: SweepHit = options?.out ?? { id: 0, time: 0, normal: [] };
+    hit.time = this.#doubleView()[this.#readHit(0, hit)]!;
+    return hit;
+  }
+
+  /**
+   * The ids of the `k` boxes nearest to a point, by the distance to the box, which is 0 inside, and then by id.
+   * @param k how many: an integer from 1 on
+   */
+  nearest(x: number, y: number, k: number, options?: NearestOptions): number[];
+  nearest(x: number, y: number, z: number, k: number, options?: NearestOptions): number[];
+  nearest(x: number, y: number, z: number, k?: unknown, options?: NearestOptions): number[] {
+    const flat = this.width === 4;
+    const most = flat ? z : k;
+    if (flat) {
+      if (options !== undefined) badQuestion('nearest', [x, y, z, k, options], [...point2, 'k'], number);
+      options = k as NearestOptions | undefined;
+      this.#point('nearest', x, y);
+    } else {
+      this.#point('nearest', x, y, z);
+    }
+    if (typeof most !== 'number') badValue('nearest: k', most, 'an integer from 1 on', true);
+    if (!(Number.isInteger(most) && most >= 1)) badValue('nearest: k', most, 'an integer from 1 on');
+    const wanted = Math.min(most, everything);
+    checkOptions('nearest', options);
+    const { maxDistance = Number.POSITIVE_INFINITY } = options ?? {};
+    checkDistance('nearest: maxDistance', maxDistance);
+    this.io()[limitAt] = maxDistance * maxDistance;
+    if (options?.visit !== undefined) {
+      this.#visitOrder('nearest', false, options, wanted, options.visit);
+      return none as number[];
+    }
+    const out = options?.out ?? [];
+    checkOut('nearest', out);
+    const count = this.#order('nearest', false, options, wanted);
+    const words = this.#wordView();
+    const first = this.kernel.hits_address() >>> 2;
+    for (let n = 0; n < count; n++) out[n] = words[first + 4 * n + 2]!;
+    out.length = count;
+    return out;
+  }
+
   override dispose(): void {
     super.dispose();
     this.#words = new Uint32Array();
+    this.#doubles = new Float64Array();
+  }
+
+  /** Puts a point, as a box without size, where the kernel reads it; returns the options behind its numbers. */
+  #point(where: string, x: number, y: number, z?: unknown, options?: unknown): IdsOptions | undefined {
+    const io = this.io();
+    const good = isPlace(x) && isPlace(y);
+    if (this.width === 4) {
+      if (!good || options !== undefined) badQuestion(where, [x, y, z, options], point2, finite);
+      io[2] = x;
+      io[3] = y;
+      options = z;
+    } else {
+      if (!(good && isPlace(z))) badQuestion(where, [x, y, z], point3, finite);
+      io[2] = z;
+      io[3] = x;
+      io[4] = y;
+      io[5] = z;
+    }
+    io[0] = x;
+    io[1] = y;
+    return options as IdsOptions | undefined;
+  }
+
+  /** The same for a ray, with its limit. */
+  #ray<Options extends { maxDistance?: number }>(
+    where: string,
+    a: number,
+    b: number,
+    c: number,
+    d: number,
+    e: unknown,
+    f: unknown,
+    options: Options | undefined,
+  ): Options | undefined {
+    const io = this.io();
+    const good = isPlace(a) && isPlace(b) && isPlace(c) && isPlace(d);
+    if (this.width === 4) {
+      if (!good || f !== undefined) badQuestion(where, [a, b, c, d, e, f, options], ray2, finite);
+      io[2] = a;
+      io[3] = b;
+      io[4] = c;
+      io[5] = d;
+      options = e as Options | undefined;
+    } else {
+      if (!(good && isPlace(e) && isPlace(f))) badQuestion(where, [a, b, c, d, e, f], ray3, finite);
+      io[2] = c;
+      io[3] = a;
+      io[4] = b;
+      io[5] = c;
+      io[6] = d;
+      io[7] = e;
+      io[8] = f;
+    }
+    io[0] = a;
+    io[1] = b;
+    writeLength(io, this.width, this.dimensions);
+    checkOptions(where, options);
+    const { maxDistance = Number.POSITIVE_INFINITY } = options ?? {};
+    io[limitAt] = checkDistance(`${where}: maxDistance`, maxDistance);
+    return options;
+  }
+
+  /** Asks for the boxes that touch what stands in the kernel's array. */
+  #area(where: string, options: IdsOptions | undefined): number[] {
+    const mask = maskOf(where, options);
+    const ignored = ignoredOf(where, options);
+    if (options?.visit !== undefined) {
+      this.#visitArea(where, mask, ignored, options.visit);
+      return none as number[];
+    }
+    const out = options?.out ?? [];
+    checkOut(where, out);
+    try {
+      return this.#copyIds(this.kernel.ask_area(mask, ignored, 0, everything), out);
+    } catch (error) {
+      this.recover(error, where);
+    }
+  }
+
+  /** Asks for the first boxes that the box in the kernel's array meets, or for the nearest; returns how many. */
+  #order(where: string, moving: boolean, options: QueryOptions | undefined, most: number): number {
+    const mask = maskOf(where, options);
+    const ignored = ignoredOf(where, options);
+    try {
+      return this.kernel.ask_order(moving ? 1 : 0, mask, ignored, nobody, most);
+    } catch (error) {
+      this.recover(error, where);
+    }
+  }
+
+  #visitArea(where: string, mask: number, ignored: number, visitor: (id: number) => unknown): void {
+    checkVisitor(where, visitor);
+    const visit = this.#startVisit();
+    try {
+      for (let from = 0; from >= 0; ) {
+        this.io().set(visit.question);
+        const count = this.kernel.ask_area(mask, ignored, from, part);
+        from = this.io()[0]!;
+        const first = this.kernel.answers_address() >>> 2;
+        const words = this.#wordView();
+        for (let k = 0; k < count; k++) visit.ids[k] = words[first + k]!;
+        const updates = this.kernel.updates();
+        for (let k = 0; k < count; k++) {
+          if (visitor(visit.ids[k]!) === false) return;
+          if (this.kernel.updates() !== updates) updatedInside(where);
+        }
+      }
+    } catch (error) {
+      this.recover(error, where);
+    } finally {
+      this.#visiting--;
+    }
+  }
+
+  #visitOrder(
+    where: string,
+    moving: boolean,
+    options: QueryOptions,
+    most: number,
+    visitor: (id: number, rank: number) => unknown,
+  ): void {
+    const mask = maskOf(where, options);
+    const ignored = ignoredOf(where, options);
+    checkVisitor(where, visitor);
+    const visit = this.#startVisit();
+    try {
+      for (let left = most, after = nobody; left > 0; left -= part) {
+        const wanted = Math.min(left, part);
+        this.io().set(visit.question);
+        const count = this.kernel.ask_order(moving ? 1 : 0, mask, ignored, after, wanted);
+        const first = this.kernel.hits_address();
+        const words = this.#wordView();
+        const doubles = this.#doubleView();
+        for (let k = 0; k < count; k++) {
+          visit.ids[k] = words[(first >>> 2) + 4 * k + 2]!;
+          visit.ranks[k] = doubles[(first >>> 3) + 2 * k]!;
+        }
+        const updates = this.kernel.updates();
+        for (let k = 0; k < count; k++) {
+          const rank = visit.ranks[k]!;
+          if (visitor(visit.ids[k]!, moving ? rank : Math.sqrt(rank)) === false) return;
+          if (this.kernel.updates() !== updates) updatedInside(where);
+        }
+        if (count < wanted) return;
+        after = visit.ids[count - 1]!;
+        visit.question[afterAt] = visit.ranks[count - 1]!;
+      }
+    } catch (error) {
+      this.recover(error, where);
+    } finally {
+      this.#visiting--;
+    }
+  }
+
+  /** Remembers the question that stands in the kernel's array. */
+  #startVisit(): Visit {
+    const level = this.#visiting++;
+    let visit = this.#visits[level];
+    if (visit === undefined) {
+      visit = new Visit();
+      this.#visits.push(visit);
+    }
+    visit.question.set(this.io());
+    return visit;
   }
 
   /** Copies the first of the kernel's answers. */
   #copyIds(count: number, out: number[]): number[] {
-    const words = this.#wordsView();
+    const words = this.#wordView();
     const first = this.kernel.answers_address() >>> 2;
     for (let k = 0; k < count; k++) out[k] = words[first + k]!;
     out.length = count;
     return out;
   }
 
+  /** Reads the k-th of the kernel's hits; returns the place of its rank among the doubles. */
+  #readHit(k: number, hit: { id: number; normal: number[] }): number {
+    const at = this.kernel.hits_address() + 16 * k;
+    const words = this.#wordView();
+    hit.id = words[(at >>> 2) + 2]!;
+    const side = words[(at >>> 2) + 3]! | 0;
+    for (let axis = 0; axis < this.dimensions; axis++) {
+      hit.normal[axis] = side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0;
+    }
+    hit.normal.length = this.dimensions;
+    return at >>> 3;
+  }
+
   /** The kernel's memory. */
-  #wordsView(): Uint32Array {
+  #wordView(): Uint32Array {
     if (this.#words.length === 0) this.#words = new Uint32Array(this.kernel.memory.buffer);
     return this.#words;
   }
+  #doubleView(): Float64Array {
+    if (this.#doubles.length === 0) this.#doubles = new Float64Array(this.kernel.memory.buffer);
+    return this.#doubles;
+  }
+}
+
+/**
+ * Writes the length of the way that begins in place `first` of the kernel's array: without overflow, and the same on
+ * every machine, as Math.hypot is not. It reads and writes the array because doubles in and out of a call are garbage.
+ */
+function writeLength(io: Float64Array, first: number, dimensions: number): void {
+  let most = 0;
+  for (let k = first; k < first + dimensions; k++) most = Math.max(most, Math.abs(io[k]!));
+  let sum = 0;
+  for (let k = first; most > 0 && k < first + dimensions; k++) sum += (io[k]! / most) * (io[k]! / most);
+  io[lengthAt] = most * Math.sqrt(sum);
+}
+
+function wrongShape(where: string, dimensions: number, right: string): never {
+  throw new TypeError(`${where}: this space has ${dimensions} dimensions, expected a call of ${right}`);
+}
+
+function updatedInside(where: string): never {
+  throw new Error(`${where}: update was called by the visitor, expected it to wait until the search has ended`);
 }

@@ -24,6 +24,7 @@ const uses = [
   'boxes, update and pairs',
   'setAll and update',
   'delete, has, set and update',
+  'questions with out',
 ];
 
 let results: Result[] = [];

@@ -35,7 +35,52 @@ const uses = {
     space.update();
     return space.size;
   },
+  'questions with out': (space, { objects }) => {
+    setEach(space, objects);
+    space.update();
+    // Often enough that the engine finds it worth compiling.
+    for (let k = 0; k < 10; k++) {
+      if (space.dimensions === 2) askFlat(space);
+      else askSolid(space);
+    }
+    return near.out[0];
+  },
 };
+
+// What is asked, and where the answers go, is kept: only the asking is measured.
+// (An array that becomes empty gives its memory back: where there may be no answer a visitor is asked.)
+const [inBox, inCircle, near] = Array.from({ length: 3 }, () => ({ out: [] }));
+let visited;
+const atPoint = {
+  visit: (id) => {
+    visited = id;
+  },
+};
+const ray = { out: { id: 0, distance: 0, normal: [] } };
+const rays = { out: [] };
+const swept = { out: { id: 0, time: 0, normal: [] } };
+
+function askFlat(space) {
+  space.queryBox(0, 0, 900, 900, inBox);
+  space.queryPoint(50, 50, atPoint);
+  space.queryCircle(50, 50, 500, inCircle);
+  space.nearest(50, 50, 10, near);
+  space.rayCast(0, 0, 1, 1, ray);
+  space.rayCastAll(0, 0, 1, 1, rays);
+  space.sweep(0, 0, 9, 9, 900, 900, swept);
+  space.isColliding(7, 8);
+}
+
+function askSolid(space) {
+  space.queryBox(0, 0, 0, 900, 900, 900, inBox);
+  space.queryPoint(50, 50, 50, atPoint);
+  space.querySphere(50, 50, 50, 500, inCircle);
+  space.nearest(50, 50, 50, 10, near);
+  space.rayCast(0, 0, 0, 1, 1, 1, ray);
+  space.rayCastAll(0, 0, 0, 1, 1, 1, rays);
+  space.sweep(0, 0, 0, 9, 9, 9, 900, 900, 900, swept);
+  space.isColliding(7, 8);
+}
 
 function setEach(space, boxes) {
   if (space.dimensions === 2) {

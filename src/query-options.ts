@@ -1,0 +1,107 @@
+// What the questions of queries.ts may be given, and what they answer; and the checks of it.
+import { badId, badValue, checkBits, maxId } from './errors.ts';
+
+/** What every question may be given, and an `out` or a `visit` of its own. */
+export interface QueryOptions {
+  /** Only boxes with a layer in it: 32 bits, as for `setFilter`. Default: all boxes. */
+  mask?: number;
+  /** A box that is left out: most often the one that asks. */
+  ignore?: number;
+}
+
+/** Options of questions answered by ids. */
+export interface IdsOptions extends QueryOptions {
+  /** Filled and returned, instead of a new array. Keep it, and the options, and asking makes no garbage. */
+  out?: number[];
+  /** Called for each answer instead of collecting them; `false` ends the search. The answer is then empty. */
+  visit?: (id: number) => unknown;
+}
+
+/** Options of {@link BroadPhase.nearest}. */
+export interface NearestOptions extends QueryOptions {
+  /** The largest distance, at least 0. Default: no limit. */
+  maxDistance?: number;
+  /** Filled and returned, instead of a new array. */
+  out?: number[];
+  /** Called for each answer, the nearest first, instead of collecting them; `false` ends the search. */
+  visit?: (id: number, distance: number) => unknown;
+}
+
+/** What a ray meets. */
+export interface RayHit {
+  id: number;
+  /** From the origin to the box, in units of the world; 0 where the ray begins inside. */
+  distance: number;
+  /** Of the face that is hit, against the ray: one number per axis, -1, 0 or 1; all 0 where the ray begins inside. */
+  normal: number[];
+}
+
+/** Options of {@link BroadPhase.rayCast}. */
+export interface RayOptions extends QueryOptions {
+  /** How far the ray reaches, at least 0. Default: no limit. */
+  maxDistance?: number;
+  /** Filled and returned, instead of a new object. */
+  out?: RayHit;
+}
+
+/** Options of {@link BroadPhase.rayCastAll}. */
+export interface RayAllOptions extends QueryOptions {
+  /** How far the ray reaches, at least 0. Default: no limit. */
+  maxDistance?: number;
+  /** Filled and returned instead of a new array; the objects in it are used again. */
+  out?: RayHit[];
+  /** Called for each answer, the first first, instead of collecting them; `false` ends the search. */
+  visit?: (id: number, distance: number) => unknown;
+}
+
+/** What a moving box meets. */
+export interface SweepHit {
+  id: number;
+  /** The share of the way, 0 … 1, that is done when they touch; 0 where they overlap from the start. */
+  time: number;
+  /** Of the face that is hit, against the motion: as in {@link RayHit}. */
+  normal: number[];
+}
+
+/** Options of {@link BroadPhase.sweep}. */
+export interface SweepOptions extends QueryOptions {
+  /** Filled and returned, instead of a new object. */
+  out?: SweepHit;
+  /** Called for each box on the way, by time, instead of the first being returned; `false` ends the search. */
+  visit?: (id: number, time: number) => unknown;
+}
+
+/** As a mask: all boxes. */
+export const everything = 0xffffffff;
+/** In place of an id. */
+export const nobody = 0xffffffff;
+
+export function maskOf(where: string, options: QueryOptions | undefined): number {
+  checkOptions(where, options);
+  const mask = options?.mask;
+  if (mask === undefined) return everything;
+  checkBits(`${where}: mask`, mask);
+  return mask;
+}
+
+export function ignoredOf(where: string, options: QueryOptions | undefined): number {
+  const id = options?.ignore;
+  if (id === undefined) return nobody;
+  if (id >>> 0 !== id || id > maxId) badId(`${where}: ignore`, id);
+  return id;
+}
+
+export function checkOptions(where: string, options: unknown): void {
+  if (options === undefined || (typeof options === 'object' && options !== null)) return;
+  badValue(`${where}: options`, options, 'an object of options', true);
+}
+
+export function checkVisitor(where: string, visitor: unknown): void {
+  if (typeof visitor !== 'function') badValue(`${where}: visit`, visitor, 'a function', true);
+}
+
+export function checkDistance(where: string, distance: number): number {
+  if (typeof distance !== 'number') badValue(where, distance, 'a number, at least 0', true);
+  if (!(distance >= 0)) badValue(where, distance, 'a number, at least 0');
+  return distance;
+}

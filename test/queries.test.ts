@@ -1,0 +1,343 @@
+// Every question against a look at every box: after any calls, by any technique, in every recorded scene.
+import { BroadPhase, type QueryOptions, type RayHit } from 'broadphase';
+import { describe, expect, test } from 'vitest';
+import { createRandom } from '../src/scenes/random.ts';
+import { type Entry, Modelled } from './model.ts';
+import { type Asked, ahead, type Entries, inBox, inCircle, near, type Ranked } from './query-reference.ts';
+import { readTrace, traceNames } from './traces.ts';
+
+type Loose = Record<string, (...given: unknown[]) => unknown>;
+
+const combinations = BroadPhase.techniques.flatMap((technique) =>
+  ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
+);
+
+const ascending = (ids: readonly number[]) => ids.toSorted((a, b) => a - b);
+
+/** Asks a space every question there is, at random places, and compares. */
+class Asker {
+  readonly #space: BroadPhase;
+  readonly #ask: Loose;
+  readonly #random: () => number;
+  readonly #world: number;
+
+  constructor(space: BroadPhase, random: () => number, world: number) {
+    this.#space = space;
+    this.#ask = space as unknown as Loose;
+    this.#random = random;
+    this.#world = world;
+  }
+
+  #pick<T>(...from: readonly T[]): T {
+    return from[Math.floor(this.#random() * from.length)];
+  }
+
+  /** Whole numbers mostly, some far outside. */
+  #place(): number {
+    const at = this.#random() * this.#world;
+    return this.#pick(Math.floor(at), Math.floor(at), at, at, Math.floor(at) + 0.1, 1e9 * (at - this.#world / 2));
+  }
+
+  #point(): number[] {
+    return Array.from({ length: this.#space.dimensions }, () => this.#place());
+  }
+
+  #box(): number[] {
+    const from = this.#point();
+    const size = this.#pick(0, 1, this.#world / 8, this.#world * 4);
+    const box = [...from, ...from.map((x) => x + Math.floor(size * this.#random()))];
+    if (this.#random() < 0.1) box[this.#pick(...from.keys())] = -Infinity;
+    if (this.#random() < 0.1) box[from.length + this.#pick(...from.keys())] = Infinity;
+    return box;
+  }
+
+  /** Whole numbers mostly, often along an axis, sometimes none at all. */
+  #way(): number[] {
+    const reach = this.#pick(1, this.#world, this.#world * 10, 0.3);
+    return this.#point().map(() => this.#pick(0, 0, 1, -1, this.#random() - 0.5) * reach);
+  }
+
+  #options(): Asked {
+    return {
+      ...(this.#random() < 0.3 && { mask: this.#pick(1, 2, 6, 0xffffffff, 0, 0x80000000) }),
+      ...(this.#random() < 0.3 && { ignore: Math.floor(this.#random() * 80) }),
+    };
+  }
+
+  #ids(name: string, given: readonly number[], options: Asked, expected: readonly number[]): void {
+    const found = this.#ask[name](...given, options) as number[];
+    expect(ascending(found), `${name}(${given.join(', ')}, ${JSON.stringify(options)})`).toEqual(expected);
+    const out = [1, 2, 3];
+    expect(this.#ask[name](...given, { ...options, out })).toBe(out);
+    expect(out).toEqual(found);
+    const visited: number[] = [];
+    const stop = this.#pick(1, 70, Infinity);
+    const visit = (id: number) => visited.push(id) < stop;
+    expect(this.#ask[name](...given, { ...options, visit })).toEqual([]);
+    expect(visited).toEqual(found.slice(0, stop));
+  }
+
+  #visits(name: string, given: readonly number[], options: Asked, expected: readonly Ranked[]): void {
+    const visited: { id: number; rank: number }[] = [];
+    const stop = this.#pick(1, 70, Infinity);
+    const visit = (id: number, rank: number) => visited.push({ id, rank }) < stop;
+    this.#ask[name](...given, { ...options, visit });
+    expect(visited).toEqual(expected.slice(0, stop).map(({ id, rank }) => ({ id, rank })));
+  }
+
+  everything(entries: Entries): void {
+    const { dimensions } = this.#space;
+    const box = this.#box();
+    let options = this.#options();
+    this.#ids('queryBox', box, options, inBox(entries, box, options));
+    const point = this.#point();
+    options = this.#options();
+    this.#ids('queryPoint', point, options, inBox(entries, [...point, ...point], options));
+    const radius = this.#pick(0, 1, 5, this.#world / 4, this.#world * 3, 1e9, Infinity);
+    options = this.#options();
+    const round = dimensions === 2 ? 'queryCircle' : 'querySphere';
+    this.#ids(round, [...point, radius], options, inCircle(entries, point, radius, options));
+    this.nearest(entries);
+    this.ray(entries);
+    this.sweep(entries);
+  }
+
+  nearest(entries: Entries): void {
+    const point = this.#point();
+    const k = this.#pick(1, 3, 10, 100, 1e6, Number.MAX_VALUE);
+    const options = { ...this.#options(), ...(this.#random() < 0.3 && { maxDistance: this.#pick(0, 5, 20) }) };
+    const expected = near(entries, point, k, options);
+    const ids = expected.map(({ id }) => id);
+    expect(this.#ask.nearest(...point, k, options), `nearest(${point.join(', ')}, ${k})`).toEqual(ids);
+    const out = [1, 2, 3];
+    expect(this.#ask.nearest(...point, k, { ...options, out })).toBe(out);
+    expect(out).toEqual(ids);
+    const distances = expected.map((hit) => ({ ...hit, rank: Math.sqrt(hit.rank) }));
+    this.#visits('nearest', [...point, k], options, distances);
+  }
+
+  ray(entries: Entries): void {
+    const point = this.#point();
+    const way = this.#way();
+    const most = Math.max(...way.map(Math.abs));
+    const length = most && most * Math.sqrt(way.reduce((sum, x) => sum + (x / most) ** 2, 0));
+    const reach = this.#pick(Infinity, Infinity, 5, this.#world / 2, 0);
+    const options = { ...this.#options(), ...(reach < Infinity && { maxDistance: reach }) };
+    const expected = ahead(entries, [...point, ...point], way, reach, options, length);
+    const hits = expected.map(({ id, rank, normal }) => ({ id, distance: rank, normal }));
+    const given = [...point, ...way];
+    expect(this.#ask.rayCastAll(...given, options), `rayCastAll(${given.join(', ')})`).toEqual(hits);
+    const out: RayHit[] = [{ id: 0, distance: 0, normal: [] }];
+    const [kept] = out;
+    expect(this.#ask.rayCastAll(...given, { ...options, out })).toBe(out);
+    expect(out).toEqual(hits);
+    if (hits.length > 0) expect(out[0]).toBe(kept);
+    expect(this.#ask.rayCast(...given, options)).toEqual(hits[0]);
+    expect(this.#ask.rayCast(...given, { ...options, out: kept })).toBe(hits.length > 0 ? kept : undefined);
+    this.#visits('rayCastAll', given, options, expected);
+  }
+
+  sweep(entries: Entries): void {
+    const given = [...this.#box(), ...this.#way()];
+    const options = this.#options();
+    const { dimensions } = this.#space;
+    const expected = ahead(entries, given.slice(0, 2 * dimensions), given.slice(2 * dimensions), 1, options);
+    const [first] = expected;
+    const hit = first && { id: first.id, time: first.rank, normal: first.normal };
+    expect(this.#ask.sweep(...given, options), `sweep(${given.join(', ')})`).toEqual(hit);
+    const out = { id: 0, time: 0, normal: [] };
+    expect(this.#ask.sweep(...given, { ...options, out })).toBe(hit && out);
+    if (hit) expect(out).toEqual(hit);
+    this.#visits('sweep', given, options, expected);
+  }
+}
+
+const copyOf = (entries: Entries): Entries => new Map([...entries].map(([id, entry]) => [id, { ...entry }]));
+
+describe.each(combinations)('%s in %d dimensions', (technique, dimensions) => {
+  test('answers by what the last update saw, after any sequence of calls', () => {
+    for (let seed = 1; seed <= 2; seed++) {
+      const model = new Modelled({ technique, dimensions }, seed);
+      const asker = new Asker(model.space, model.random, 60);
+      asker.everything(new Map());
+      for (let round = 0; round < 15; round++) {
+        for (let call = 0; call < 30; call++) model.step();
+        model.space.update();
+        const seen = copyOf(model.entries);
+        for (let call = 0; call < 3; call++) {
+          for (let k = 0; k < 4; k++) asker.everything(seen);
+          // Seen no sooner than with the next update.
+          for (let k = 0; k < 5; k++) model.step();
+        }
+      }
+    }
+  });
+});
+
+test.each(traceNames)('answers in the recorded %s', (name) => {
+  const recording = readTrace(name);
+  const { dimensions, count } = recording;
+  const random = createRandom(3);
+  const space = new BroadPhase({ dimensions });
+  const boxes = recording.frame(1);
+  space.boxes(count).set(boxes);
+  const entries = new Map<number, Entry>();
+  for (let id = 0; id < count; id++) {
+    const box = Array.from(boxes.subarray(id * 2 * dimensions, (id + 1) * 2 * dimensions));
+    entries.set(id, { box, layer: 1 << (id % 3), mask: 7, isStatic: false });
+    space.setFilter(id, 1 << (id % 3), 7);
+  }
+  space.update();
+  const most = Math.max(...boxes.subarray(0, 2000));
+  const asker = new Asker(space, random, most);
+  for (let k = 0; k < (count > 5000 ? 4 : 15); k++) asker.everything(entries);
+});
+
+describe('at the edges', () => {
+  const space = new BroadPhase().setAll([0, 0, 10, 10, 20, 0, 30, 10, 10, 10, 20, 20]).update();
+
+  test('a ray along an edge meets the box, one beside it does not', () => {
+    expect(space.rayCast(-5, 10, 1, 0)).toEqual({ id: 0, distance: 5, normal: [-1, 0] });
+    expect(space.rayCastAll(-5, 10, 1, 0).map(({ id }) => id)).toEqual([0, 2, 1]);
+    expect(space.rayCast(-5, 10.000001, 1, 0)?.id).toBe(2);
+    expect(space.rayCast(0, 30, 0, -4)).toEqual({ id: 0, distance: 20, normal: [0, 1] });
+    expect(space.rayCast(-5, -5, 1, 1)).toEqual({ id: 0, distance: Math.sqrt(50), normal: [-1, 0] });
+  });
+
+  test('a ray without length is a point', () => {
+    expect(space.rayCast(10, 10, 0, 0)).toEqual({ id: 0, distance: 0, normal: [0, 0] });
+    expect(space.rayCastAll(10, 10, 0, -0).map(({ id }) => id)).toEqual([0, 2]);
+    expect(space.rayCast(11, 9, 0, 0)).toBeUndefined();
+  });
+
+  test('a ray reaches to its very end', () => {
+    expect(space.rayCast(-5, 5, 3, 0, { maxDistance: 5 })?.distance).toBe(5);
+    expect(space.rayCast(-5, 5, 3, 0, { maxDistance: 4.999999 })).toBeUndefined();
+    expect(space.rayCast(5, 5, 3, 0, { maxDistance: 0 })?.distance).toBe(0);
+  });
+
+  test('a moving box touches what it reaches, and at once what it overlaps', () => {
+    expect(space.sweep(-4, 2, -2, 4, 2, 0)).toEqual({ id: 0, time: 1, normal: [-1, 0] });
+    expect(space.sweep(-4, 2, -2, 4, 1.999999, 0)).toBeUndefined();
+    expect(space.sweep(2, 2, 4, 4, 100, 0)).toEqual({ id: 0, time: 0, normal: [0, 0] });
+    expect(space.sweep(2, 2, 4, 4, 32, 0, { ignore: 0 })).toEqual({ id: 1, time: 0.5, normal: [-1, 0] });
+    expect(space.sweep(12, 2, 14, 4, 0, 0)).toBeUndefined();
+    expect(space.sweep(-Infinity, 40, Infinity, 50, 0, -40)).toEqual({ id: 2, time: 0.5, normal: [0, 1] });
+  });
+
+  test('a box at the tip of a double is met, the one behind it is not', () => {
+    const exact = new BroadPhase().setAll([0.1, 0, 0.2, 1, 0.2 + 2 ** -50, 0, 1, 1]).update();
+    expect(exact.queryPoint(0.2, 0.5)).toEqual([0]);
+    expect(exact.queryBox(0.2, 0, 0.2 + 2 ** -50, 1).toSorted()).toEqual([0, 1]);
+    expect(exact.nearest(0.2 + 2 ** -51, 0.5, 2)).toEqual([0, 1]);
+    expect(exact.queryCircle(0, 0.5, 0.1)).toEqual([0]);
+    expect(exact.queryCircle(0, 0.5, 0.1 - 2 ** -54)).toEqual([]);
+  });
+
+  test('before the first update there is nothing', () => {
+    const empty = new BroadPhase().set(0, 0, 0, 1, 1);
+    expect(empty.queryBox(0, 0, 1, 1)).toEqual([]);
+    expect(empty.rayCast(0, 0, 1, 1)).toBeUndefined();
+    expect(empty.nearest(0, 0, 3)).toEqual([]);
+    expect(empty.update().queryPoint(0, 0)).toEqual([0]);
+    empty.clear();
+    expect(empty.queryPoint(0, 0)).toEqual([0]);
+    expect(empty.update().queryPoint(0, 0)).toEqual([]);
+  });
+});
+
+describe('a visitor', () => {
+  const space = new BroadPhase().setAll(Array.from({ length: 400 }, () => [0, 0, 1, 1]).flat()).update();
+
+  test('may ask and change boxes, but not update', () => {
+    let asked = 0;
+    const seen: number[] = [];
+    space.queryPoint(0, 0, {
+      visit: (id) => {
+        seen.push(id);
+        asked += space.queryBox(0, 0, 1, 1).length;
+        space.nearest(0, 0, 100, { visit: () => space.rayCast(-1, 0, 1, 0) !== undefined && ++asked % 7 !== 0 });
+        space.set(id, 5, 5, 6, 6);
+        return seen.length < 150;
+      },
+    });
+    expect(new Set(seen).size).toBe(150);
+    expect(asked).toBeGreaterThan(150 * 400);
+    expect(() => space.queryPoint(0, 0, { visit: () => space.update() })).toThrow('queryPoint: update was called');
+    expect(() => space.nearest(0, 0, 5, { visit: () => space.update() })).toThrow('nearest: update was called');
+  });
+
+  test('may throw', () => {
+    const visit = () => {
+      throw new Error('enough');
+    };
+    expect(() => space.queryBox(5, 5, 5, 5, { visit })).toThrow('enough');
+    expect(() => space.nearest(0, 0, 5, { visit })).toThrow('enough');
+    expect(space.queryBox(5, 5, 5, 5).length).toBeGreaterThan(0);
+  });
+});
+
+describe.each([2, 3] as const)('bad questions in %d dimensions', (dimensions) => {
+  const space = new BroadPhase({ dimensions });
+  const ask = space as unknown as Loose;
+  const axes = Array.from({ length: dimensions });
+  const point = axes.map(() => 0);
+  const box = [...point, ...point.map(() => 1)];
+  const round = dimensions === 2 ? 'queryCircle' : 'querySphere';
+  const questions: [string, number[]][] = [
+    ['queryBox', box],
+    ['queryPoint', point],
+    [round, [...point, 1]],
+    ['rayCast', [...point, ...point]],
+    ['rayCastAll', [...point, ...point]],
+    ['sweep', [...box, ...point]],
+    ['nearest', [...point, 1]],
+  ];
+
+  test.each(questions)('%s', (name, good) => {
+    for (let at = 0; at < good.length; at++) {
+      for (const bad of ['1', null, {}, 1n]) {
+        expect(() => ask[name](...good.with(at, bad as unknown as number))).toThrow(TypeError);
+        expect(() => ask[name](...good.with(at, bad as unknown as number))).toThrow(`${name}: `);
+      }
+      expect(() => ask[name](...good.with(at, Number.NaN))).toThrow(RangeError);
+      expect(() => ask[name](...good.with(at, Number.NaN))).toThrow('NaN');
+    }
+    expect(() => ask[name](...good.slice(1))).toThrow(`${name}: `);
+    expect(() => ask[name](...good, 1)).toThrow(TypeError);
+    expect(() => ask[name](...good, {}, {})).not.toThrow('was refused');
+    for (const options of [null, 'all', 7]) expect(() => ask[name](...good, options)).toThrow(TypeError);
+    const given = (options: Record<string, unknown>) => () => ask[name](...good, options as QueryOptions);
+    for (const mask of [-1, 2 ** 32, 1.5, Number.NaN]) expect(given({ mask })).toThrow(`${name}: mask: got ${mask}`);
+    expect(given({ mask: '1' })).toThrow(TypeError);
+    for (const ignore of [-1, 2 ** 24, 0.5, null]) expect(given({ ignore })).toThrow(`${name}: ignore: the id is`);
+    expect(given({ mask: undefined, ignore: undefined, out: undefined, visit: undefined })).not.toThrow();
+    if (name !== 'rayCast' && name !== 'sweep') expect(given({ out: new Uint32Array(3) })).toThrow(`${name}: out`);
+    if (name !== 'rayCast') expect(given({ visit: 7 })).toThrow(`${name}: visit`);
+    if (/ray|nearest/.test(name)) {
+      for (const maxDistance of [-1, Number.NaN]) expect(given({ maxDistance })).toThrow(`${name}: maxDistance: got`);
+      expect(given({ maxDistance: '1' })).toThrow(TypeError);
+    }
+  });
+
+  test('infinite points, ways and directions, and minima above maxima', () => {
+    for (const name of ['queryPoint', 'nearest', round, 'rayCast', 'rayCastAll']) {
+      const good = questions.find(([each]) => each === name)![1];
+      expect(() => ask[name](...good.with(0, Infinity))).toThrow('expected a finite number');
+    }
+    expect(() => ask.rayCast(...point, ...point.with(0, -Infinity))).toThrow('directionX: got -Infinity');
+    expect(() => ask.sweep(...box, ...point.with(0, Infinity))).toThrow('dx: got Infinity');
+    expect(() => ask.queryBox(...box.with(1, 2))).toThrow('minY: got 2, expected no more than maxY, which is 1');
+    expect(() => ask.sweep(...box.with(0, 2), ...point)).toThrow('minX: got 2');
+  });
+
+  test('a negative radius, and numbers of neighbours that are none', () => {
+    expect(() => ask[round](...point, -1)).toThrow(`${round}: radius: got -1`);
+    for (const k of [0, -1, 1.5, Infinity]) expect(() => ask.nearest(...point, k)).toThrow(`nearest: k: got ${k}`);
+  });
+
+  test('the round shape of the other world', () => {
+    const wrong = dimensions === 2 ? 'querySphere' : 'queryCircle';
+    expect(() => ask[wrong](...point, 1, 1)).toThrow(`${wrong}: this space has ${dimensions} dimensions`);
+  });
+});
