@@ -20,7 +20,16 @@ export interface BroadPhaseOptions {
   capacity?: number;
 }
 
-const techniques = ['brute-force', 'spatial-grid', 'strip-sweep', 'bsp-tree', 'r-tree', 'aabb-tree', 'auto'] as const;
+const techniques = [
+  'brute-force',
+  'spatial-grid',
+  'strip-sweep',
+  'quadtree',
+  'bsp-tree',
+  'r-tree',
+  'aabb-tree',
+  'auto',
+] as const;
 
 /** The name of a technique. */
 export type TechniqueName = (typeof techniques)[number];
