@@ -9,74 +9,11 @@
 // one, then those of the other. A node's tag has the exclusion bits that all its items share, so what can make no
 // pair is not entered.
 // Cost: about 25 ns an item to build, 30 (2D) or 40 (3D) bytes.
-// From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993; the curve after J. Skilling, "Programming
-// the Hilbert curve", 2004.
+// From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993.
 #pragma once
-#include "radix_sort.hpp"
-#include "statistics.hpp"
+#include "curve_order.hpp"
 #include "stats.hpp"
 #include "sweep.hpp"
-
-/// Where an item stands on the Hilbert curve, for four items at once.
-template <int D> class HilbertCurve {
-  Axes along_[D];
-
- public:
-  // Two digits of the radix sort. Finer cells than about one for each item order nothing that matters.
-  static constexpr u32 levels = D == 2 ? 11 : 7;
-
-  explicit HilbertCurve(const Statistics<D>& world) {
-    for (int a = 0; a < D; a++) {
-      f64 middle = world.size[a] / 2;
-      Axis axis = Axis::make(world.low[a] + middle, world.high[a] + middle, 1 << levels);
-      along_[a] = {axis, axis, axis, axis};
-    }
-  }
-
-  /// Centres to cells, cells to the curve.
-  u32x4 operator()(const SceneItems<D>& items, const u32 (&index)[4]) const {
-    f32x4 centres[4];
-    for (int k = 0; k < 4; k++) {
-      Item<D> item = items[index[k]];
-      if constexpr (D == 2) centres[k] = item.box * 0.5f + __builtin_shufflevector(item.box, item.box, 2, 3, 0, 1) * 0.5f;
-      else centres[k] = item.low * 0.5f + item.high * 0.5f;
-    }
-    transpose(centres);
-    u32x4 at[D];
-    for (int a = 0; a < D; a++) at[a] = along_[a](centres[a]);
-    // From the coarsest cells down, each quarter (eighth) is turned and mirrored so that the curve goes on.
-    ROLLED for (u32 bit = 1u << (levels - 1); bit > 1; bit >>= 1) {
-      u32x4 lower = splat(bit - 1);
-      for (int a = 0; a < D; a++) {
-        u32x4 is_set = bits<u32x4>((at[a] & splat(bit)) != u32x4{});
-        u32x4 swapped = (at[0] ^ at[a]) & lower & ~is_set;
-        at[0] ^= swapped | (lower & is_set);
-        at[a] ^= swapped;
-      }
-    }
-    for (int a = 1; a < D; a++) at[a] ^= at[a - 1];
-    u32x4 turns = at[D - 1] >> 1;  // to the parity of all higher bits
-    for (u32 step = 1; step < 16; step *= 2) turns ^= turns >> step;
-    u32x4 key = {};
-    for (int a = 0; a < D; a++) key |= spread(at[a] ^ turns) << u32(D - 1 - a);
-    return key;
-  }
-
- private:
-  /// Puts D - 1 zeros before each bit.
-  static u32x4 spread(u32x4 x) {
-    if constexpr (D == 2) {
-      x = (x | x << 8) & splat(0x00ff00ffu);
-      x = (x | x << 4) & splat(0x0f0f0f0fu);
-      x = (x | x << 2) & splat(0x33333333u);
-      return (x | x << 1) & splat(0x55555555u);
-    } else {
-      x = (x | x << 8) & splat(0x0300f00fu);
-      x = (x | x << 4) & splat(0x030c30c3u);
-      return (x | x << 2) & splat(0x09249249u);
-    }
-  }
-};
 
 namespace detail {
 
@@ -114,8 +51,7 @@ template <int D> class PackedTree {
   static constexpr u32 chunk = 128;                             // pairs that go down a level together
   static constexpr u32 list_size = 4 * chunk + 2 * Pairs::slack;
 
-  RadixSort sort_;
-  Items<D> ordered_;
+  CurveOrder<D> order_;
   Lanes<D> lanes_;
   Buffer<u64> lists_;             // per level two: pairs of its nodes, and of its nodes with those below
   u32 first_[most_levels] = {};   // per level, its first lane
@@ -127,17 +63,6 @@ template <int D> class PackedTree {
   /// `spare` places for others.
   SHARED void build(const Scene<D>& scene, u32 spare) {
     u32 n = scene.count;
-    SceneItems<D> items{scene, AxisOrder<D>::make(0)};
-    HilbertCurve<D> curve(measure<D>(items, n));
-    sort_.begin(n);
-    for (u32 k = 0; k < n; k += 4) {
-      u32 last = n - 1;
-      u32x4 keys = curve(items, {k, smaller(k + 1, last), smaller(k + 2, last), smaller(k + 3, last)});
-      u32 key[4];
-      store(key, keys);
-      ROLLED for (u32 lane = 0; lane < smaller(n - k, 4u); lane++) sort_.put_bits(k + lane, key[lane]);
-    }
-    sort_.sort(n);
     u32 total = 0;
     levels_ = 0;
     for (u32 size = n + spare;; size = (size + 3) / 4) {
@@ -148,16 +73,13 @@ template <int D> class PackedTree {
     }
     lanes_.reserve(total);
     lists_.reserve(2 * levels_ * list_size);
-    ordered_.grow(n, 0);
-    ItemsAt<D> ordered(ordered_, 0);
-    for (u32 k = 0; k < n; k++) ordered.put(k, items[sort_.index(k)]);
-    lanes_.fill(ordered, n);
+    order_.make(scene, false, lanes_);
     for (u32 k = n + 1; k <= padded(n + spare); k++) clear(k - 1);
     refit();
   }
 
   /// The slot of the k-th item, as of the last `build`.
-  u32 slot(u32 k) const { return sort_.index(k); }
+  u32 slot(u32 k) const { return order_.slot(k); }
   COLD u32 nodes() const {
     u32 sum = 0;
     for (u32 l = 1; l < levels_; l++) sum += sizes_[l];
@@ -215,8 +137,7 @@ template <int D> class PackedTree {
   }
 
   COLD void release() {
-    sort_.release();
-    ordered_.release();
+    order_.release();
     lanes_.release();
     lists_.release();
     levels_ = 0;

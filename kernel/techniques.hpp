@@ -5,6 +5,7 @@
 #include "techniques/bsp_tree.hpp"
 #include "techniques/hierarchical_grid.hpp"
 #include "techniques/home_cell_grid.hpp"
+#include "techniques/quadtree.hpp"
 #include "techniques/r_tree.hpp"
 #include "techniques/retained_grid.hpp"
 #include "techniques/spatial_grid.hpp"
@@ -20,6 +21,7 @@ enum class Technique : u32 {
   hierarchical_grid,
   sweep_and_prune,
   strip_sweep,
+  quadtree,
   bsp_tree,
   r_tree,
   aabb_tree,
@@ -34,6 +36,7 @@ template <int D> class Techniques {
   HierarchicalGrid<D> hierarchical_grid_;
   SweepAndPrune<D> sweep_and_prune_;
   StripSweep<D> strip_sweep_;
+  Quadtree<D> quadtree_;
   BspTree<D> bsp_tree_;
   RTree<D> r_tree_;
   AabbTree<D> aabb_tree_;
@@ -48,6 +51,7 @@ template <int D> class Techniques {
       case Technique::home_cell_grid: return what(home_cell_grid_);
       case Technique::hierarchical_grid: return what(hierarchical_grid_);
       case Technique::sweep_and_prune: return what(sweep_and_prune_);
+      case Technique::quadtree: return what(quadtree_);
       case Technique::bsp_tree: return what(bsp_tree_);
       case Technique::r_tree: return what(r_tree_);
       case Technique::aabb_tree: return what(aabb_tree_);

@@ -31,6 +31,7 @@ const techniques = [
   'hierarchical-grid',
   'sweep-and-prune',
   'strip-sweep',
+  'quadtree',
   'bsp-tree',
   'r-tree',
   'aabb-tree',

@@ -118,8 +118,9 @@ describe.each(BroadPhase.techniques)('the views and figures of %s', (technique) 
     expect(copy.length).toBeGreaterThan(500);
     for (let id = 0; id < 500; id++) space.set(id, id, id, id, id);
     space.delete(3);
-    expect(held).toEqual(copy);
-    // Memory may grow now, which cuts the held view off, but not the pairs.
+    // Memory may grow at any change, which cuts the held view off, but not the pairs.
+    if (held.length > 0) expect(held).toEqual(copy);
+    expect(space.pairs).toEqual(copy);
     for (let id = 500; id < 30_000; id++) space.set(id, id, id, id, id);
     expect(space.pairs).toEqual(copy);
     space.setAll(createScene('uniform2d', 40_000).boxes);

@@ -2,8 +2,8 @@
 //
 // Idea: boxes next to each other on the curve share a node, so nodes are small and full, and nothing is ever
 // inserted. The tree walks through itself: two nodes that overlap send only those of their children on that do.
-// Cost: build O(n), one radix sort of the places on the curve; pairs O(n + pairs of nodes that overlap); about 60
-// (2D) or 70 (3D) bytes a box. Nothing to update.
+// Cost: build O(n), one radix sort of the places on the curve; pairs O(n + pairs of nodes that overlap); about 63
+// (2D) or 86 (3D) bytes a box. Nothing to update.
 // Wins where sizes and crowding vary widely: it has no cell to choose. Loses to the strips otherwise, whose order
 // is cheaper to make, and where long boxes make its nodes overlap.
 // From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993; the join from Brinkhoff, Kriegel & Seeger,
