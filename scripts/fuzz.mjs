@@ -52,7 +52,9 @@ if (values.coverage) {
     : [...limits, `-max_total_time=${Number(values.seconds)}`, '-print_final_stats=1', found, corpus];
   const { ok } = await run(program, fuzzing, show);
   if (!ok) {
-    console.error('fuzz: failed. With the fix, put the sequence into kernel/test/corpus as NAME.fixed, for the native tests.');
+    console.error(
+      'fuzz: failed. With the fix, put the sequence into kernel/test/corpus as NAME.fixed, for the native tests.',
+    );
     process.exit(1);
   }
   if (values.keep) await keep(program);
@@ -63,7 +65,14 @@ async function keep(program) {
   const merged = join(folder, 'merged');
   rmSync(merged, { recursive: true, force: true });
   mkdirSync(merged);
-  const { ok } = await run(program, ['-set_cover_merge=1', '-use_counters=0', `-max_len=${longest}`, merged, corpus, found]);
+  const { ok } = await run(program, [
+    '-set_cover_merge=1',
+    '-use_counters=0',
+    `-max_len=${longest}`,
+    merged,
+    corpus,
+    found,
+  ]);
   if (!ok) throw new Error('fuzz: the corpus was not merged');
   const regressions = readdirSync(corpus).filter((name) => name.endsWith('.fixed'));
   for (const name of regressions) renameSync(join(corpus, name), join(merged, name));
