@@ -1,7 +1,7 @@
 // The class BroadPhase: a Map from id to box that knows which of its boxes overlap.
 // All state lives in the kernel's memory (kernel/space.hpp); this file checks what comes in, passes it on, and
 // gives views of what comes out. Nothing here runs once per box or per pair of an update.
-import { badBox, badCount, badId, badValue, checkBits, maxId, noBox } from './errors.ts';
+import { badBox, badCount, badId, badQuestion, badValue, checkBits, maxId, noBox, sweep2, sweep3 } from './errors.ts';
 import { Queries } from './queries.ts';
 import { type Watcher, watch } from './watch.ts';
 
@@ -178,6 +178,64 @@ export class BroadPhase extends Queries {
       if (typeof e !== 'number' || typeof f !== 'number') badSet([id, a, b, c, d, e, f], 3);
       io[4] = e;
       io[5] = f;
+    }
+    this.#write(id);
+    return this;
+  }
+
+  /**
+   * Adds or moves box `id` for swept tests: for what moves so fast that it would pass others between two frames. The
+   * box is given as it stands, and how far it moves until the next frame; it is kept as the bounds of the whole way, so
+   * that its pairs are all it may meet. Which it does meet, when and on which side, `sweep` with the same numbers tells.
+   * 2D `setSwept(id, minX, minY, maxX, maxY, dx, dy)`, 3D `setSwept(id, minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz)`.
+   *
+   * @param dx how far it moves along the first axis, and so on: finite numbers
+   * @throws as `set` does. The space is as before.
+   *
+   * @example
+   * space.setSwept(bullet, x, y, x + 1, y + 1, velocityX * dt, velocityY * dt).update();
+   */
+  setSwept(id: number, minX: number, minY: number, maxX: number, maxY: number, dx: number, dy: number): this;
+  setSwept(
+    id: number,
+    minX: number,
+    minY: number,
+    minZ: number,
+    maxX: number,
+    maxY: number,
+    maxZ: number,
+    dx: number,
+    dy: number,
+    dz: number,
+  ): this;
+  setSwept(id: number, a: number, b: number, c: number, d: number, e: number, f: number, g = 0, h = 0, i = 0): this {
+    const flat = this.width === 4;
+    if (
+      // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
+      arguments.length !== (flat ? 7 : 10) ||
+      id >>> 0 !== id ||
+      id > maxId ||
+      !(flat ? a <= c && b <= d : a <= d && b <= e && c <= f) ||
+      !(areNumbers(a, b, c, d, e, f) && areNumbers(g, h, i)) ||
+      // What is infinite is NaN without itself.
+      (flat ? e - e + (f - f) : g - g + (h - h) + (i - i)) !== 0
+    ) {
+      // biome-ignore lint/complexity/noArguments: the same
+      badSwept(arguments, this.dimensions);
+    }
+    const io = this.io();
+    if (flat) {
+      io[0] = a + Math.min(e, 0);
+      io[1] = b + Math.min(f, 0);
+      io[2] = c + Math.max(e, 0);
+      io[3] = d + Math.max(f, 0);
+    } else {
+      io[0] = a + Math.min(g, 0);
+      io[1] = b + Math.min(h, 0);
+      io[2] = c + Math.min(i, 0);
+      io[3] = d + Math.max(g, 0);
+      io[4] = e + Math.max(h, 0);
+      io[5] = f + Math.max(i, 0);
     }
     this.#write(id);
     return this;
@@ -530,6 +588,21 @@ function badSet(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
   if (given.length !== 1 + 2 * dimensions) badCount('set', id, given.length, dimensions);
   badBox('set', id, Array.prototype.slice.call(given, 1), dimensions);
 }
+
+/** Finds what is wrong with the arguments of `setSwept`. */
+function badSwept(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
+  const id = given[0];
+  if (typeof id !== 'number' || id >>> 0 !== id || id > maxId) badId('setSwept', id);
+  badQuestion('setSwept', Array.prototype.slice.call(given, 1), dimensions === 2 ? sweep2 : sweep3, 'a number');
+}
+
+const areNumbers = (a: unknown, b: unknown, c: unknown, d: unknown = 0, e: unknown = 0, f: unknown = 0): boolean =>
+  typeof a === 'number' &&
+  typeof b === 'number' &&
+  typeof c === 'number' &&
+  typeof d === 'number' &&
+  typeof e === 'number' &&
+  typeof f === 'number';
 
 function noEvents(what: string): never {
   throw new Error(`${what}: this space keeps no events, expected one made with new BroadPhase({ events: true })`);

@@ -67,6 +67,7 @@ function askFlat(space) {
   space.nearest(50, 50, 10, near);
   space.rayCast(0, 0, 1, 1, ray);
   space.rayCastAll(0, 0, 1, 1, rays);
+  space.setSwept(7, 0, 0, 9, 9, 900, 900);
   space.sweep(0, 0, 9, 9, 900, 900, swept);
   space.isColliding(7, 8);
 }
@@ -78,6 +79,7 @@ function askSolid(space) {
   space.nearest(50, 50, 50, 10, near);
   space.rayCast(0, 0, 0, 1, 1, 1, ray);
   space.rayCastAll(0, 0, 0, 1, 1, 1, rays);
+  space.setSwept(7, 0, 0, 0, 9, 9, 9, 900, 900, 900);
   space.sweep(0, 0, 0, 9, 9, 9, 900, 900, 900, swept);
   space.isColliding(7, 8);
 }
