@@ -30,8 +30,8 @@ export function reportOf(name: string, dimensions: 2 | 3, tuned: Tuned): string 
       `<tr><td>${htmlText(nameOf(candidate))}</td>${[ms.mean, ms.median, ms.p95, ms.max].map((each) => `<td>${time(each)}</td>`).join('')}</tr>`,
   );
   const boxes = Math.max(...frames.map((frame) => frame.boxes));
-  const shares = frames.map(({ boxes, changed }) => (boxes === 0 ? 0 : changed / boxes));
-  const moving = shares.reduce((sum, share) => sum + share, 0) / shares.length;
+  const shares = frames.slice(1).map(({ boxes, changed }) => (boxes === 0 ? 0 : changed / boxes));
+  const moving = shares.reduce((sum, share) => sum + share, 0) / Math.max(1, shares.length);
   const perFrame = (values: readonly number[]) => values.map((y, k) => ({ x: frames[k].index, y }));
   const shown = best === auto ? finalists.slice(0, 3) : [best, auto];
   return `<!doctype html>

@@ -1,4 +1,5 @@
 // `broadphase tune`: the technique and cell size that suit a trace best, with a report of how they were found.
+import { basename } from 'node:path';
 import { BroadPhase } from 'broadphase';
 import { tune } from 'broadphase/trace';
 import { type Command, exitCode, UsageError } from './arguments.ts';
@@ -31,7 +32,7 @@ export const tuneCommand: Command = {
     });
     progress.end();
     const report = input.text('report');
-    if (report !== undefined) await write(report, reportOf(input.operands[0], source.dimensions, tuned));
+    if (report !== undefined) await write(report, reportOf(basename(input.operands[0]), source.dimensions, tuned));
     if (input.has('json')) {
       terminal.out(`${JSON.stringify(tuned)}\n`);
       return exitCode.ok;

@@ -1,5 +1,5 @@
 // Reads the bodies of frames, one after the other. A body is looked through before anything is made of it: memory is
-// taken only for boxes whose numbers are there, at most some 50 bytes for each byte of the file.
+// taken only for boxes whose numbers are there, at most some 100 bytes for each byte of the file.
 import { Cursor } from './bytes.ts';
 import { doublesFlag, type Frame, frameKind, maxBoxes } from './format.ts';
 import { predict, takeDistance } from './numbers.ts';
