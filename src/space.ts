@@ -45,6 +45,7 @@ export abstract class Space {
   /** A view of pairs in the kernel's memory, from among those made before if possible. @internal */
   protected pairView(views: Uint32Array[], at: number, count: number): Uint32Array {
     const { buffer } = this.kernel.memory;
+    at >>>= 0; // addresses beyond 2 GiB come as negative numbers
     let view = views[count % viewsKept];
     if (view?.buffer !== buffer || view.byteOffset !== at || view.length !== 2 * count) {
       view = new Uint32Array(buffer, at, 2 * count);
