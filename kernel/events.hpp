@@ -17,16 +17,19 @@ class Events {
  public:
   Pairs began, ended;  // in the order of the pairs now, and of the pairs before
 
-  /// An id was deleted.
-  COLD void forget(u32 id) {
-    u32 word = id / 32;
-    if (word >= gone_words_) {
-      gone_.grow(word + 1, gone_words_);
-      u32 words = u32(gone_.capacity());
-      __builtin_memset(gone_.data() + gone_words_, 0, (words - gone_words_) * sizeof(u32));
-      gone_words_ = words;
-    }
-    gone_[word] |= 1u << id % 32;
+  /// Room for ids up to this one to be deleted.
+  COLD void make_room(u32 id) {
+    u32 words = id / 32 + 1;
+    if (words <= gone_words_) return;
+    gone_.grow(words, gone_words_);
+    words = u32(gone_.capacity());
+    __builtin_memset(gone_.data() + gone_words_, 0, (words - gone_words_) * sizeof(u32));
+    gone_words_ = words;
+  }
+
+  /// An id was deleted, for which there is room.
+  void forget(u32 id) {
+    gone_[id / 32] |= 1u << id % 32;
     any_gone_ = true;
   }
 

@@ -84,8 +84,9 @@ template <int D> class Space {
   COLD bool remove(u32 id) {
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
-    if (keeps_events) events.forget(id);
+    if (keeps_events) events.make_room(id);
     ids_.erase(id);
+    if (keeps_events) events.forget(id);
     u32 last = ids_.count();
     if (filters_.active()) filters_.move(last, slot);
     if (slot == last) return true;
@@ -106,6 +107,7 @@ template <int D> class Space {
   }
 
   COLD void clear() {
+    room_to_forget();
     forget_from(0);
     ids_.reset(0);
     filters_.clear();
@@ -375,7 +377,14 @@ template <int D> class Space {
     return filters_.change(slot);
   }
 
-  /// The boxes of ids from this one on are about to go.
+  /// Room for all ids to be deleted, where events have to know of it.
+  COLD void room_to_forget() {
+    u32 last = 0;
+    for (u32 s = 0; s < ids_.count(); s++) last = larger(last, ids_.id(s));
+    if (keeps_events) events.make_room(last);
+  }
+
+  /// The boxes of ids from this one on are about to go; there is room.
   COLD void forget_from(u32 first) {
     for (u32 s = 0; keeps_events && s < ids_.count(); s++) {
       if (ids_.id(s) >= first) events.forget(ids_.id(s));
@@ -384,8 +393,9 @@ template <int D> class Space {
 
   /// The ids become 0 … count - 1; those that were there keep their filters.
   COLD void renumber(u32 count) {
-    forget_from(count);
+    room_to_forget();
     if (filters_.active()) filters_.renumber(ids_, count);
+    forget_from(count);
     ids_.reset(count);
   }
 
