@@ -9,6 +9,8 @@
 #include "index.hpp"
 #include "rounding.hpp"
 
+SMALL_CODE  // a question takes a microsecond and there are few: bytes count for more
+
 /// What a question is asked with.
 template <int D> struct Question {
   f64 lo[D] = {}, hi[D] = {};  // the box, or twice the point
@@ -294,3 +296,5 @@ template <int D> class Queries {
     }
   }
 };
+
+END_OF_SMALL_CODE
