@@ -90,6 +90,9 @@ function compile(bytes: BufferSource): WebAssembly.Module {
 
 /** Two lower-case digits a byte. In place, since this is the first thing a page waits for. */
 function decodeHex(digits: string): Uint8Array<ArrayBuffer> {
+  // Engines since 2025 have it built in.
+  const { fromHex } = Uint8Array as { fromHex?: (digits: string) => Uint8Array<ArrayBuffer> };
+  if (fromHex) return fromHex.call(Uint8Array, digits);
   const codes = new TextEncoder().encode(digits);
   const length = codes.length / 2;
   for (let k = 0; k < length; k++) {

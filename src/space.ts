@@ -46,7 +46,6 @@ export abstract class Space {
   protected pairView(views: Uint32Array[], address: number, count: number): Uint32Array {
     const at = address >>> 0; // a WebAssembly address is signed to JavaScript
     const { buffer } = this.kernel.memory;
-    at >>>= 0; // addresses beyond 2 GiB come as negative numbers
     let view = views[count % viewsKept];
     if (view?.buffer !== buffer || view.byteOffset !== at || view.length !== 2 * count) {
       view = new Uint32Array(buffer, at, 2 * count);
