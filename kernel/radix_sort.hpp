@@ -1,4 +1,4 @@
-// Sorts keys of 32 bits, floats among them: least significant digit first, three passes of 11 bits.
+// Sorts keys, floats or unsigned integers: least significant digit first, three passes of 11 bits.
 // Cost: about 5 ns a key up to 100,000 keys, whatever their distribution; 16 bytes a key.
 #pragma once
 #include "heap.hpp"
@@ -29,6 +29,7 @@ class RadixSort {
 
   void put(u32 index, f32 x) { put_bits(index, ordered_bits(x)); }
 
+  /// The same for a key that is an unsigned integer.
   void put_bits(u32 index, u32 key) {
     from_[index] = {key, index};
     for (u32 p = 0; p < passes; p++) counts_[p * values + (key >> (p * digit) & (values - 1))]++;
@@ -54,6 +55,7 @@ class RadixSort {
   }
 
   u32 index(u32 rank) const { return from_[rank].index; }
+  u32 key(u32 rank) const { return from_[rank].key; }
 
   COLD void release() {
     from_.release();
