@@ -95,11 +95,13 @@ template <int D> class BspTree {
       return;
     }
     f32 share = (spare - f32(left + right - count)) / f32(left + right);
+    // Items that reach in from outside may draw the cut out of the region: a side of it is then empty.
+    f32 border = larger(region.low[cut.axis], smaller(region.high[cut.axis], cut.at));
     Region part = region;
-    part.high[cut.axis] = cut.at;
+    part.high[cut.axis] = border;
     node(1 - stack, free, first + right, left, share * f32(left), part, depth + 1, pairs);
     part = region;
-    part.low[cut.axis] = cut.at;
+    part.low[cut.axis] = border;
     node(stack, first, free, right, share * f32(right), part, depth + 1, pairs);
   }
 

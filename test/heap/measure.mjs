@@ -50,10 +50,10 @@ const uses = {
 // What is asked, and where the answers go, is kept: only the asking is measured.
 // (An array that becomes empty gives its memory back: where there may be no answer a visitor is asked.)
 const [inBox, inCircle, near] = Array.from({ length: 3 }, () => ({ out: [] }));
-let visited;
+const seen = { last: 0 };
 const atPoint = {
   visit: (id) => {
-    visited = id;
+    seen.last = id;
   },
 };
 const ray = { out: { id: 0, distance: 0, normal: [] } };
