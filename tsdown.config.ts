@@ -15,5 +15,6 @@ const beside: UserConfig = {
 export default defineConfig([
   { ...common, entry: { index: 'src/index.ts' }, copy: ['build/kernel.wasm'] },
   { ...common, ...beside, entry: { trace: 'src/trace/index.ts' } },
+  { ...common, ...beside, entry: { ro: 'src/ro/index.ts' } },
   { ...common, ...beside, entry: { cli: 'src/cli/index.ts' }, platform: 'node', dts: false, fixedExtension: false },
 ]);

@@ -3,7 +3,7 @@
 // The library knows boxes by small integers of the caller's choice. A world's _roIds only ever grow, so each entity
 // gets a slot here instead, and a slot that was given up is used again: memory follows the number of entities, however
 // many come and go. Everything but the search is linear in entities and pairs.
-import { type BroadPhaseOptions, BroadPhase as Space } from '../../index.ts';
+import { type BroadPhaseOptions, BroadPhase as Space } from 'broadphase';
 import type { Collidable } from '../aabb.ts';
 import type { Entity } from '../entity.ts';
 import { EntityList, type Pair } from './technique.ts';
