@@ -43,16 +43,19 @@ template <int D> void check_scenes() {
   }
 }
 
-/// Fresh arrays of every size: what is written past their ends is seen.
+/// Fresh arrays of every size, then of a smaller one: what is read or written past their ends is seen.
 template <int D> void check_every_count() {
   Random random(9);
   for (u32 count = 0; count < 180; count += count < 40 ? 1 : 7) {
     Boxes<D> boxes = spread<D>(random, count, 0, 50, 10);
-    PairList expected = pairs_of<D>(boxes);
+    Boxes<D> fewer(boxes.begin(), boxes.begin() + count / 4);
+    PairList expected = pairs_of<D>(boxes), expected_of_fewer = pairs_of<D>(fewer);
     each_technique([&](Technique technique) {
       auto instance = open<D>(technique);
       replace(instance->space, boxes, true);
       check_pairs(instance->space, expected);
+      replace(instance->space, fewer, true);
+      check_pairs(instance->space, expected_of_fewer);
     });
   }
 }
@@ -114,21 +117,28 @@ template <int D> void check_corpus() {
   }
 }
 
-/// From any scene to any other in one space, and from any technique to any other.
+/// From any scene to any other in one space: with one technique, and with another each time.
 template <int D> void check_switches() {
   Random random(11);
-  auto instance = open<D>(Technique::automatic);
   const auto& all = scenes<D>();
   std::vector<PairList> expected;
   for (const auto& scene : all) expected.push_back(pairs_of<D>(scene.boxes));
-  for (u32 k = 0; k < 150; k++) {
+  auto go = [&](Space<D>& space) {
     u32 n = random.below(u32(all.size()));
     testing::Where where(all[n].name);
-    instance->space.technique = Technique(random.below(technique_count));
-    replace(instance->space, all[n].boxes, true);
-    instance->space.update();
-    CHECK(sorted_pairs(instance->space) == expected[n]);
-  }
+    replace(space, all[n].boxes, true);
+    space.update();
+    CHECK(sorted_pairs(space) == expected[n]);
+  };
+  auto any = open<D>(Technique::automatic);
+  each_technique([&](Technique technique) {
+    auto one = open<D>(technique);
+    for (u32 k = 0; k < 40; k++) go(one->space);
+    for (u32 k = 0; k < 10; k++) {
+      any->space.technique = Technique(random.below(technique_count));
+      go(any->space);
+    }
+  });
 }
 
 /// The order of the pairs follows from the calls alone.
