@@ -78,6 +78,7 @@ template <int D> class AabbTree {
         tree_.clear(place_[slot]);
         free_[free_count_++] = place_[slot];
       }
+      drop_candidates_from(n);
     }
     u64 kept = candidates_.count;
     f64 cost = look_cost * n;
@@ -190,6 +191,17 @@ template <int D> class AabbTree {
     for (u32 k = 0; k < n; k++) place_[tree_.slot(k)] = k;
     for (u32 k = 0; k < spare; k++) free_[k] = n + k;
     wear_ = 0;
+  }
+
+  /// Drops the candidates of slots that are gone: their boxes are no longer there to be tested.
+  COLD void drop_candidates_from(u32 slot) {
+    u64* list = candidates_.list.data();
+    u64 left = 0;
+    for (u64 k = 0; k < candidates_.count; k++) {
+      list[left] = list[k];
+      left += u32(list[k] >> 32) < slot;  // the larger slot stands in the upper half
+    }
+    candidates_.count = left;
   }
 
   /// Drops, of the first `kept` candidates, those of boxes that moved; reports all that overlap.
