@@ -1,20 +1,32 @@
 // The published package: ES modules with their types, and the kernel beside them for hosts that load it themselves.
 // Entries are built apart, so that who imports the library alone gets one file; to each other they are external.
+// There are two of the library, which differ in the kernel: the lean one, and `all`, with every technique. The others
+// use that one. Types are those of the lean one for both, so that a space of either can be passed on.
 import { defineConfig, type UserConfig } from 'tsdown';
+import { everyTechnique } from './scripts/every-technique.mjs';
 
-const common: UserConfig = { format: 'esm', platform: 'neutral', target: 'es2022', dts: true };
-const entries = { broadphase: './index.js', 'broadphase/trace': './trace.js' };
+const common: UserConfig = { format: 'esm', platform: 'neutral', target: 'es2022', clean: false };
+const types: UserConfig = { ...common, dts: { emitDtsOnly: true } };
 
-/** An entry that imports others of this package by their names, and finds them beside itself. */
-const beside: UserConfig = {
-  deps: { neverBundle: Object.keys(entries) },
-  outputOptions: { paths: entries },
-  clean: false,
+/** For entries that import others of this package by their names, and find them beside themselves. */
+const beside = (library: string): UserConfig => {
+  const entries = { broadphase: library, 'broadphase/trace': './trace.js' };
+  return { deps: { neverBundle: Object.keys(entries) }, outputOptions: { paths: entries } };
 };
 
 export default defineConfig([
-  { ...common, entry: { index: 'src/index.ts' }, copy: ['build/kernel.wasm'] },
-  { ...common, ...beside, entry: { trace: 'src/trace/index.ts' } },
-  { ...common, ...beside, entry: { ro: 'src/ro/index.ts' } },
-  { ...common, ...beside, entry: { cli: 'src/cli/index.ts' }, platform: 'node', dts: false, fixedExtension: false },
+  { ...common, dts: true, clean: true, entry: { index: 'src/index.ts' }, copy: ['build/kernel.wasm'] },
+  { ...common, dts: false, entry: { all: 'src/index.ts' }, plugins: [everyTechnique] },
+  ...['trace', 'ro'].flatMap((name): UserConfig[] => [
+    { ...common, ...beside('./all.js'), dts: false, entry: { [name]: `src/${name}/index.ts` } },
+    { ...types, ...beside('./index.js'), entry: { [name]: `src/${name}/index.ts` } },
+  ]),
+  {
+    ...common,
+    ...beside('./all.js'),
+    entry: { cli: 'src/cli/index.ts' },
+    platform: 'node',
+    dts: false,
+    fixedExtension: false,
+  },
 ]);

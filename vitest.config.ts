@@ -1,9 +1,11 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
+import { everyTechnique } from './scripts/every-technique.mjs';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 
 export default defineConfig({
+  plugins: [everyTechnique],
   resolve: {
     alias: {
       'broadphase/ro': path('./src/ro/index.ts'),

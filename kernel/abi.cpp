@@ -91,6 +91,8 @@ EXPORT(split)(u32 red) -> void {
   });
 }
 
+/// Which techniques there are: a bit for each, in the order of their names.
+EXPORT(techniques)() -> u32 { return built; }
 EXPORT(set_technique)(u32 technique) -> void {
   with_space([&](auto& space) {
     space.technique = Technique(technique);

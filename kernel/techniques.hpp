@@ -1,5 +1,8 @@
 // The techniques of one space, by name. A new one is a header in techniques/, and four lines here.
+// A build may leave some out: TECHNIQUES has a bit for each that it has, in the order of the enumeration.
 #pragma once
+#include <type_traits>
+
 #include "techniques/aabb_tree.hpp"
 #include "techniques/brute_force.hpp"
 #include "techniques/bsp_tree.hpp"
@@ -28,34 +31,48 @@ enum class Technique : u32 {
   automatic,
 };
 
+#if !defined(TECHNIQUES)
+#define TECHNIQUES ~0u
+#endif
+inline constexpr u32 built = TECHNIQUES & ((2u << u32(Technique::automatic)) - 1);
+
+/// Stands in the place of a technique that is not built: nobody asks for it.
+struct LeftOut {};
+
+template <Technique name, class Kind>
+using IfBuilt = std::conditional_t<(built >> u32(name) & 1) != 0, Kind, LeftOut>;
+
 template <int D> class Techniques {
-  BruteForce<D> brute_force_;
-  SpatialGrid<D> spatial_grid_;
-  RetainedGrid<D> retained_grid_;
-  HomeCellGrid<D> home_cell_grid_;
-  HierarchicalGrid<D> hierarchical_grid_;
-  SweepAndPrune<D> sweep_and_prune_;
-  StripSweep<D> strip_sweep_;
-  Quadtree<D> quadtree_;
-  BspTree<D> bsp_tree_;
-  RTree<D> r_tree_;
-  AabbTree<D> aabb_tree_;
+  IfBuilt<Technique::brute_force, BruteForce<D>> brute_force_;
+  IfBuilt<Technique::spatial_grid, SpatialGrid<D>> spatial_grid_;
+  IfBuilt<Technique::retained_grid, RetainedGrid<D>> retained_grid_;
+  IfBuilt<Technique::home_cell_grid, HomeCellGrid<D>> home_cell_grid_;
+  IfBuilt<Technique::hierarchical_grid, HierarchicalGrid<D>> hierarchical_grid_;
+  IfBuilt<Technique::sweep_and_prune, SweepAndPrune<D>> sweep_and_prune_;
+  IfBuilt<Technique::strip_sweep, StripSweep<D>> strip_sweep_;
+  IfBuilt<Technique::quadtree, Quadtree<D>> quadtree_;
+  IfBuilt<Technique::bsp_tree, BspTree<D>> bsp_tree_;
+  IfBuilt<Technique::r_tree, RTree<D>> r_tree_;
+  IfBuilt<Technique::aabb_tree, AabbTree<D>> aabb_tree_;
+
+  template <class What, class Kind> static void call(What& what, Kind& kind) { what(kind); }
+  template <class What> static void call(What&, LeftOut&) {}
 
  public:
-  /// Calls `what` with the technique of that name, which must not be `automatic`.
+  /// Calls `what` with the technique of that name, which must be built in and not `automatic`.
   template <class What> void with(Technique name, What what) {
     switch (name) {
-      case Technique::brute_force: return what(brute_force_);
-      case Technique::spatial_grid: return what(spatial_grid_);
-      case Technique::retained_grid: return what(retained_grid_);
-      case Technique::home_cell_grid: return what(home_cell_grid_);
-      case Technique::hierarchical_grid: return what(hierarchical_grid_);
-      case Technique::sweep_and_prune: return what(sweep_and_prune_);
-      case Technique::quadtree: return what(quadtree_);
-      case Technique::bsp_tree: return what(bsp_tree_);
-      case Technique::r_tree: return what(r_tree_);
-      case Technique::aabb_tree: return what(aabb_tree_);
-      default: return what(strip_sweep_);
+      case Technique::brute_force: return call(what, brute_force_);
+      case Technique::spatial_grid: return call(what, spatial_grid_);
+      case Technique::retained_grid: return call(what, retained_grid_);
+      case Technique::home_cell_grid: return call(what, home_cell_grid_);
+      case Technique::hierarchical_grid: return call(what, hierarchical_grid_);
+      case Technique::sweep_and_prune: return call(what, sweep_and_prune_);
+      case Technique::quadtree: return call(what, quadtree_);
+      case Technique::bsp_tree: return call(what, bsp_tree_);
+      case Technique::r_tree: return call(what, r_tree_);
+      case Technique::aabb_tree: return call(what, aabb_tree_);
+      default: return call(what, strip_sweep_);
     }
   }
 };

@@ -1,1 +1,3 @@
-export function bundle(entry: string, output: string): Promise<string>;
+import type { Plugin } from 'vite';
+
+export function bundle(entry: string, output: string, plugins?: Plugin[]): Promise<string>;

@@ -1,17 +1,22 @@
 // Bundles a TypeScript entry of the repository into one module that Node can run; about half a second.
 import { fileURLToPath } from 'node:url';
 import { build } from 'vite';
+import { everyTechnique } from './every-technique.mjs';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
 
-/** Both paths are relative to the repository. Returns the path of what was written. */
-export async function bundle(entry, output) {
+/**
+ * Both paths are relative to the repository. Returns the path of what was written.
+ * @param plugins `[]`: with the techniques of `import 'broadphase'` alone
+ */
+export async function bundle(entry, output, plugins = [everyTechnique]) {
   const slash = output.lastIndexOf('/');
   await build({
     root,
     configFile: false,
     logLevel: 'warn',
     publicDir: false,
+    plugins,
     resolve: { alias: { broadphase: `${root}src/index.ts` } },
     build: {
       ssr: entry,

@@ -40,8 +40,28 @@ export function kernelSources(folder = join(root, 'kernel')) {
     .sort();
 }
 
+/** What `import 'broadphase'` brings; 'broadphase/all' has every technique. */
+export const lean = ['brute-force', 'strip-sweep', 'auto'];
+
+/** The techniques in the order of their bits, which is that of BroadPhase.techniques. */
+export function techniqueNames() {
+  const header = readFileSync(join(root, 'kernel/techniques.hpp'), 'utf8');
+  const [, names] = /enum class Technique : u32 \{([^}]*)\}/.exec(header);
+  return names.split(',').flatMap((name) => name.trim().replaceAll('_', '-').replace('automatic', 'auto') || []);
+}
+
+/** The flag that leaves out all techniques but these. */
+export function only(techniques) {
+  const names = techniqueNames();
+  const bits = techniques.reduce((bits, technique) => {
+    if (!names.includes(technique)) throw new Error(`there is no technique ${technique}, expected one of ${names}`);
+    return bits | (1 << names.indexOf(technique));
+  }, 0);
+  return `-DTECHNIQUES=${bits}`;
+}
+
 /** The wasm made from one source file, given by its path relative to the root, and the kernel's headers. */
-export async function compile(entry) {
+export async function compile(entry, more = []) {
   const { runClang } = await import('@yowasp/clang');
   const tree = {};
   for (const file of new Set([...kernelSources(), entry])) {
@@ -52,7 +72,7 @@ export async function compile(entry) {
     folder[name] = readFileSync(join(root, file), 'utf8');
   }
   // The compiler prints its diagnostics itself; its exit is an exception that carries the whole file tree.
-  const output = await runClang(['clang++', ...flags, '-o', 'out.wasm', entry], tree, {
+  const output = await runClang(['clang++', ...flags, ...more, '-o', 'out.wasm', entry], tree, {
     fetchProgress: () => {},
   }).catch((error) => {
     throw new Error(`${entry} was not compiled (${error.message})`);

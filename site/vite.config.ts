@@ -3,6 +3,7 @@
 // and SharedArrayBuffer exists.
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
+import { everyTechnique } from '../scripts/every-technique.mjs';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 const headers = {
@@ -13,6 +14,7 @@ const headers = {
 export default defineConfig({
   root: path('.'),
   base: './',
+  plugins: [everyTechnique],
   resolve: { alias: { 'broadphase/ro': path('../src/ro/index.ts'), broadphase: path('../src/index.ts') } },
   build: {
     target: 'es2022',

@@ -2,6 +2,7 @@
 // All state lives in the kernel's memory (kernel/space.hpp); this file checks what comes in, passes it on, and
 // gives views of what comes out. Nothing here runs once per box or per pair of an update.
 import { badBox, badCount, badId, badQuestion, badValue, checkBits, maxId, noBox, sweep2, sweep3 } from './errors.ts';
+import { builtTechniques } from './kernel.ts';
 import { Queries } from './queries.ts';
 import { type Watcher, watch } from './watch.ts';
 
@@ -23,6 +24,7 @@ export interface BroadPhaseOptions {
   capacity?: number;
 }
 
+/** All that there are, in the order of the kernel's numbers. */
 const techniques = [
   'brute-force',
   'spatial-grid',
@@ -89,8 +91,13 @@ export let splitColours: (space: BroadPhase, red: number) => void;
  * space.pairs; // Uint32Array [7, 9]
  */
 export class BroadPhase extends Queries {
-  /** The names of the techniques, in order. */
-  static readonly techniques: readonly TechniqueName[] = techniques;
+  /**
+   * The names of the techniques there are, in order: with `import 'broadphase'` the few that games need, with
+   * `import 'broadphase/all'`, or after `init` with `broadphase/kernel.wasm`, every one.
+   */
+  static get techniques(): readonly TechniqueName[] {
+    return techniques.filter((_, k) => isBuilt(k));
+  }
 
   #statsView = new Float64Array();
   readonly #stagedViews: (Float32Array | Float64Array)[] = [];
@@ -608,9 +615,13 @@ function noEvents(what: string): never {
   throw new Error(`${what}: this space keeps no events, expected one made with new BroadPhase({ events: true })`);
 }
 
+const isBuilt = (technique: number): boolean => (builtTechniques() & (1 << technique)) !== 0;
+
 function checkTechnique(name: unknown): void {
-  if (techniques.includes(name as TechniqueName)) return;
-  badValue('technique', name, `one of ${techniques.join(', ')}`, typeof name !== 'string');
+  const technique = techniques.indexOf(name as TechniqueName);
+  if (technique >= 0 && isBuilt(technique)) return;
+  const more = technique < 0 ? '' : ": for the others, import from 'broadphase/all'";
+  badValue('technique', name, `one of ${BroadPhase.techniques.join(', ')}${more}`, typeof name !== 'string');
 }
 
 function checkBoxCount(what: string, count: unknown): void {

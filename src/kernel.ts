@@ -1,7 +1,8 @@
 // Loads the kernel: one WebAssembly module for all spaces, one instance with its own memory for each.
-// The module is inlined as hexadecimal digits and compiled on first use, synchronously, so that `new BroadPhase()` works
-// everywhere without waiting; `init` is for hosts that forbid that or want to load the bytes themselves.
-import { kernelHex } from './generated/kernel-wasm.ts';
+// The module is inlined as text and compiled on first use, synchronously, so that `new BroadPhase()` works everywhere
+// without waiting; `init` is for hosts that forbid that or want to load the bytes themselves. Builds of the library
+// with all techniques take the other text (scripts/every-technique.mjs).
+import * as kernel from './generated/kernel-lean.ts';
 
 /** The exported functions of kernel/abi.cpp. Addresses come as signed numbers: `>>> 0` those that can be beyond 2 GiB. */
 export interface KernelExports {
@@ -28,6 +29,7 @@ export interface KernelExports {
   expose(count: number): number;
   staged_number(index: number, doubles: number): number;
   split(red: number): void;
+  techniques(): number;
   set_technique(technique: number): void;
   update(): number;
   pairs_address(): number;
@@ -52,11 +54,12 @@ export interface KernelExports {
 }
 
 let module: WebAssembly.Module | undefined;
+let techniques = 0;
 
 /**
  * Gives the library its kernel, once, before the first `new BroadPhase()`. Not needed where WebAssembly may be
  * compiled synchronously from inlined bytes, which is nearly everywhere; meant for pages with a strict content
- * security policy and for hosts that load modules their own way.
+ * security policy and for hosts that load modules their own way. `broadphase/kernel.wasm` has every technique.
  *
  * @param source the bytes of `broadphase/kernel.wasm`, or a module compiled from them
  * @throws TypeError where it is neither
@@ -65,12 +68,19 @@ export function init(source: WebAssembly.Module | BufferSource): void {
   if (source instanceof WebAssembly.Module) module = source;
   else if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) module = compile(source);
   else throw new TypeError(`init: got ${String(source)}, expected a WebAssembly.Module or the bytes of one`);
+  techniques = 0;
 }
 
 /** A fresh kernel with memory of its own. */
 export function instantiate(): KernelExports {
-  module ??= compile(decodeHex(kernelHex));
+  module ??= compile(read(kernel));
   return new WebAssembly.Instance(module).exports as unknown as KernelExports;
+}
+
+/** Which techniques the kernel has: a bit for each. */
+export function builtTechniques(): number {
+  techniques ||= instantiate().techniques();
+  return techniques;
 }
 
 function compile(bytes: BufferSource): WebAssembly.Module {
@@ -88,16 +98,31 @@ function compile(bytes: BufferSource): WebAssembly.Module {
   }
 }
 
-/** Two lower-case digits a byte. In place, since this is the first thing a page waits for. */
-function decodeHex(digits: string): Uint8Array<ArrayBuffer> {
-  // Engines since 2025 have it built in.
-  const { fromHex } = Uint8Array as { fromHex?: (digits: string) => Uint8Array<ArrayBuffer> };
-  if (fromHex) return fromHex.call(Uint8Array, digits);
-  const codes = new TextEncoder().encode(digits);
-  const length = codes.length / 2;
+/**
+ * The bytes that scripts/inline.mjs has written as text. The first characters of the alphabet begin a pair; the others
+ * stand for the bytes in `order`, two hexadecimal digits each. In place, since this is the first thing a page waits for.
+ */
+function read({ alphabet, order, text }: typeof kernel): Uint8Array<ArrayBuffer> {
+  const single = order.length / 2;
+  const { length } = alphabet;
+  const found = new Set<number>();
+  for (let k = 0; k < single; k++) found.add(Number.parseInt(order.slice(2 * k, 2 * k + 2), 16));
+  for (let byte = 0; byte < 256; byte++) found.add(byte);
+  const bytes = Uint8Array.from(found);
+  // By character: its byte, or minus the place of the first byte of which it is half; and its place in the alphabet.
+  const first = new Int16Array(128);
+  const second = new Uint8Array(128);
+  const prefixes = length - single;
   for (let k = 0; k < length; k++) {
-    // '0' is 48 and 'a' is 97: modulo 39 they are 9 and 19, ten apart.
-    codes[k] = ((codes[2 * k]! % 39) - 9) * 16 + (codes[2 * k + 1]! % 39) - 9;
+    const code = alphabet.charCodeAt(k);
+    first[code] = k < prefixes ? -(single + k * length) : bytes[k - prefixes]!;
+    second[code] = k;
   }
-  return codes.subarray(0, length);
+  const codes = new TextEncoder().encode(text);
+  let to = 0;
+  for (let from = 0; from < codes.length; from++) {
+    const byte = first[codes[from]!]!;
+    codes[to++] = byte < 0 ? bytes[second[codes[++from]!]! - byte]! : byte;
+  }
+  return codes.subarray(0, to);
 }

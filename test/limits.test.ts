@@ -1,14 +1,15 @@
 // Where memory ends and where it moves: what does not fit is a RangeError that says so, after which the same object goes
 // on with fewer boxes; a view that growing memory has cut off is never written to unnoticed.
+import { readFileSync } from 'node:fs';
 import { BroadPhase, init } from 'broadphase';
 import { beforeAll, describe, expect, test } from 'vitest';
-import { kernelHex } from '../src/generated/kernel-wasm.ts';
 
 const mebibyte = 2 ** 20;
+const kernel = readFileSync(new URL('../build/kernel.wasm', import.meta.url));
 
 /** The kernel, with a limit to its memory, so that running out of it takes milliseconds. */
 function kernelWith(bytes: number): Uint8Array<ArrayBuffer> {
-  const wasm = Uint8Array.from(Buffer.from(kernelHex, 'hex'));
+  const wasm = Uint8Array.from(kernel);
   const read = (at: number): [value: number, next: number] => {
     let value = 0;
     for (let shift = 0; ; shift += 7) {
@@ -102,7 +103,7 @@ describe('with 64 MiB of memory', () => {
 
 // Takes 4 GiB and half a minute, so only where it is asked for: LARGE_MEMORY=1.
 describe.runIf(process.env.LARGE_MEMORY)('with all memory that WebAssembly allows', () => {
-  beforeAll(() => init(Buffer.from(kernelHex, 'hex')));
+  beforeAll(() => init(kernel));
 
   test('pairs and boxes are found beyond the first 2 GiB', { timeout: 300_000 }, () => {
     const count = 25_000;

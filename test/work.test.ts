@@ -53,9 +53,9 @@ describe.each(BroadPhase.techniques)('%s does no more work than before', (techni
   });
 });
 
-test('the kernel is no larger than before', () => {
-  const wasm = readFileSync(fileURLToPath(new URL('../build/kernel.wasm', import.meta.url))).length;
-  compare('kernel', { wasm });
+test.each(['kernel', 'kernel-lean'])('the %s is no larger than before', (name) => {
+  const wasm = readFileSync(fileURLToPath(new URL(`../build/${name}.wasm`, import.meta.url))).length;
+  compare(name, { wasm });
 });
 
 afterAll(() => {

@@ -1,0 +1,32 @@
+// Bytes as text for a JavaScript string, so that a compressor finds as much in the text as in the bytes.
+// Idea: bytes that occur often become one character each, the others two, of which the first is one of a few that
+// stand for nothing else. What repeats in the bytes thus repeats in the text, and no character needs an escape,
+// neither in a string, nor in HTML, nor in any encoding of the page. src/kernel.ts reads it.
+
+/** All of ASCII that can be seen, but what means something in strings and in HTML. */
+const characters = Array.from({ length: 94 }, (_, k) => String.fromCharCode(33 + k)).filter(
+  (character) => !'\'"`\\$<&'.includes(character),
+);
+/** So many of them begin a pair. */
+const prefixes = 3;
+
+/** `order`: the bytes of single characters, two hexadecimal digits each; `text`: what stands for the bytes. */
+export function inline(bytes) {
+  const counts = new Uint32Array(256);
+  for (const byte of bytes) counts[byte]++;
+  const { length } = characters;
+  const single = length - prefixes;
+  const order = Uint8Array.from(counts.keys()).sort((a, b) => counts[b] - counts[a] || a - b);
+  order.subarray(single).sort(); // so that they need not be told
+  const written = [];
+  for (const [k, byte] of order.entries()) {
+    const pair = k - single;
+    written[byte] =
+      pair < 0 ? characters[prefixes + k] : characters[Math.floor(pair / length)] + characters[pair % length];
+  }
+  return {
+    alphabet: characters.join(''),
+    order: Buffer.from(order.subarray(0, single)).toString('hex'),
+    text: Array.from(bytes, (byte) => written[byte]).join(''),
+  };
+}
