@@ -5,7 +5,7 @@
 // three questions at once: did both continue into this cell from an earlier one (then they have met there), are
 // both static, are both of one colour (bipartite search).
 #pragma once
-#include "heap.hpp"
+#include "changes.hpp"
 
 inline constexpr u32 slot_mask = 0x00ffffff;
 inline constexpr u32 max_slots = 1u << 24;
@@ -22,6 +22,7 @@ template <int D> struct Scene {
   const f32* boxes;  // D minima, then D maxima, per slot
   u32 count;
   const u32* excluded;  // exclusion bits per slot, or null where no slot has any
+  const Changes* changes = nullptr;  // what may differ from the last update; null: all
 };
 
 /// Which axis stands where in an item: axis[0] is swept, the others are binned.

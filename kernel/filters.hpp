@@ -52,6 +52,7 @@ class Filters {
 
  public:
   bool active() const { return active_; }
+  bool changed() const { return active_ && changed_; }
   /// Per slot, while active.
   const Rule* rules() const { return rules_.data(); }
 

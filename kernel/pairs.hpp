@@ -7,6 +7,7 @@
 struct Pairs {
   Buffer<u64> list;  // in memory: slot a, slot b, slot a, …
   u64 count = 0;
+  u64 kept = 0;  // the first so many stand as the incremental technique left them, for it to leave them again
 
   static constexpr u64 slack = 4;  // the compress-store writes up to four pairs past the end
 

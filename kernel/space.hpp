@@ -29,8 +29,10 @@ template <int D> class Space {
   bool rounding_ = false;
   bool exposed_ = false;  // `boxes()` has handed out the memory: look for bad numbers at the next update
   Filters filters_;
+  Changes changes_;  // since the last update, for the technique that asks
   Techniques<D> techniques_;
   Technique ran_ = Technique::brute_force;
+  u32 seen_ = 0;  // boxes in the last update
   // Made of the pairs at the first question after an update.
   PairTable table_;
   Neighbours neighbours_;
@@ -73,6 +75,7 @@ template <int D> class Space {
       slot = ids_.insert(id);
       if (filters_.active()) filters_.insert(slot);
     }
+    changes_.note(slot);
     __builtin_memcpy(boxes_.data() + u64(slot) * width, low_high, sizeof(low_high));
     if (rounding_) {
       __builtin_memcpy(exact_.data() + u64(slot) * width, box, width * sizeof(f64));
@@ -90,6 +93,7 @@ template <int D> class Space {
     u32 last = ids_.count();
     if (filters_.active()) filters_.move(last, slot);
     if (slot == last) return true;
+    changes_.note(slot);
     __builtin_memcpy(boxes_.data() + u64(slot) * width, boxes_.data() + u64(last) * width, width * sizeof(f32));
     if (rounding_) {
       __builtin_memcpy(exact_.data() + u64(slot) * width, exact_.data() + u64(last) * width, width * sizeof(f64));
@@ -111,6 +115,7 @@ template <int D> class Space {
     forget_from(0);
     ids_.reset(0);
     filters_.clear();
+    changes_.note_all();
     exposed_ = rounding_ = false;
   }
 
@@ -196,21 +201,30 @@ template <int D> class Space {
       i32 bad = first_bad(boxes_.data(), ids_.count());
       if (bad >= 0) return i32(ids_.id(u32(bad)));  // since it was written, a removal may have moved it
     }
-    Scene<D> scene{boxes_.data(), ids_.count(), nullptr};
+    Technique chosen = choose();
+    bool follows = chosen == Technique::incremental;
+    if (exposed_) changes_.note_all();
+    if (follows && chosen == ran_ && changes_.none() && ids_.count() == seen_ && !filters_.changed()) return rest();
+    Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr};
     if (filters_.active()) {
+      bool others = filters_.changed();
       scene.boxes = filters_.select(scene.boxes, scene.count, width);
       scene.excluded = filters_.excluded();
+      if (others || scene.boxes != boxes_.data()) scene.changes = nullptr;
     }
     pairs.count = 0;
     stats = Stats{};
-    Technique chosen = technique;
-    if (chosen == Technique::automatic) {
-      chosen = scene.count <= handful ? Technique::brute_force : Technique::strip_sweep;
+    if (chosen != ran_) {
+      release_techniques();
+      pairs.kept = 0;
     }
-    if (chosen != ran_) release_techniques();
     ran_ = chosen;
     techniques_.with(ran_, [&](auto& chosen) { chosen.update(scene, options_, pairs, stats); });
-    stats.candidates = f64(pairs.count);
+    if (filters_.active() || rounding_ || !ids_.same()) pairs.kept = 0;
+    if (follows) changes_.clear(ids_.count());
+    else changes_.note_all();
+    seen_ = ids_.count();
+    if (stats.candidates == 0) stats.candidates = f64(pairs.count);
     if (filters_.active()) filters_.finish(pairs);
     if (rounding_) retest();
     if (!ids_.same()) name_pairs();
@@ -331,6 +345,20 @@ template <int D> class Space {
   }
 
  private:
+  /// What `automatic` stands for now.
+  Technique choose() const {
+    if (technique != Technique::automatic) return technique;
+    return ids_.count() <= handful ? Technique::brute_force : Technique::incremental;
+  }
+
+  /// An update in which nothing has changed.
+  i32 rest() {
+    events.began.count = events.ended.count = 0;
+    updates++;
+    stats.tests = 0;
+    return -1;
+  }
+
   f64 number(u32 slot, u32 k) const {
     u64 at = u64(slot) * width + k;
     return rounding_ ? exact_[at] : f64(boxes_[at]);
@@ -354,6 +382,7 @@ template <int D> class Space {
   COLD void make_room(u64 count, u32 keep) {
     if (count > max_slots) fail(Fault::out_of_memory, f64(count) * width * sizeof(f32));
     boxes_.grow(count * width + padding, u64(keep) * width);
+    changes_.make_room(boxes_.capacity() / width);
     if (filters_.active()) filters_.make_room(count, keep);
     if (rounding_) {
       exact_.grow(count * width, u64(keep) * width);
@@ -393,6 +422,7 @@ template <int D> class Space {
 
   /// The ids become 0 … count - 1; those that were there keep their filters.
   COLD void renumber(u32 count) {
+    changes_.note_all();
     room_to_forget();
     if (filters_.active()) filters_.renumber(ids_, count);
     forget_from(count);

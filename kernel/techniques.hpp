@@ -8,6 +8,7 @@
 #include "techniques/bsp_tree.hpp"
 #include "techniques/hierarchical_grid.hpp"
 #include "techniques/home_cell_grid.hpp"
+#include "techniques/incremental.hpp"
 #include "techniques/quadtree.hpp"
 #include "techniques/r_tree.hpp"
 #include "techniques/retained_grid.hpp"
@@ -28,6 +29,7 @@ enum class Technique : u32 {
   bsp_tree,
   r_tree,
   aabb_tree,
+  incremental,
   automatic,
 };
 
@@ -37,7 +39,9 @@ enum class Technique : u32 {
 inline constexpr u32 built = TECHNIQUES & ((2u << u32(Technique::automatic)) - 1);
 
 /// Stands in the place of a technique that is not built: nobody asks for it.
-struct LeftOut {};
+struct LeftOut {
+  template <class... Any> constexpr LeftOut(Any&...) {}
+};
 
 template <Technique name, class Kind>
 using IfBuilt = std::conditional_t<(built >> u32(name) & 1) != 0, Kind, LeftOut>;
@@ -54,6 +58,7 @@ template <int D> class Techniques {
   IfBuilt<Technique::bsp_tree, BspTree<D>> bsp_tree_;
   IfBuilt<Technique::r_tree, RTree<D>> r_tree_;
   IfBuilt<Technique::aabb_tree, AabbTree<D>> aabb_tree_;
+  IfBuilt<Technique::incremental, Incremental<D>> incremental_{strip_sweep_};
 
   template <class What, class Kind> static void call(What& what, Kind& kind) { what(kind); }
   template <class What> static void call(What&, LeftOut&) {}
@@ -72,6 +77,7 @@ template <int D> class Techniques {
       case Technique::bsp_tree: return call(what, bsp_tree_);
       case Technique::r_tree: return call(what, r_tree_);
       case Technique::aabb_tree: return call(what, aabb_tree_);
+      case Technique::incremental: return call(what, incremental_);
       default: return call(what, strip_sweep_);
     }
   }

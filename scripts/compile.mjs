@@ -41,7 +41,7 @@ export function kernelSources(folder = join(root, 'kernel')) {
 }
 
 /** What `import 'broadphase'` brings; 'broadphase/all' has every technique. */
-export const lean = ['brute-force', 'strip-sweep', 'auto'];
+export const lean = ['brute-force', 'strip-sweep', 'incremental', 'auto'];
 
 /** The techniques in the order of their bits, which is that of BroadPhase.techniques. */
 export function techniqueNames() {

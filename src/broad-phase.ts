@@ -37,6 +37,7 @@ const techniques = [
   'bsp-tree',
   'r-tree',
   'aabb-tree',
+  'incremental',
   'auto',
 ] as const;
 

@@ -74,12 +74,13 @@ template <int D> class StripSweep {
   Buffer<Region> leaves_;  // the strips in use
   AxisOrder<D> order_ = {};
   u32 boxes_ = 0;
+  u32 entered_ = 0;  // entries of the outermost cut
   Stats* stats_ = nullptr;
 
  public:
   void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     stats_ = &stats;
-    boxes_ = scene.count;
+    boxes_ = entered_ = scene.count;
     if (scene.count < 2) return;
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     bool one_strip = scene.count < few;
@@ -106,6 +107,14 @@ template <int D> class StripSweep {
     for (u32 k = 0; k < scene.count; k++) all.put(k, items[k]);
     stats.entries = scene.count;
     list(all, scene.count, everywhere, scene.count, 0, pairs);
+  }
+
+  /// Calls `what` with the slot of each box of the last update once, those of a strip after those of the one before.
+  template <class What> void each_in_order(What what) const {
+    for (u32 k = 0; k < entered_; k++) {
+      u32 tag = tag_at(k);
+      if (!(tag & (continues_1 | continues_2))) what(tag & slot_mask);
+    }
   }
 
   /// The strips of the last update, as boxes in the world's axes; unbounded sides are infinite.
@@ -219,6 +228,7 @@ template <int D> class StripSweep {
     // next cut to spread it.
     bool pays = tests * 2 < f64(count) * count || (total - base) * 2 < count * 3;
     if (!pays || total > most_copies * boxes_) return false;
+    if (depth == 0) entered_ = u32(total);
     size_t source = place(items);
     entries_.grow(total, base);
     move(items, source);
@@ -260,6 +270,11 @@ template <int D> class StripSweep {
       begin = end;
     }
     return true;
+  }
+
+  u32 tag_at(u32 k) const {
+    if constexpr (D == 2) return entries_.tags[k];
+    else return bits<u32x4>(entries_.boxes[2 * u64(k)])[3];
   }
 
   // Items that are cut again stand in entries_ themselves, which may move when it grows.

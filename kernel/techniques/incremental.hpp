@@ -1,0 +1,1080 @@
+// Incremental: what the last updates have found out is kept, and an update costs what has changed.
+//
+// Idea: space is cut into cells of a few dozen boxes, once, by a k-d tree over a sample. A box that moves stands in
+// every cell it may come to in the next updates, as a fat box that reaches as far as its motion will take it. A cell
+// keeps the pairs of fat boxes that overlap in it: its candidates. While boxes stay in their fat ones, an update reads
+// where they are, cell by cell, and tests each candidate once. Two boxes can be candidates in several cells; the cell
+// that holds the larger of their two lower corners reports them.
+//   - Cells take turns: a few of them, in each update, give all their boxes new fat ones and collect their candidates
+//     anew. So nothing builds up, and no single update pays for all. A box that leaves its fat one before is served
+//     by itself.
+//   - A box that has not moved from one turn to the next rests. Pairs of boxes at rest are no candidates: they stand
+//     settled at the head of the list of pairs, which nobody touches until one of them moves.
+//   - Boxes that touch very many cells (the ground, a wall) stand in none and are tested against all that move.
+// All this is filled little by little, while strip-sweep gives the answers, and given up again where many boxes leave
+// their fat ones at once or where it does not pay.
+// Cost: about 3 ns a box that moves, 1.5 ns a candidate, and now and then 30 ns a box; memory about 110 (2D) or
+// 170 (3D) bytes a box that moves, half of it for one at rest.
+// Wins where boxes rest, or move slowly. Is strip-sweep where all jump, and costs up to 15 % more than it.
+// From: candidates kept with a margin, L. Verlet, "Computer Experiments on Classical Fluids", 1967; fat boxes, as in
+// the dynamic trees of Bullet and Box2D; k-d tree, J. Bentley, 1975. The combination is ours.
+#pragma once
+#include "strip_sweep.hpp"
+
+/// Fat boxes as structure of arrays that grow: minima, maxima, tags, then `more` rows of the owner's.
+/// Behind the last box the first row is NaN, which overlaps nothing, and no tag names a slot.
+template <int D, u32 more> struct FatRows {
+  static constexpr u32 width = 2 * D, height = width + 1 + more, padding = 8;
+  static constexpr u32 nowhere = 0xffffffff;
+  Buffer<f32> values;
+  u32 stride, count;
+
+  f32* row(u32 k) const { return values.data() + u64(k) * stride; }
+  u32* tags() const { return reinterpret_cast<u32*>(row(width)); }
+
+  LaneView<D> view() const {
+    LaneView<D> view;
+    for (int a = 0; a < D; a++) {
+      view.lo[a] = row(a);
+      view.hi[a] = row(D + a);
+    }
+    view.tag = tags();
+    return view;
+  }
+
+  void write(u32 at, const f32* box) const {
+    for (u32 k = 0; k < width; k++) row(k)[at] = box[k];
+  }
+
+  /// Adds a box; gives its place.
+  u32 put(const f32* box, u32 tag) {
+    if (count + padding >= stride) grow();
+    write(count, box);
+    tags()[count] = tag;
+    return count++;
+  }
+
+  /// Takes the box at a place away; the last one comes there.
+  void take(u32 at) {
+    u32 last = --count;
+    for (u32 k = 0; k < height; k++) row(k)[at] = row(k)[last];
+    row(0)[last] = __builtin_nanf("");
+    tags()[last] = slot_mask;
+  }
+
+  /// The place of a slot, or `nowhere`.
+  u32 find(u32 slot) const {
+    const u32* tag = tags();
+    for (u32 k = 0; k < count; k += 4) {
+      u32 same = bitmask(bits<i32x4>((load<u32x4>(tag + k) & splat(slot_mask)) == splat(slot)));
+      if (same) return k + u32(__builtin_ctz(same));
+    }
+    return nowhere;
+  }
+
+ private:
+  COLD void grow() {
+    u32 wider = (count + count / 2 + 2 * padding + 3) & ~3u;
+    Buffer<f32> rows;
+    rows.reserve(u64(wider) * height);
+    for (u32 k = 0; k < height && count > 0; k++) {
+      __builtin_memcpy(rows.data() + u64(k) * wider, row(k), count * sizeof(f32));
+    }
+    for (u32 k = count; k < wider; k++) {
+      rows[k] = __builtin_nanf("");
+      rows[u64(width) * wider + k] = bits<f32>(slot_mask);  // no box has this slot
+    }
+    values.swap(rows);
+    rows.release();
+    stride = wider;
+  }
+};
+
+template <int D> class Incremental {
+  static constexpr u32 width = 2 * D;
+  static constexpr u32 padding = 4;          // vector loads may read this many floats past the last box
+  static constexpr u32 rests = 1, waiting = 2, is_huge = 4;  // in a tag of ours, below the exclusion bits
+  static constexpr u32 few = 200;            // fewer boxes are not worth keeping anything
+  static constexpr u32 cell_boxes = D == 2 ? 40 : 60;  // at least so many to a cell, and less than twice as many
+  static constexpr u32 most_in_cell = 4096;  // where it comes to this, the cells are no good
+  static constexpr u32 samples_a_cell = 4, most_samples = 1 << 16;
+  static constexpr u32 huge_cells = 32;      // boxes that touch more cells than this are huge
+  static constexpr u32 most_huge = 64;
+  static constexpr u32 share = 60;           // one box in so many is served in an update while all is filled
+  static constexpr u32 ahead = 8;            // its motion is known from so many updates
+  static constexpr u32 late_share = 40;      // all is given up where one in so many leaves its fat box at once
+  static constexpr f32 least_period = 4, most_period = 64, growth = 1.15f;
+  static constexpr f32 still_for = 3;        // updates without motion after which a box rests
+  static constexpr u32 watched = 256;        // boxes whose motion is looked at before anything is kept
+  static constexpr f64 quick = 0.06;          // and how far of its size one may move in an update, on average
+  static constexpr u32 first_pause = 8, longest_pause = 256;
+  // What an update costs, in nanoseconds, to see whether keeping anything pays: an entry and a test of strip-sweep; a
+  // mover, and how much dearer it becomes where they are so many that they fill the caches; a candidate; a turn.
+  static constexpr f64 entry_cost = 20, test_cost = D == 2 ? 1.2 : 1.8;
+  static constexpr f64 mover_cost = 6, uncached_cost = 10, cached_movers = 40000, candidate_cost = 2, turn_cost = 50;
+
+  // Rows of a fat box that moves: where the box stood when it was made, and in which update that was.
+  static constexpr u32 from_row = width + 1, when_row = width + 1 + D;
+  using Movers = FatRows<D, D + 1>;
+  using Stills = FatRows<D, 0>;
+
+  struct Cell {
+    f32 low[4], high[4];  // where a corner must be for this cell to report: at or above low, not at or above high
+    Movers movers;
+    Stills stills;
+    Buffer<f32> boxes;    // of the movers, as they are now
+    Buffer<u32> pairs;    // candidates among movers: one's place, the other's place << 16
+    Buffer<u64> edges;    // candidates of a mover with one at rest: the other's slot, its place << 32
+    u32 pair_count, edge_count;
+  };
+
+  struct Known {
+    f32 box[width];  // at rest, or where it was when it began to wait
+    f32 since;       // the update of that
+    u32 tag;         // exclusion bits, and those below them
+  };
+
+  StripSweep<D>& anew_;
+  Buffer<Cell> cells_;
+  Buffer<f32> cuts_;     // inner nodes of the tree, as in a heap: node k has the children 2 k and 2 k + 1
+  u8 axis_[32] = {};     // per level, along which axis it cuts
+  u32 leaves_ = 0;       // cells; 0: nothing is kept
+  u32 count_ = 0;        // boxes that are followed
+  u32 planned_ = 0;      // how many they were when the cells were made
+  Buffer<Known> known_;  // per slot
+  Buffer<u32> queue_;    // slots that wait to be put into cells
+  u32 queued_ = 0, resting_ = 0;
+  u32 unseen_ = 0;       // of those that wait, so many have not even been looked at
+  Buffer<u64> late_list_;  // movers that have left their fat boxes: slot, cell << 32
+  u32 late_count_ = 0;
+  u32 huge_[most_huge] = {};
+  u32 huge_count_ = 0;
+  Pairs settled_;
+  Buffer<u32> woken_;    // a bit per slot: it rested, and does no longer
+  bool any_woken_ = false;
+  bool excluding_ = false;  // boxes had exclusion bits
+  bool kept_ = false;    // the last update was answered from what is kept
+  u32 cursor_ = 0;       // the cell whose turn is next
+  f32 now_ = 0;          // updates, counted
+  f32 period_ = 16, target_ = 16;  // updates in which every cell has one turn, and what that is to become
+  f32 slack_ = 0.5f;     // fat boxes reach to all sides, in motions of one update
+  f64 moving_ = 0, candidates_ = 0, late_ = 0, turned_ = 0, motion_ = 0;  // of this update
+  f64 fresh_ = 0;        // what the last update cost that was answered by strip-sweep
+  u32 pause_ = 0, pauses_ = first_pause;  // updates left in which nothing is tried; how many the last pause had
+  Buffer<f32> watched_;  // boxes of the update before
+  u32 watching_ = 0;     // how many boxes there were then
+  Buffer<f32> sample_;
+
+ public:
+  constexpr explicit Incremental(StripSweep<D>& anew) : anew_(anew) {}
+#if !defined(__wasm__)
+  ~Incremental() { release(); }
+#endif
+
+  void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+    u32 n = scene.count;
+    now_ += 1;
+    if (leaves_ > 0 && (n < few || n > 2 * planned_ || 4 * n < planned_)) forget();
+    pairs.count = 0;
+    moving_ = candidates_ = late_ = turned_ = motion_ = 0;
+    if (leaves_ > 0) {
+      follow(scene, pairs);
+      serve(scene, options, stats);
+      if (leaves_ > 0 && queued_ == 0) {
+        take_turns(scene, options, stats);
+        if (leaves_ > 0 && pays()) report(scene, options, pairs, stats);
+      }
+    }
+    kept_ = leaves_ > 0 && queued_ == 0;
+    if (kept_) return balance(f64(pairs.count - settled_.count));
+    stats = Stats{};
+    pairs.count = pairs.kept = 0;
+    anew_.update(scene, options, pairs, stats);
+    fresh_ = entry_cost * stats.entries + test_cost * stats.tests;
+    if (leaves_ == 0 && n >= few && steady(scene)) plan(scene);
+  }
+
+  /// The cells, or the strips.
+  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+    if (!kept_) return anew_.structure(boxes, count, stats);
+    count = leaves_;
+    boxes.reserve(u64(leaves_) * width);
+    for (u32 k = 0; k < leaves_; k++) {
+      for (int a = 0; a < D; a++) {
+        boxes[k * width + a] = cells_[k].low[a];
+        f32 high = cells_[k].high[a];
+        boxes[k * width + D + a] = high == high ? high : __builtin_inff();
+      }
+    }
+  }
+
+  COLD void release() {
+    forget();
+    cells_.release();
+    cuts_.release();
+    known_.release();
+    queue_.release();
+    late_list_.release();
+    settled_.list.release();
+    woken_.release();
+    watched_.release();
+    sample_.release();
+    pause_ = 0;
+    pauses_ = first_pause;
+    anew_.release();
+  }
+
+ private:
+  f32* last(u32 slot) const { return known_[slot].box; }
+  static const f32* box_of(const Scene<D>& scene, u32 slot) { return scene.boxes + u64(slot) * width; }
+  static u32 excluded_of(const Scene<D>& scene, u32 slot) { return scene.excluded ? scene.excluded[slot] : 0; }
+
+  static bool touch(const f32* one, const f32* other) {
+    u32 both = bitmask((load<f32x4>(one) <= load<f32x4>(other + D)) & (load<f32x4>(other) <= load<f32x4>(one + D)));
+    return !(~both & ((1 << D) - 1));
+  }
+  static bool equal(const f32* a, const f32* b) {
+    u32 both = bitmask((load<f32x4>(a) == load<f32x4>(b)) & (load<f32x4>(a + D) == load<f32x4>(b + D)));
+    return !(~both & ((1 << D) - 1));
+  }
+
+  /// Gives up what is kept, but for the memory of what is per slot.
+  COLD void forget() {
+    for (u32 c = 0; c < leaves_; c++) {
+      cells_[c].movers.values.release();
+      cells_[c].stills.values.release();
+      cells_[c].boxes.release();
+      cells_[c].pairs.release();
+      cells_[c].edges.release();
+    }
+    leaves_ = count_ = queued_ = unseen_ = resting_ = huge_count_ = watching_ = 0;
+    settled_.count = 0;
+    any_woken_ = kept_ = false;
+    pause_ = pauses_ = smaller(longest_pause, pauses_ * 2);
+  }
+
+  /// Whether boxes move so little from one update to the next that keeping things may pay, by a few of them.
+  COLD bool steady(const Scene<D>& scene) {
+    if (pause_ > 0) {
+      pause_--;
+      return false;
+    }
+    u32 n = scene.count, many = smaller(n, watched), stride = n / many;
+    f32* before = watched_.reserve(watched * width + padding);
+    f64 moved = 0;
+    bool known = watching_ == n;
+    for (u32 k = 0; k < many; k++) {
+      const f32* box = box_of(scene, k * stride);
+      if (known) moved += pace(box, before + k * width, 1);
+      __builtin_memcpy(before + k * width, box, width * sizeof(f32));
+    }
+    watching_ = n;
+    return known && moved < quick * many;
+  }
+
+  /// How far a box moved in an update, as a share of its size, at most 1.
+  static f64 pace(const f32* box, const f32* low, f32 updates) {
+    f64 most = 0;
+    for (int a = 0; a < D; a++) {
+      f64 step = (f64(box[a]) - low[a]) / updates, size = f64(box[D + a]) - box[a];
+      if (step < 0) step = -step;
+      if (step > 0) most = larger(most, step < size ? step / size : 1);
+    }
+    return most;
+  }
+
+  // --- the cells ---
+
+  /// Cuts space into cells, still empty: all boxes wait to be put in.
+  COLD void plan(const Scene<D>& scene) {
+    u32 n = scene.count, levels = 0;
+    while ((n >> (levels + 1)) >= cell_boxes) levels++;
+    u32 leaves = 1u << levels;
+    Statistics<D> world = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, n);
+    f64 length[D];
+    for (int a = 0; a < D; a++) {
+      f64 extent = world.high[a] - world.low[a];
+      length[a] = extent > 0 ? extent / larger(world.size[a], extent * 1e-7) : 0;
+    }
+    for (u32 l = 0; l < levels; l++) {
+      int longest = 0;
+      for (int a = 1; a < D; a++) {
+        if (length[a] > length[longest]) longest = a;
+      }
+      axis_[l] = u8(longest);
+      length[longest] /= 2;
+    }
+    // The lower corners of a sample are cut in halves again and again.
+    u32 samples = smaller(n, smaller(leaves * samples_a_cell, most_samples));
+    f32* sample = sample_.reserve(u64(samples) * D);
+    u32 stride = n / samples, jitter = 0x9e3779b9;
+    for (u32 k = 0; k < samples; k++) {
+      jitter = jitter * 1664525 + 1013904223;
+      u32 slot = k * stride + u32((u64(jitter) * stride) >> 32);
+      for (int a = 0; a < D; a++) sample[k * D + a] = box_of(scene, slot)[a];
+    }
+    cuts_.reserve(leaves);
+    cells_.reserve(leaves);
+    u64 room = u64(n) + n / 4;
+    known_.reserve(room);
+    queue_.reserve(room);
+    settled_.list.reserve(Pairs::slack);
+    woken_.reserve(room / 32 + 1);
+    __builtin_memset(woken_.data(), 0, (room / 32 + 1) * sizeof(u32));
+    __builtin_memset(static_cast<void*>(cells_.data()), 0, leaves * sizeof(Cell));
+    leaves_ = leaves;
+    planned_ = count_ = n;
+    f32 low[4], high[4];
+    for (int a = 0; a < 4; a++) {
+      low[a] = -__builtin_inff();
+      high[a] = __builtin_nanf("");
+    }
+    cut(sample, samples, 1, 0, low, high);
+    for (u32 slot = 0; slot < n; slot++) known_[slot].tag = waiting | excluded_of(scene, slot);
+    // In an order in which those of a cell come soon after one another: cells then stay in the cache.
+    anew_.each_in_order([&](u32 slot) { queue_[queued_++] = slot; });
+    unseen_ = n;
+    see(scene, ahead * (n / share + 1));
+    cursor_ = 0;
+    period_ = target_ = 16;
+    slack_ = 0.5f;
+  }
+
+  /// Notes where some of those stand that wait to be put into cells, to know their motion when it is their turn.
+  void see(const Scene<D>& scene, u32 many) {
+    for (; many > 0 && unseen_ > 0; many--) note(scene, queue_[--unseen_]);
+  }
+
+  void note(const Scene<D>& scene, u32 slot) {
+    __builtin_memcpy(last(slot), box_of(scene, slot), width * sizeof(f32));
+    known_[slot].since = now_;
+  }
+
+  /// A new box waits to be put into cells.
+  void expect(const Scene<D>& scene, u32 slot) {
+    known_[slot].tag = waiting | excluded_of(scene, slot);
+    note(scene, slot);
+    queue_[queued_++] = slot;
+  }
+
+  /// Cuts the space of a node in two, at the median of its samples.
+  COLD void cut(f32* sample, u32 count, u32 node, u32 level, const f32* low, const f32* high) {
+    if (node >= leaves_) {
+      Cell& cell = cells_[node - leaves_];
+      __builtin_memcpy(cell.low, low, sizeof(cell.low));
+      __builtin_memcpy(cell.high, high, sizeof(cell.high));
+      return;
+    }
+    int a = axis_[level];
+    u32 half = count / 2;
+    f32 at = count > 0 ? halve(sample, count, half, a) : low[a];
+    cuts_[node] = at;
+    f32 border[4];
+    __builtin_memcpy(border, high, sizeof(border));
+    border[a] = at;
+    cut(sample, half, 2 * node, level + 1, low, border);
+    __builtin_memcpy(border, low, sizeof(border));
+    border[a] = at;
+    cut(sample + u64(half) * D, count - half, 2 * node + 1, level + 1, border, high);
+  }
+
+  /// Puts the `half` least samples along an axis first; gives the next one's coordinate.
+  COLD static f32 halve(f32* v, u32 count, u32 half, int a) {
+    i32 from = 0, to = i32(count) - 1, k = i32(half);
+    while (from < to) {
+      f32 x = v[from * D + a], y = v[(from + to) / 2 * D + a], z = v[to * D + a];
+      f32 pivot = larger(smaller(x, y), smaller(larger(x, y), z));
+      i32 i = from, j = to;
+      while (i <= j) {
+        while (v[i * D + a] < pivot) i++;
+        while (pivot < v[j * D + a]) j--;
+        if (i <= j) {
+          for (int b = 0; b < D; b++) {
+            f32 t = v[i * D + b];
+            v[i * D + b] = v[j * D + b];
+            v[j * D + b] = t;
+          }
+          i++;
+          j--;
+        }
+      }
+      if (k <= j) to = j;
+      else if (k >= i) from = i;
+      else break;
+    }
+    return v[k * D + a];
+  }
+
+  /// Cells that a box touches.
+  struct Found {
+    u32 cell[huge_cells + 1];
+    u32 count;
+    bool many() const { return count > huge_cells; }
+  };
+
+  NOINLINE void cells_of(const f32* box, Found& out) const {
+    u32 open[33], depth = 0, found = 0;
+    open[depth++] = 1;
+    while (depth > 0) {
+      u32 node = open[--depth];
+      while (node < leaves_) {
+        int a = axis_[31 - u32(__builtin_clz(node))];
+        f32 at = cuts_[node];
+        // Without a branch on which side it is: nobody could guess that.
+        u32 beyond = u32(bits<i32x4>(splat(box[a]) >= splat(at))[0]) & 1;
+        u32 reaches = u32(bits<i32x4>(splat(box[D + a]) >= splat(at))[0]) & 1;
+        open[depth] = 2 * node + 1;
+        depth += reaches & ~beyond;
+        node = 2 * node + beyond;
+      }
+      out.cell[found++] = node - leaves_;
+      if (found > huge_cells) break;
+    }
+    out.count = found;
+  }
+
+  /// Whether a box touches no cell but this.
+  static bool within(const Cell& cell, const f32* box) {
+    u32 low = bitmask(load<f32x4>(box) >= load<f32x4>(cell.low));
+    u32 high = bitmask(load<f32x4>(box + D) >= load<f32x4>(cell.high));
+    return !((~low | high) & ((1 << D) - 1));
+  }
+  /// Whether it touches this one.
+  static bool touches(const Cell& cell, const f32* box) {
+    u32 low = bitmask(load<f32x4>(box + D) >= load<f32x4>(cell.low));
+    u32 high = bitmask(load<f32x4>(box) >= load<f32x4>(cell.high));
+    return !((~low | high) & ((1 << D) - 1));
+  }
+  /// Whether this cell is the one to report two boxes.
+  static bool reports(const Cell& cell, const f32* one, const f32* other) {
+    f32x4 corner = max(load<f32x4>(one), load<f32x4>(other));
+    u32 low = bitmask(corner >= load<f32x4>(cell.low)), high = bitmask(corner >= load<f32x4>(cell.high));
+    return !((~low | high) & ((1 << D) - 1));
+  }
+
+  // --- boxes in cells ---
+
+  static u32 tag_of(u32 slot, u32 tag) { return slot | (tag & ~slot_mask); }
+
+  /// Puts a mover into a cell; gives its place.
+  static u32 put(Cell& cell, u32 tag, const f32* box, const f32* fat) {
+    u32 at = cell.movers.put(fat, tag);
+    cell.boxes.grow(u64(at + 1) * width + padding, u64(at) * width);
+    __builtin_memcpy(cell.boxes.data() + u64(at) * width, box, width * sizeof(f32));
+    return at;
+  }
+
+  /// Notes when and where a fat box was made.
+  void stamp(const Cell& cell, u32 at, const f32* box) const {
+    for (int a = 0; a < D; a++) cell.movers.row(from_row + u32(a))[at] = box[a];
+    cell.movers.row(when_row)[at] = now_;
+  }
+
+  /// Takes the candidates of a mover out of its cell.
+  static void purge(Cell& cell, u32 at) {
+    u32 left = 0;
+    for (u32 k = 0; k < cell.pair_count; k++) {
+      u32 pair = cell.pairs[k];
+      cell.pairs[left] = pair;
+      left += (pair & 0xffff) != at && pair >> 16 != at;
+    }
+    cell.pair_count = left;
+    left = 0;
+    for (u32 k = 0; k < cell.edge_count; k++) {
+      u64 edge = cell.edges[k];
+      cell.edges[left] = edge;
+      left += u32(edge >> 32) != at;
+    }
+    cell.edge_count = left;
+  }
+
+  /// Takes a mover and its candidates out of a cell; the last mover comes to its place.
+  static void take(Cell& cell, u32 at) {
+    purge(cell, at);
+    cell.movers.take(at);
+    u32 last = cell.movers.count;
+    if (last == at) return;
+    __builtin_memcpy(cell.boxes.data() + u64(at) * width, cell.boxes.data() + u64(last) * width, width * sizeof(f32));
+    for (u32 k = 0; k < cell.pair_count; k++) {
+      u32 pair = cell.pairs[k], a = pair & 0xffff, b = pair >> 16;
+      cell.pairs[k] = (a == last ? at : a) | (b == last ? at : b) << 16;
+    }
+    for (u32 k = 0; k < cell.edge_count; k++) {
+      u64 edge = cell.edges[k];
+      if (u32(edge >> 32) == last) cell.edges[k] = u64(u32(edge)) | u64(at) << 32;
+    }
+  }
+
+  /// Takes a box at rest and its candidates out of a cell.
+  static void take_still(Cell& cell, u32 slot) {
+    cell.stills.take(cell.stills.find(slot));
+    u32 left = 0;
+    for (u32 k = 0; k < cell.edge_count; k++) {
+      u64 edge = cell.edges[k];
+      cell.edges[left] = edge;
+      left += u32(edge) != slot;
+    }
+    cell.edge_count = left;
+  }
+
+  /// Calls `what` with the place of each of `rows` whose fat box overlaps this one and may meet this tag.
+  template <class Rows, class What> static void each_hit(const Rows& rows, const f32* fat, u32 tag, What what) {
+    if (rows.count == 0) return;
+    LaneView<D> lanes = rows.view();
+    f32x4 lo[D], hi[D];
+    for (int a = 0; a < D; a++) {
+      lo[a] = splat(fat[a]);
+      hi[a] = splat(fat[D + a]);
+    }
+    u32x4 excluded = splat(tag & ~slot_mask);
+    for (u32 j = 0; j < rows.count; j += 4) {
+      i32x4 all = bits<i32x4>((load<u32x4>(lanes.tag + j) & excluded) == u32x4{});
+      for (int a = 0; a < D; a++) {
+        all &= load<f32x4>(lanes.lo[a] + j) <= hi[a];
+        all &= load<f32x4>(lanes.hi[a] + j) >= lo[a];
+      }
+      for (u32 hits = bitmask(all); hits; hits &= hits - 1) what(j + u32(__builtin_ctz(hits)));
+    }
+  }
+
+  /// Collects the candidates of the mover at a place, which has none.
+  NOINLINE static void meet(Cell& cell, u32 at, const f32* fat, Stats& stats) {
+    u32 tag = cell.movers.tags()[at];
+    stats.tests += cell.movers.count + cell.stills.count;
+    each_hit(cell.movers, fat, tag, [&](u32 other) {
+      if (other == at) return;
+      cell.pairs.grow(u64(cell.pair_count) + 1, cell.pair_count);
+      cell.pairs[cell.pair_count++] = at | other << 16;
+    });
+    each_hit(cell.stills, fat, tag, [&](u32 other) { add_edge(cell, at, cell.stills.tags()[other] & slot_mask); });
+  }
+
+  static void add_edge(Cell& cell, u32 at, u32 slot) {
+    cell.edges.grow(u64(cell.edge_count) + 1, cell.edge_count);
+    cell.edges[cell.edge_count++] = u64(slot) | u64(at) << 32;
+  }
+
+  /// The fat box of a box: what its motion will cover in so many updates, given where it was so many ago.
+  void fatten(const f32* box, const f32* low, f32 updates, f32 until, f32 margin, f32* out) const {
+    f32 step[D], fastest = 0;
+    for (int a = 0; a < D; a++) {
+      f32 motion = (box[a] - low[a]) / updates, size = box[D + a] - box[a];
+      step[a] = motion <= size && -motion <= size ? motion : 0;  // a jump says nothing about what comes
+      fastest = larger(fastest, larger(step[a], -step[a]));
+    }
+    f32 aside = margin > 0 ? margin : slack_ * fastest;
+    for (int a = 0; a < D; a++) {
+      f32 reach = margin > 0 ? 0 : until * step[a];
+      out[a] = smaller(box[a], box[a] + smaller(reach, 0.0f) - aside);
+      out[D + a] = larger(box[D + a], box[D + a] + larger(reach, 0.0f) + aside);
+    }
+  }
+
+  /// How many updates fat boxes reach ahead: a little more than until their next turn.
+  f32 reach() const { return period_ * growth + 1; }
+
+  /// Puts a mover into all cells that its new fat box touches, where it is not in already with one that still holds it.
+  /// `found`: its cells. Where there are pairs to report to, reports those it has in the cells it comes to.
+  /// The newest fat box has to be kept in one cell at least, where it is seen when the mover leaves it: only then is it
+  /// sure that the mover is in all cells it touches. `kept`: it is, in the cell that calls.
+  void enter(const Scene<D>& scene, u32 slot, const f32* fat, Found& found, bool kept, Pairs* pairs, Stats& stats) {
+    const f32* box = box_of(scene, slot);
+    if (found.many()) {
+      fat = box;
+      cells_of(box, found);
+      if (found.many()) return forget();
+    }
+    for (u32 k = found.count; k-- > 0;) {
+      Cell& cell = cells_[found.cell[k]];
+      u32 at = cell.movers.find(slot);
+      bool known = false;
+      if (at == Movers::nowhere) {
+        if (cell.movers.count >= most_in_cell) return forget();
+        at = put(cell, tag_of(slot, known_[slot].tag), box, fat);
+      } else {
+        known = !outside(cell, at, box);
+        if (known && (kept || k > 0)) continue;
+        purge(cell, at);
+        cell.movers.write(at, fat);
+        __builtin_memcpy(cell.boxes.data() + u64(at) * width, box, width * sizeof(f32));
+      }
+      stamp(cell, at, box);
+      u32 pair = cell.pair_count, edge = cell.edge_count;
+      meet(cell, at, fat, stats);
+      kept = true;
+      if (pairs && !known) report_cell(cell, pair, edge, scene, *pairs);
+    }
+  }
+
+  static bool outside(const Cell& cell, u32 at, const f32* box) {
+    bool is = false;
+    for (u32 a = 0; a < u32(D); a++) is |= !(cell.movers.row(a)[at] <= box[a] && box[D + a] <= cell.movers.row(D + a)[at]);
+    return is;
+  }
+
+  /// From now on a box rests, which was in the cells it touches now, or in none.
+  void rest(u32 slot, const f32* box, const Found& found, Stats& stats) {
+    u32 tag = known_[slot].tag = (known_[slot].tag & ~slot_mask) | rests;
+    __builtin_memcpy(last(slot), box, width * sizeof(f32));
+    resting_++;
+    for (u32 k = 0; k < found.count; k++) {
+      Cell& cell = cells_[found.cell[k]];
+      u32 at = cell.movers.find(slot);
+      if (at != Movers::nowhere) take(cell, at);
+      stats.tests += cell.movers.count + cell.stills.count;
+      each_hit(cell.movers, box, tag, [&](u32 other) { add_edge(cell, other, slot); });
+      each_hit(cell.stills, box, tag, [&](u32 other) {
+        u32 its = cell.stills.tags()[other] & slot_mask;
+        // One that has woken, and waits, is no longer where it rested.
+        if (!(known_[its].tag & waiting) && reports(cell, box, last(its))) settle(slot, its);
+      });
+      cell.stills.put(box, tag_of(slot, tag));
+    }
+    for (u32 h = 0; h < huge_count_; h++) {
+      u32 its = known_[huge_[h]].tag;
+      if ((its & rests) && !(its & tag & ~slot_mask) && touch(box, last(huge_[h]))) settle(slot, huge_[h]);
+    }
+  }
+
+  void settle(u32 a, u32 b) {
+    settled_.list.grow(settled_.count + 1 + Pairs::slack, settled_.count);
+    settled_.list[settled_.count++] = u64(smaller(a, b)) | u64(larger(a, b)) << 32;
+  }
+
+  /// A box that rested waits to be a mover. Its cells have it until it is served.
+  void wake(u32 slot) {
+    woken_[slot / 32] |= 1u << slot % 32;
+    any_woken_ = true;
+    known_[slot].tag |= waiting;
+    known_[slot].since = now_ - 1;
+    queue_[queued_++] = slot;
+  }
+
+  void leave_rest(u32 slot) {
+    Found found;
+    cells_of(last(slot), found);
+    for (u32 k = 0; k < found.count; k++) take_still(cells_[found.cell[k]], slot);
+    resting_--;
+    known_[slot].tag &= ~rests;
+  }
+
+  // --- an update ---
+
+  /// Finds out who is new, who is gone, and who rests no longer.
+  void follow(const Scene<D>& scene, Pairs& pairs) {
+    u32 n = scene.count, had = count_, both = smaller(n, had);
+    if (n > had) {
+      known_.grow(n, had);
+      queue_.grow(n, queued_);
+      u64 words = n / 32 + 1, known = had / 32 + 1;
+      woken_.grow(words, known);
+      for (u64 w = known; w < words; w++) woken_[w] = 0;
+    }
+    bool sweeps = n < had;
+    for (u32 slot = n; slot < had; slot++) {
+      u32 tag = known_[slot].tag;
+      if (!(tag & rests)) continue;
+      if (!(tag & is_huge)) leave_rest(slot);
+      woken_[slot / 32] |= 1u << slot % 32;
+      any_woken_ = true;
+    }
+    if (n < had) unqueue(n);
+    if (scene.changes && !scene.changes->all()) {
+      const u32* list = scene.changes->list();
+      for (u32 k = 0; k < scene.changes->count(); k++) {
+        if (list[k] < both) check(scene, list[k], sweeps);
+      }
+    } else if (resting_ > 0 || scene.excluded || excluding_) {
+      for (u32 slot = 0; slot < both; slot++) check(scene, slot, sweeps);
+    }
+    excluding_ = scene.excluded;
+    if (any_woken_) unsettle(pairs, larger(n, had));
+    if (sweeps) sweep_out(n);
+    count_ = n;
+    for (u32 slot = had; slot < n; slot++) expect(scene, slot);
+  }
+
+  /// Wakes a box at rest that is not what it was, and sees to it that a mover with another tag is put in anew.
+  void check(const Scene<D>& scene, u32 slot, bool& sweeps) {
+    u32 tag = known_[slot].tag, excluded = excluded_of(scene, slot);
+    if (tag == (excluded | rests) && equal(box_of(scene, slot), last(slot))) return;
+    if (tag != excluded) changed(scene, slot, sweeps);
+  }
+
+  COLD void changed(const Scene<D>& scene, u32 slot, bool& sweeps) {
+    u32 tag = known_[slot].tag, excluded = excluded_of(scene, slot);
+    bool same = (tag & ~slot_mask) == excluded;
+    if ((tag & rests) && !(tag & waiting)) {
+      if (same && equal(box_of(scene, slot), last(slot))) return;
+      if (tag & is_huge) {
+        woken_[slot / 32] |= 1u << slot % 32;
+        any_woken_ = true;
+        known_[slot].tag = excluded | is_huge;
+        known_[slot].since = now_;
+        resting_--;
+      } else {
+        wake(slot);
+      }
+    } else if (!same) {
+      known_[slot].tag = (tag & slot_mask) | excluded;
+      if (tag & (waiting | is_huge)) return;
+      known_[slot].tag |= waiting;
+      known_[slot].since = now_;
+      __builtin_memcpy(last(slot), box_of(scene, slot), width * sizeof(f32));
+      queue_[queued_++] = slot;
+      sweeps = true;
+    }
+  }
+
+  /// Those that wait, but for slots from n on.
+  COLD void unqueue(u32 n) {
+    u32 left = 0;
+    u32 unseen = 0;
+    for (u32 k = 0; k < queued_; k++) {
+      u32 slot = queue_[k];
+      queue_[left] = slot;
+      left += slot < n;
+      unseen += slot < n && k < unseen_;
+    }
+    queued_ = left;
+    unseen_ = unseen;
+  }
+
+  /// Takes movers that are gone, or wait to be put in anew, out of all cells.
+  COLD void sweep_out(u32 n) {
+    for (u32 c = 0; c < leaves_; c++) {
+      Cell& cell = cells_[c];
+      for (u32 k = cell.movers.count; k-- > 0;) {
+        u32 slot = cell.movers.tags()[k] & slot_mask;
+        if (slot >= n || (known_[slot].tag & waiting)) take(cell, k);
+      }
+    }
+    u32 left = 0;
+    for (u32 h = 0; h < huge_count_; h++) {
+      huge_[left] = huge_[h];
+      left += huge_[h] < n;
+    }
+    huge_count_ = left;
+  }
+
+  /// Takes the pairs of boxes that no longer rest out of the settled ones.
+  COLD void unsettle(Pairs& pairs, u32 slots) {
+    const u32* woken = woken_.data();
+    u64* list = settled_.list.data();
+    u64 left = 0, kept = settled_.count;
+    for (u64 k = 0; k < settled_.count; k++) {
+      u64 pair = list[k];
+      u32 a = u32(pair), b = u32(pair >> 32);
+      bool stays = !((woken[a / 32] >> a % 32 | woken[b / 32] >> b % 32) & 1);
+      kept = stays ? kept : smaller(kept, left);
+      list[left] = pair;
+      left += stays;
+    }
+    settled_.count = left;
+    pairs.kept = smaller(pairs.kept, kept);
+    __builtin_memset(woken_.data(), 0, (slots / 32 + 1) * sizeof(u32));
+    any_woken_ = false;
+  }
+
+  /// Puts boxes that wait into cells: all that are few, else a share of them.
+  void serve(const Scene<D>& scene, const Settings& options, Stats& stats) {
+    u32 n = scene.count;
+    u32 portion = n / share + 1;
+    u32 many = queued_ <= 2 * portion ? queued_ : portion;
+    // While all is filled, little by little, the first must reach further ahead than the last.
+    f32 until = reach() + f32(queued_ - many) / f32(portion);
+    see(scene, many);
+    for (; many > 0; many--) {
+      u32 slot = queue_[--queued_];
+      if (known_[slot].tag & rests) leave_rest(slot);
+      known_[slot].tag = excluded_of(scene, slot);
+      const f32* box = box_of(scene, slot);
+      f32 updates = now_ - known_[slot].since;
+      bool still = updates > still_for && equal(box, last(slot));
+      f32 fat[width + padding];
+      if (!still) fatten(box, last(slot), larger(updates, 1.0f), until, f32(options.margin), fat);
+      Found found;
+      cells_of(still ? box : fat, found);
+      if (found.many() && !still) cells_of(box, found);
+      if (found.many()) {
+        if (huge_count_ == most_huge) return forget();
+        huge_[huge_count_++] = slot;
+        known_[slot].tag |= is_huge;
+        note(scene, slot);
+        continue;
+      }
+      if (still) {
+        rest(slot, box, found, stats);
+        continue;
+      }
+      enter(scene, slot, fat, found, false, nullptr, stats);
+      if (leaves_ == 0) return;
+    }
+  }
+
+  /// Lets the next cells have their turn.
+  void take_turns(const Scene<D>& scene, const Settings& options, Stats& stats) {
+    u32 turns = smaller(leaves_, u32(f32(leaves_) / period_) + 1);
+    for (; turns > 0 && leaves_ > 0; turns--) {
+      turn(cells_[cursor_], scene, options, stats);
+      if (++cursor_ < leaves_) continue;
+      cursor_ = 0;
+      // Not by more than fat boxes reach further.
+      period_ = larger(period_ * (2 - growth), smaller(period_ * growth, target_));
+    }
+  }
+
+  /// New fat boxes for the movers of a cell, and all candidates anew.
+  void turn(Cell& cell, const Scene<D>& scene, const Settings& options, Stats& stats) {
+    for (u32 k = cell.movers.count; k-- > 0;) {
+      u32 slot = cell.movers.tags()[k] & slot_mask, tag = known_[slot].tag;
+      const f32* box = box_of(scene, slot);
+      if (tag & rests) {
+        cell.pair_count = cell.edge_count = 0;  // it rests elsewhere; all candidates are to be collected anyway
+        take(cell, k);
+        continue;
+      }
+      f32 low[D], fat[width + padding];
+      bool moved = false;
+      for (int a = 0; a < D; a++) {
+        low[a] = cell.movers.row(from_row + u32(a))[k];
+        moved |= low[a] != box[a];
+      }
+      f32 updates = now_ - cell.movers.row(when_row)[k];
+      if (updates == 0) continue;
+      Found found;
+      if (!moved && updates > still_for && touches(cell, box)) {
+        cells_of(box, found);
+        if (!found.many()) {
+          rest(slot, box, found, stats);
+          continue;
+        }
+      }
+      fatten(box, low, updates, reach(), f32(options.margin), fat);
+      motion_ += pace(box, low, updates);
+      turned_ += 1;
+      bool stays = touches(cell, fat);
+      if (stays) {
+        cell.movers.write(k, fat);
+        stamp(cell, k, box);
+        if (within(cell, fat)) continue;
+      } else {
+        cell.pair_count = cell.edge_count = 0;
+        take(cell, k);
+      }
+      cells_of(fat, found);
+      enter(scene, slot, fat, found, stays, nullptr, stats);
+      if (leaves_ == 0) return;
+    }
+    if (cell.movers.count > 0) gather(cell, stats);
+    else cell.pair_count = cell.edge_count = 0;
+  }
+
+  /// All candidates of a cell.
+  NOINLINE static void gather(Cell& cell, Stats& stats) {
+    LaneView<D> lanes = cell.movers.view();
+    u32 count = cell.movers.count;
+    u32 found = 0;
+    for (u32 i = 0; i < count; i++) {
+      u32* out = cell.pairs.grow(u64(found) + count + padding, found) + found;
+      Probe<D> probe(lanes, i);
+      for (u32 j = i + 1; j < count; j += 4) {
+        u32 hits = bitmask(probe.hits(lanes, j, load<u32x4>(lanes.tag + j)));
+        u32x4 places = u32x4{0, 1, 2, 3} + splat(j);
+        store(out, bits<u32x4>(swizzle(bits<u8x16>((places << 16) | splat(i)), load<u8x16>(detail::swizzles.of[hits]))));
+        out += detail::bits_set[hits];
+      }
+      found = u32(out - cell.pairs.data());
+    }
+    cell.pair_count = found;
+    cell.edge_count = 0;
+    stats.tests += f64(count) * (count - 1) / 2 + f64(count) * cell.stills.count;
+    if (cell.stills.count == 0) return;
+    for (u32 i = 0; i < count; i++) {
+      f32 fat[width];
+      for (u32 k = 0; k < width; k++) fat[k] = cell.movers.row(k)[i];
+      each_hit(cell.stills, fat, lanes.tag[i], [&](u32 other) { add_edge(cell, i, cell.stills.tags()[other] & slot_mask); });
+    }
+  }
+
+  /// Reads where the movers are, cell by cell; reports the settled pairs and the candidates that overlap.
+  void report(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+    u64 head = settled_.count;
+    pairs.list.grow(head + Pairs::slack, pairs.kept);
+    if (head > pairs.kept) {
+      __builtin_memcpy(pairs.list.data() + pairs.kept, settled_.list.data() + pairs.kept, (head - pairs.kept) * sizeof(u64));
+    }
+    pairs.count = pairs.kept = head;
+    late_count_ = 0;
+    u64 most = scene.count / late_share + 64;
+    for (u32 c = 0; c < leaves_; c++) {
+      Cell& cell = cells_[c];
+      if (cell.movers.count == 0) continue;
+      look(c, scene);
+      // Seen early, where it is so in all cells.
+      if (u64(late_count_) * leaves_ > most * (c + leaves_ / 8)) return forget();
+      report_cell(cell, 0, 0, scene, pairs);
+    }
+    late_ = f64(late_count_);
+    for (u32 k = 0; k < late_count_; k++) {
+      serve_late(cells_[late_list_[k] >> 32], u32(late_list_[k]), scene, options, pairs, stats);
+      if (leaves_ == 0) return;
+    }
+    if (huge_count_ > 0) report_huge(scene, pairs, stats);
+    stats.candidates = candidates_;
+    stats.tests += candidates_;
+    stats.cells = leaves_;
+    stats.entries = moving_ + resting_;
+  }
+
+  /// Reads where the movers of a cell are. Those that have left their fat boxes are NaN for now: they overlap nothing.
+  NOINLINE void look(u32 number, const Scene<D>& scene) {
+    const Cell& cell = cells_[number];
+    u32 count = cell.movers.count;
+    LaneView<D> lanes = cell.movers.view();
+    f32* boxes = cell.boxes.data();
+    for (u32 k = 0; k < count; k += 4) {
+      f32x4 lo[4], hi[4];
+      for (u32 j = 0; j < 4; j++) {
+        const f32* box = box_of(scene, lanes.tag[k + j < count ? k + j : k] & slot_mask);
+        lo[j] = load<f32x4>(box);
+        if constexpr (D == 3) {
+          f32x4 tail = load<f32x4>(box + 2);
+          hi[j] = __builtin_shufflevector(tail, tail, 1, 2, 3, 3);
+        }
+      }
+      for (u32 j = 0; j < 4 && k + j < count; j++) {
+        store(boxes + u64(k + j) * width, lo[j]);
+        if constexpr (D == 3) __builtin_memcpy(boxes + u64(k + j) * width + 3, &hi[j], 3 * sizeof(f32));
+      }
+      transpose(lo);
+      if constexpr (D == 3) transpose(hi);
+      i32x4 in = ~i32x4{};
+      for (int a = 0; a < D; a++) {
+        in &= load<f32x4>(lanes.lo[a] + k) <= lo[a];
+        in &= load<f32x4>(lanes.hi[a] + k) >= (D == 2 ? lo[2 + a] : hi[a]);
+      }
+      u32 out = ~bitmask(in) & 15;
+      if (out == 0) continue;
+      if (k + 4 > count) out &= (1u << (count - k)) - 1;
+      for (; out; out &= out - 1) {
+        u32 at = k + u32(__builtin_ctz(out));
+        late_list_.grow(u64(late_count_) + 1, late_count_);
+        late_list_[late_count_++] = u64(number) << 32 | (lanes.tag[at] & slot_mask);
+        for (u32 w = 0; w < width; w++) boxes[u64(at) * width + w] = __builtin_nanf("");
+      }
+    }
+  }
+
+  /// Gives a mover that has left its fat box in a cell a new one.
+  void serve_late(Cell& cell, u32 slot, const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+    const f32* box = box_of(scene, slot);
+    u32 at = cell.movers.find(slot);
+    if (!outside(cell, at, box)) return;  // served already, from another of its cells
+    f32 low[D], fat[width + padding];
+    for (int a = 0; a < D; a++) low[a] = cell.movers.row(from_row + u32(a))[at];
+    f32 updates = now_ - cell.movers.row(when_row)[at];
+    fatten(box, low, larger(updates, 1.0f), reach(), f32(options.margin), fat);
+    if (!touches(cell, fat)) take(cell, at);
+    Found found;
+    cells_of(fat, found);
+    enter(scene, slot, fat, found, false, &pairs, stats);
+  }
+
+  /// Reports the candidates of a cell, from a pair and an edge on, that overlap and are this cell's to report.
+  NOINLINE static void report_cell(const Cell& cell, u32 pair_from, u32 edge_from, const Scene<D>& scene, Pairs& pairs) {
+    u64* out = pairs.room(pairs.list.data() + pairs.count, cell.pair_count + cell.edge_count);
+    const f32* boxes = cell.boxes.data();
+    const u32* tags = cell.movers.tags();
+    f32x4 low = load<f32x4>(cell.low), high = load<f32x4>(cell.high);
+    auto try_pair = [&](const f32* one, const f32* other, u32 a, u32 b) {
+      f32x4 first = load<f32x4>(one), second = load<f32x4>(other), corner = max(first, second);
+      i32x4 hit = (first <= load<f32x4>(other + D)) & (second <= load<f32x4>(one + D)) & (corner >= low) & ~(corner >= high);
+      *out = u64(smaller(a, b)) | u64(larger(a, b)) << 32;
+      out += !(~bitmask(hit) & ((1 << D) - 1));
+    };
+    const u32* list = cell.pairs.data();
+    for (u32 k = pair_from; k < cell.pair_count; k++) {
+      u32 a = list[k] & 0xffff, b = list[k] >> 16;
+      try_pair(boxes + u64(a) * width, boxes + u64(b) * width, tags[a] & slot_mask, tags[b] & slot_mask);
+    }
+    for (u32 k = edge_from; k < cell.edge_count; k++) {
+      u64 edge = cell.edges[k];
+      u32 slot = u32(edge), a = u32(edge >> 32);
+      try_pair(boxes + u64(a) * width, box_of(scene, slot), tags[a] & slot_mask, slot);
+    }
+    pairs.count = Pairs::between(pairs.list.data(), out);
+  }
+
+  /// The pairs of huge boxes that are not settled.
+  COLD void report_huge(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
+    auto try_pair = [&](u32 h, u32 slot) {
+      if ((known_[h].tag & known_[slot].tag & ~slot_mask) || !touch(box_of(scene, h), box_of(scene, slot))) return;
+      pairs.room(pairs.list.data() + pairs.count, 1);
+      pairs.list[pairs.count++] = u64(smaller(h, slot)) | u64(larger(h, slot)) << 32;
+    };
+    for (u32 c = 0; c < leaves_; c++) {
+      const Cell& cell = cells_[c];
+      for (u32 k = 0; k < cell.movers.count; k++) {
+        u32 slot = cell.movers.tags()[k] & slot_mask;
+        const f32* box = cell.boxes.data() + u64(k) * width;
+        if ((known_[slot].tag & rests) || !reports(cell, box, box)) continue;
+        for (u32 h = 0; h < huge_count_; h++) try_pair(huge_[h], slot);
+      }
+    }
+    stats.tests += moving_ * huge_count_;
+    for (u32 h = 0; h < huge_count_; h++) {
+      u32 slot = huge_[h];
+      const f32* box = box_of(scene, slot);
+      bool still = known_[slot].tag & rests;
+      for (u32 g = 0; g < h; g++) {
+        if (!(still && (known_[huge_[g]].tag & rests))) try_pair(slot, huge_[g]);
+      }
+      if (still) continue;
+      if (resting_ > 0) {
+        for (u32 other = 0; other < count_; other++) {
+          if ((known_[other].tag & rests) && !(known_[other].tag & is_huge)) try_pair(slot, other);
+        }
+        stats.tests += count_;
+      }
+      if (!equal(box, last(slot))) {
+        __builtin_memcpy(last(slot), box, width * sizeof(f32));
+        known_[slot].since = now_;
+      } else if (now_ - known_[slot].since > still_for) {
+        // It rests from the next update on.
+        known_[slot].tag |= rests;
+        resting_++;
+        for (u32 other = 0; other < count_; other++) {
+          u32 its = known_[other].tag;
+          if (other == slot || !(its & rests) || (its & known_[slot].tag & ~slot_mask)) continue;
+          if (touch(box, last(other))) settle(slot, other);
+        }
+      }
+    }
+  }
+
+  /// Whether what is kept answers sooner than strip-sweep would; where not, it is given up.
+  bool pays() {
+    for (u32 c = 0; c < leaves_; c++) {
+      moving_ += cells_[c].movers.count;
+      candidates_ += cells_[c].pair_count + cells_[c].edge_count;
+    }
+    f64 mover = mover_cost + uncached_cost * moving_ / (moving_ + cached_movers);
+    f64 cost = (mover + turn_cost / period_) * moving_ + candidate_cost * candidates_;
+    if (cost <= fresh_) return true;
+    forget();
+    return false;
+  }
+
+  /// Chooses how far fat boxes reach, by what turns cost and what candidates cost.
+  void balance(f64 hits) {
+    pauses_ = larger(first_pause, pauses_ - 1);
+    if (turned_ < 16) return;
+    f64 pace = larger(motion_ / turned_, 1e-4);
+    f64 movers = turned_ * period_;
+    f64 best = __builtin_sqrt(turn_cost / candidate_cost * movers / (larger(hits, movers / 8) * D * pace));
+    target_ = f32(larger(f64(least_period), smaller(f64(most_period), best)));
+    // Where boxes leave their fat ones too early, reach further to the sides.
+    slack_ = smaller(16.0f, larger(0.5f, slack_ * (late_ > 0.1 * turned_ ? 1.05f : 0.99f)));
+  }
+};
