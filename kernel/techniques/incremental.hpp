@@ -100,7 +100,7 @@ template <int D> class Incremental {
   static constexpr u32 samples_a_cell = 4, most_samples = 1 << 16;
   static constexpr u32 huge_cells = 32;      // boxes that touch more cells than this are huge
   static constexpr u32 most_huge = 64;
-  static constexpr u32 share = 60;           // one box in so many is served in an update while all is filled
+  static constexpr u32 share = 90;           // one box in so many is served in an update while all is filled
   static constexpr u32 ahead = 8;            // its motion is known from so many updates
   static constexpr u32 late_share = 40;      // all is given up where one in so many leaves its fat box at once
   static constexpr f32 least_period = 4, most_period = 64, growth = 1.15f;
@@ -341,7 +341,7 @@ template <int D> class Incremental {
   }
 
   /// Notes where some of those stand that wait to be put into cells, to know their motion when it is their turn.
-  void see(const Scene<D>& scene, u32 many) {
+  COLD void see(const Scene<D>& scene, u32 many) {
     for (; many > 0 && unseen_ > 0; many--) note(scene, queue_[--unseen_]);
   }
 
@@ -457,7 +457,7 @@ template <int D> class Incremental {
   static u32 tag_of(u32 slot, u32 tag) { return slot | (tag & ~slot_mask); }
 
   /// Puts a mover into a cell; gives its place.
-  static u32 put(Cell& cell, u32 tag, const f32* box, const f32* fat) {
+  COLD static u32 put(Cell& cell, u32 tag, const f32* box, const f32* fat) {
     u32 at = cell.movers.put(fat, tag);
     cell.boxes.grow(u64(at + 1) * width + padding, u64(at) * width);
     __builtin_memcpy(cell.boxes.data() + u64(at) * width, box, width * sizeof(f32));
@@ -471,7 +471,7 @@ template <int D> class Incremental {
   }
 
   /// Takes the candidates of a mover out of its cell.
-  static void purge(Cell& cell, u32 at) {
+  COLD static void purge(Cell& cell, u32 at) {
     u32 left = 0;
     for (u32 k = 0; k < cell.pair_count; k++) {
       u32 pair = cell.pairs[k];
@@ -489,7 +489,7 @@ template <int D> class Incremental {
   }
 
   /// Takes a mover and its candidates out of a cell; the last mover comes to its place.
-  static void take(Cell& cell, u32 at) {
+  COLD static void take(Cell& cell, u32 at) {
     purge(cell, at);
     cell.movers.take(at);
     u32 last = cell.movers.count;
@@ -506,7 +506,7 @@ template <int D> class Incremental {
   }
 
   /// Takes a box at rest and its candidates out of a cell.
-  static void take_still(Cell& cell, u32 slot) {
+  COLD static void take_still(Cell& cell, u32 slot) {
     cell.stills.take(cell.stills.find(slot));
     u32 left = 0;
     for (u32 k = 0; k < cell.edge_count; k++) {
@@ -549,7 +549,7 @@ template <int D> class Incremental {
     each_hit(cell.stills, fat, tag, [&](u32 other) { add_edge(cell, at, cell.stills.tags()[other] & slot_mask); });
   }
 
-  static void add_edge(Cell& cell, u32 at, u32 slot) {
+  COLD static void add_edge(Cell& cell, u32 at, u32 slot) {
     cell.edges.grow(u64(cell.edge_count) + 1, cell.edge_count);
     cell.edges[cell.edge_count++] = u64(slot) | u64(at) << 32;
   }
@@ -613,7 +613,7 @@ template <int D> class Incremental {
   }
 
   /// From now on a box rests, which was in the cells it touches now, or in none.
-  void rest(u32 slot, const f32* box, const Found& found, Stats& stats) {
+  COLD void rest(u32 slot, const f32* box, const Found& found, Stats& stats) {
     u32 tag = known_[slot].tag = (known_[slot].tag & ~slot_mask) | rests;
     __builtin_memcpy(last(slot), box, width * sizeof(f32));
     resting_++;
@@ -636,13 +636,13 @@ template <int D> class Incremental {
     }
   }
 
-  void settle(u32 a, u32 b) {
+  COLD void settle(u32 a, u32 b) {
     settled_.list.grow(settled_.count + 1 + Pairs::slack, settled_.count);
     settled_.list[settled_.count++] = u64(smaller(a, b)) | u64(larger(a, b)) << 32;
   }
 
   /// A box that rested waits to be a mover. Its cells have it until it is served.
-  void wake(u32 slot) {
+  COLD void wake(u32 slot) {
     woken_[slot / 32] |= 1u << slot % 32;
     any_woken_ = true;
     known_[slot].tag |= waiting;
@@ -650,7 +650,7 @@ template <int D> class Incremental {
     queue_[queued_++] = slot;
   }
 
-  void leave_rest(u32 slot) {
+  COLD void leave_rest(u32 slot) {
     Found found;
     cells_of(last(slot), found);
     for (u32 k = 0; k < found.count; k++) take_still(cells_[found.cell[k]], slot);
@@ -661,7 +661,7 @@ template <int D> class Incremental {
   // --- an update ---
 
   /// Finds out who is new, who is gone, and who rests no longer.
-  void follow(const Scene<D>& scene, Pairs& pairs) {
+  COLD void follow(const Scene<D>& scene, Pairs& pairs) {
     u32 n = scene.count, had = count_, both = smaller(n, had);
     if (n > had) {
       known_.grow(n, had);
@@ -777,7 +777,7 @@ template <int D> class Incremental {
   }
 
   /// Puts boxes that wait into cells: all that are few, else a share of them.
-  void serve(const Scene<D>& scene, const Settings& options, Stats& stats) {
+  COLD void serve(const Scene<D>& scene, const Settings& options, Stats& stats) {
     u32 n = scene.count;
     u32 portion = n / share + 1;
     u32 many = queued_ <= 2 * portion ? queued_ : portion;
@@ -967,7 +967,7 @@ template <int D> class Incremental {
   }
 
   /// Gives a mover that has left its fat box in a cell a new one.
-  void serve_late(Cell& cell, u32 slot, const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+  COLD void serve_late(Cell& cell, u32 slot, const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
     const f32* box = box_of(scene, slot);
     u32 at = cell.movers.find(slot);
     if (!outside(cell, at, box)) return;  // served already, from another of its cells
@@ -1054,7 +1054,7 @@ template <int D> class Incremental {
   }
 
   /// Whether what is kept answers sooner than strip-sweep would; where not, it is given up.
-  bool pays() {
+  COLD bool pays() {
     for (u32 c = 0; c < leaves_; c++) {
       moving_ += cells_[c].movers.count;
       candidates_ += cells_[c].pair_count + cells_[c].edge_count;
@@ -1067,7 +1067,7 @@ template <int D> class Incremental {
   }
 
   /// Chooses how far fat boxes reach, by what turns cost and what candidates cost.
-  void balance(f64 hits) {
+  COLD void balance(f64 hits) {
     pauses_ = larger(first_pause, pauses_ - 1);
     if (turned_ < 16) return;
     f64 pace = larger(motion_ / turned_, 1e-4);

@@ -1,0 +1,119 @@
+// Long runs of scenes of which little changes, which is what the incremental technique keeps things for: boxes that
+// rest, creep, wake, bounce, jump, come and go, change filters. After each update the pairs are those of strip-sweep,
+// which keeps nothing; once both are the reference's.
+import { BroadPhase } from 'broadphase';
+import { describe, expect, test } from 'vitest';
+import { createRandom } from '../src/scenes/random.ts';
+import { expectKeys } from './expect-pairs.ts';
+import { keysOf, referencePairs } from './reference.ts';
+import { setBox } from './set-box.ts';
+
+interface Thing {
+  box: number[];
+  step: number[];
+}
+
+const runs = [
+  { dimensions: 2, speed: 0, share: 1, huge: false, exact: true },
+  { dimensions: 2, speed: 0.05, share: 1, huge: true, exact: true },
+  { dimensions: 2, speed: 0.3, share: 0.1, huge: false, exact: false },
+  { dimensions: 2, speed: 3, share: 0.02, huge: true, exact: true },
+  { dimensions: 3, speed: 0.05, share: 0.3, huge: true, exact: true },
+  { dimensions: 3, speed: 0.3, share: 0.02, huge: false, exact: false },
+] as const;
+
+describe.each(runs)('incremental, $dimensions dimensions, speed $speed of $share, huge $huge', (run) => {
+  test.each([1, 2])('finds what strip-sweep finds, seed %i', (seed) => {
+    const random = createRandom(seed);
+    const { dimensions } = run;
+    const count = 400 + Math.floor(random() * 600);
+    const world = 10 * (count / 0.2) ** (1 / dimensions);
+    const kept = new BroadPhase({ dimensions, technique: 'incremental' });
+    const fresh = new BroadPhase({ dimensions, technique: 'strip-sweep' });
+    const things: (Thing | undefined)[] = [];
+    const rounded = (x: number) => (run.exact ? Math.fround(x) : x);
+    const someBox = () => {
+      const scale = run.huge && random() < 0.01 ? world / 5 : 10;
+      const low = Array.from({ length: dimensions }, () => rounded(random() * world));
+      return [...low, ...low.map((x) => rounded(x + scale * (0.3 + random())))];
+    };
+    const someStep = () =>
+      Array.from({ length: dimensions }, () => (random() < run.share ? (random() * 2 - 1) * run.speed : 0));
+    const put = (id: number) => {
+      for (const space of [kept, fresh]) setBox(space, id, things[id]!.box);
+    };
+    for (let id = 0; id < count; id++) {
+      things[id] = { box: someBox(), step: someStep() };
+      put(id);
+    }
+    let answered = 0;
+    for (let frame = 0; frame < 220; frame++) {
+      things.forEach((thing, id) => {
+        if (!thing?.step.some((x) => x !== 0)) return;
+        thing.box = thing.box.map((x, k) => rounded(x + thing.step[k % dimensions]!));
+        thing.step = thing.step.map((x, k) => (thing.box[k]! < 0 || thing.box[k]! > world ? -x : x));
+        put(id);
+      });
+      for (let k = 0; k < 3 && frame % 5 === 4; k++) disturb(Math.floor(random() * things.length));
+      if (frame === 180)
+        things.forEach((thing, id) => {
+          if (thing && random() < 0.5) jump(id);
+        });
+      kept.update();
+      fresh.update();
+      expect(keysOf(kept.pairs), `frame ${frame}`).toEqual(keysOf(fresh.pairs));
+      if (kept.stats.tests !== fresh.stats.tests) answered++;
+      kept.validate();
+    }
+    expect(answered, 'updates answered from what is kept').toBeGreaterThan(20);
+
+    function jump(id: number): void {
+      things[id]!.box = someBox();
+      put(id);
+    }
+    function disturb(id: number): void {
+      const thing = things[id];
+      const what = Math.floor(random() * 7);
+      if (!thing || what === 0) {
+        things[id] = { box: someBox(), step: someStep() };
+        put(id);
+      } else if (what === 1) {
+        for (const space of [kept, fresh]) space.delete(id);
+        things[id] = undefined;
+      } else if (what === 2) {
+        jump(id);
+      } else if (what === 3) {
+        thing.step = someStep();
+      } else if (what === 4) {
+        thing.step = thing.step.map(() => 0);
+      } else if (what === 5) {
+        const isStatic = random() < 0.7;
+        for (const space of [kept, fresh]) space.setStatic(id, isStatic);
+      } else {
+        const layer = 1 << Math.floor(random() * 3);
+        for (const space of [kept, fresh]) space.setFilter(id, layer, 5);
+      }
+    }
+  });
+});
+
+test('an update in which nothing has changed keeps the pairs and has no events', () => {
+  const random = createRandom(5);
+  const space = new BroadPhase({ technique: 'incremental', events: true });
+  const boxes: number[] = [];
+  for (let id = 0; id < 3000; id++) {
+    const [x, y] = [random() * 1000, random() * 1000];
+    boxes.push(x, y, x + 10, y + 10);
+    space.set(id, x, y, x + 10, y + 10);
+  }
+  space.update();
+  for (let frame = 0; frame < 200; frame++) {
+    space.set(
+      frame % 3000,
+      ...(boxes.slice(4 * (frame % 3000), 4 * (frame % 3000) + 4) as [number, number, number, number]),
+    );
+    space.update();
+    expect(space.began.length + space.ended.length).toBe(0);
+  }
+  expectKeys(space, referencePairs(boxes, 2));
+});
