@@ -18,14 +18,13 @@ template <int D> struct Statistics {
   f64 size[D];          // mean sizes, each clipped to the extent
   f64 crowding;         // 1: spread evenly
 
-  /// The axis along which the world is longest, measured in boxes; `kept` where it is nearly that.
-  COLD int longest(int kept = -1) const {
+  /// The axis along which the world is longest, measured in boxes.
+  COLD int longest() const {
     int best = 0;
     f64 most = -1;
     for (int a = 0; a < D; a++) {
       f64 extent = high[a] - low[a];
       f64 length = extent > 0 ? extent / larger(size[a], extent * 1e-7) : 0;
-      if (a == kept) length *= 1.5;
       if (length > most) {
         most = length;
         best = a;
