@@ -131,7 +131,7 @@ template <int D> class Index {
   }
 
   /// Fills slots_.
-  void put_in_order() {
+  COLD void put_in_order() {
     u32 n = count_;
     u32* slots = slots_.reserve(larger(n, 1u));
     if (n == 0) return;
@@ -151,6 +151,7 @@ template <int D> class Index {
       sort_.put_bits(s, key);
     }
     sort_.sort(n);
+    ROLLED
     for (u32 k = 0; k < n; k++) slots[k] = sort_.index(k);
   }
 

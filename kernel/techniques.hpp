@@ -76,3 +76,21 @@ template <int D> class Techniques {
     }
   }
 };
+
+// Both dimensions of each next to one another in the module, where gzip finds what they share: an eighth less.
+#if TECHNIQUES == ~0u || defined(TWINS)
+#define BOTH(Kind)        \
+  template class Kind<2>; \
+  template class Kind<3>;
+BOTH(AabbTree)
+BOTH(BspTree)
+BOTH(HierarchicalGrid)
+BOTH(HomeCellGrid)
+BOTH(Quadtree)
+BOTH(RTree)
+BOTH(RetainedGrid)
+BOTH(SpatialGrid)
+BOTH(SweepAndPrune)
+BOTH(StripSweep)
+BOTH(BruteForce)
+#endif

@@ -202,13 +202,16 @@ template <int D> class StripSweep {
       }
     }
     if constexpr (D == 3) {
+      ROLLED
       for (u32 l = 0; l < lists; l++) {
         if (l % across) offsets[l] += offsets[l - 1];
       }
     }
+    ROLLED
     for (u32 l = across; l < lists; l++) offsets[l] += offsets[l - across];
     u64 total = base;
     f64 tests = 0;  // relative to those of the uncut items
+    ROLLED
     for (u32 l = 0; l < lists; l++) {
       u32 size = offsets[l];
       offsets[l] = u32(total);
