@@ -84,6 +84,26 @@ EXPORT(staged_number)(u32 index, u32 doubles) -> f64 {
   return with_space([&](auto& space) { return space.staged_number(index, doubles != 0); });
 }
 
+/// The bytes of a snapshot; in io, how many, and the first bad id among boxes written in place (-1: none).
+EXPORT(save)() -> const u64* {
+  return with_space([](auto& space) {
+    io[1] = space.save();
+    io[0] = space.snapshot.bytes();
+    return space.snapshot.words();
+  });
+}
+/// Room for a snapshot of so many bytes, the first of which are in io; where they are bad, io[0] says how, else it is 0.
+EXPORT(stage_snapshot)(u32 size) -> const u64* {
+  return with_space([&](auto& space) {
+    io[0] = f64(u32(space.snapshot.stage(load<SnapshotHeader>(io), size, is_flat ? 2 : 3, built)));
+    return space.snapshot.words();
+  });
+}
+/// What is wrong with what was staged; 0: nothing, and it is restored.
+EXPORT(restore)() -> u32 {
+  return with_space([](auto& space) { return u32(space.restore()); });
+}
+
 /// Marks boxes 0 … red - 1 as red and the rest as blue: only pairs of both colours are reported.
 EXPORT(split)(u32 red) -> void {
   with_space([&](auto& space) {

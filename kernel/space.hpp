@@ -10,6 +10,7 @@
 #include "neighbours.hpp"
 #include "queries.hpp"
 #include "rounding.hpp"
+#include "snapshot.hpp"
 #include "techniques.hpp"
 
 template <int D> class Space {
@@ -37,6 +38,7 @@ template <int D> class Space {
   bool neighbours_made_ = false;
   Index<D> index_;
   bool asked_ = false;  // from the first question on, the index keeps what each update saw
+  bool restored_ = false;  // since the last update: the pairs before are not those of which `table_` may be made
 
  public:
   Pairs pairs;
@@ -50,6 +52,7 @@ template <int D> class Space {
   Buffer<f32> cells;  // what structure() has written
   u32 cell_count = 0;
   Technique technique = Technique::automatic;
+  Snapshot snapshot;
 
   constexpr Space(Ids& ids, const Settings& options) : ids_(ids), options_(options) {}
 
@@ -138,13 +141,7 @@ template <int D> class Space {
     i32 bad = doubles ? round_staged(count, rounded) : first_bad(staged_.data(), count);
     if (bad >= 0) return bad;
     renumber(count);
-    boxes_.swap(staged_);
-    rounding_ = rounded;
-    if (rounded) {
-      exact_.swap(staged_exact_);
-      rounded_.swap(staged_rounded_);
-    }
-    exposed_ = false;
+    take_staged(rounded);
     return -1;
   }
 
@@ -190,12 +187,41 @@ template <int D> class Space {
     rule.excluded = on ? rule.excluded | bit : rule.excluded & ~bit;
   }
 
+  /// Writes what stands in the space to `snapshot`. Returns the first bad id among boxes written in place, or -1.
+  COLD i32 save() {
+    i32 bad = bad_in_place();
+    if (bad >= 0) return bad;
+    bool doubles = false;
+    for (u32 s = 0; rounding_ && s < ids_.count(); s++) doubles |= rounded_[s];
+    u8 used = technique == Technique::automatic ? SnapshotHeader::automatic : u8(technique);
+    snapshot.write(D, used, doubles, ids_, filters_, keeps_events ? &events : nullptr);
+    const void* boxes = doubles ? static_cast<const void*>(exact_.data()) : boxes_.data();
+    if (ids_.count()) __builtin_memcpy(snapshot.boxes(), boxes, snapshot.box_bytes());
+    snapshot.seal();
+    return -1;
+  }
+
+  /// Takes what was staged in `snapshot` in place of all there is; pairs stay those of the last update until the next.
+  /// Where the bytes are bad nothing changes.
+  COLD SnapshotFault restore() {
+    if (!snapshot.is_whole()) return SnapshotFault::damaged;
+    const SnapshotHeader& head = snapshot.head();
+    bool doubles = snapshot.doubles(), rounded = false;
+    void* staged = doubles ? static_cast<void*>(stage_exact(head.count)) : stage(head.count);
+    if (head.count) __builtin_memcpy(staged, snapshot.boxes(), snapshot.box_bytes());
+    i32 bad = doubles ? round_staged(head.count, rounded) : first_bad(staged_.data(), head.count);
+    Events* kept = keeps_events ? &events : nullptr;
+    if (bad >= 0 || !snapshot.check(filters_, kept) || !snapshot.take(ids_, filters_, kept)) return SnapshotFault::content;
+    take_staged(rounded);
+    technique = head.technique == SnapshotHeader::automatic ? Technique::automatic : Technique(head.technique);
+    restored_ = true;
+    return SnapshotFault::none;
+  }
+
   /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
   i32 update() {
-    if (exposed_) {
-      i32 bad = first_bad(boxes_.data(), ids_.count());
-      if (bad >= 0) return i32(ids_.id(u32(bad)));  // since it was written, a removal may have moved it
-    }
+    i32 bad = bad_in_place();
+    if (bad >= 0) return bad;
     Scene<D> scene{boxes_.data(), ids_.count(), nullptr};
     if (filters_.active()) {
       scene.boxes = filters_.select(scene.boxes, scene.count, width);
@@ -214,6 +240,8 @@ template <int D> class Space {
     if (filters_.active()) filters_.finish(pairs);
     if (rounding_) retest();
     if (!ids_.same()) name_pairs();
+    if (restored_) table_.made = false;
+    restored_ = false;
     if (keeps_events) events.follow(pairs, table_);
     table_.made = neighbours_made_ = false;
     updates++;
@@ -331,6 +359,23 @@ template <int D> class Space {
   }
 
  private:
+  /// The id of the first bad box among those written in place, or -1.
+  i32 bad_in_place() const {
+    i32 bad = exposed_ ? first_bad(boxes_.data(), ids_.count()) : -1;
+    return bad < 0 ? -1 : i32(ids_.id(u32(bad)));  // since it was written, a removal may have moved it
+  }
+
+  /// What was staged is now what stands in the space; `rounded`: with doubles that float32 cannot hold.
+  void take_staged(bool rounded) {
+    boxes_.swap(staged_);
+    rounding_ = rounded;
+    if (rounded) {
+      exact_.swap(staged_exact_);
+      rounded_.swap(staged_rounded_);
+    }
+    exposed_ = false;
+  }
+
   f64 number(u32 slot, u32 k) const {
     u64 at = u64(slot) * width + k;
     return rounding_ ? exact_[at] : f64(boxes_[at]);

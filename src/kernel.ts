@@ -28,6 +28,9 @@ export interface KernelExports {
   replace(count: number, doubles: number): number;
   expose(count: number): number;
   staged_number(index: number, doubles: number): number;
+  save(): number;
+  stage_snapshot(size: number): number;
+  restore(): number;
   split(red: number): void;
   techniques(): number;
   set_technique(technique: number): void;
