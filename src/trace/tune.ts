@@ -169,7 +169,7 @@ function measure(candidate: Candidate, dimensions: 2 | 3, frames: readonly Frame
 const meanOf = (times: readonly number[]) => times.reduce((sum, ms) => sum + ms, 0) / times.length;
 
 /** Whether other cells change what the technique counts. */
-function heedsCellSize(technique: TechniqueName, dimensions: 2 | 3, frame: Frame): boolean {
+export function heedsCellSize(technique: TechniqueName, dimensions: 2 | 3, frame: Frame): boolean {
   const typical = typicalSide(frame, dimensions);
   const counters = [1, 8].map((factor) => {
     const space = new BroadPhase({ technique, dimensions, cellSize: rounded(factor * typical) });
@@ -181,7 +181,8 @@ function heedsCellSize(technique: TechniqueName, dimensions: 2 | 3, frame: Frame
   return counters[0] !== counters[1];
 }
 
-function typicalSide(frame: Frame, dimensions: 2 | 3): number {
+/** The longest side of the box in the middle of all, by size. */
+export function typicalSide(frame: Pick<Frame, 'boxes'>, dimensions: 2 | 3): number {
   const sides = longestSides(frame.boxes, dimensions).filter((side) => side > 0 && Number.isFinite(side));
   return percentile(sides.sort(), 0.5) || 1;
 }
