@@ -21,12 +21,15 @@ template <class What> auto with_space(What what) { return is_flat ? what(flat) :
 
 EXPORT(io_address)() -> f64* { return io; }
 
-/// Once, first; then, where the user says so, the margin, and the cell size and the bounds, from io.
+/// Once, first; then, where the user says so, the margin, and the cell size, the world and the bounds, from io.
 EXPORT(open_space)(u32 dimensions) -> void { is_flat = dimensions == 2; }
 EXPORT(set_cell_size)() -> void {
   for (int k = 0; k < 3; k++) options.cell_size[k] = io[k];
 }
 EXPORT(set_margin)(f64 margin) -> void { options.margin = margin; }
+EXPORT(set_wrap)() -> void {
+  for (int k = 0; k < 3; k++) options.wrap[k] = io[k];
+}
 EXPORT(set_bounds)() -> void {
   for (int k = 0; k < 6; k++) options.bounds[k] = io[k];
 }

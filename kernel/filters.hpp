@@ -116,6 +116,9 @@ class Filters {
     return to;
   }
 
+  /// Where the k-th of the boxes that are searched stands.
+  u32 slot(u32 k) const { return active_ && some_ ? slots_[k] : k; }
+
   /// After the search: places in the scene back to slots, and the forbidden pairs out.
   COLD void finish(Pairs& pairs) const {
     if (!some_ && !check_) return;

@@ -12,6 +12,7 @@
 #include "rounding.hpp"
 #include "snapshot.hpp"
 #include "techniques.hpp"
+#include "wrap.hpp"
 
 template <int D> class Space {
   static constexpr u32 width = 2 * D;  // numbers in a box
@@ -30,6 +31,7 @@ template <int D> class Space {
   bool rounding_ = false;
   bool exposed_ = false;  // `boxes()` has handed out the memory: look for bad numbers at the next update
   Filters filters_;
+  Wrap wrap_;
   Techniques<D> techniques_;
   Technique ran_ = Technique::brute_force;
   // Made of the pairs at the first question after an update.
@@ -227,6 +229,11 @@ template <int D> class Space {
       scene.boxes = filters_.select(scene.boxes, scene.count, width);
       scene.excluded = filters_.excluded();
     }
+    bool wraps = options_.wrap[0] > 0;
+    if (wraps) {
+      const f64* doubles = rounding_ ? exact_.data() : nullptr;
+      scene.boxes = wrap_.unfold(scene.count, scene.excluded, filters_, boxes_.data(), doubles, options_.wrap, D);
+    }
     pairs.count = 0;
     stats = Stats{};
     Technique chosen = technique;
@@ -237,8 +244,9 @@ template <int D> class Space {
     ran_ = chosen;
     techniques_.with(ran_, [&](auto& chosen) { chosen.update(scene, options_, pairs, stats); });
     stats.candidates = f64(pairs.count);
+    if (wraps) wrap_.fold(pairs);
     if (filters_.active()) filters_.finish(pairs);
-    if (rounding_) retest();
+    if (rounding_ && !wraps) retest();
     if (!ids_.same()) name_pairs();
     if (restored_) table_.made = false;
     restored_ = false;
@@ -314,6 +322,7 @@ template <int D> class Space {
     pairs.list.release();
     pairs.count = events.began.count = events.ended.count = 0;
     table_.made = neighbours_made_ = false;
+    wrap_.release();
     index_.release();
     answers.release();
     hits.release();

@@ -17,6 +17,13 @@ export interface BroadPhaseOptions {
   cellSize?: number | readonly number[];
   /** For `spatial-grid`: the world that is cut into cells, minima then maxima. Boxes outside are found all the same. */
   bounds?: readonly number[];
+  /**
+   * The size of a world that wraps around, along each axis: what leaves it on one side comes in on the other, as in
+   * Asteroids. Boxes may be given anywhere; two are a pair where they overlap once both are moved by whole worlds. A
+   * box as long as the world, or without an end, reaches all around. The numbers stay as they were given; queries
+   * cannot be asked. Numbers above 0, up to 1e300. Left out: the world has no end.
+   */
+  wrap?: readonly number[];
   /** Whether every update finds out which pairs began and ended, for {@link BroadPhase.began}. Default false. */
   events?: boolean;
   /** For `aabb-tree`: how far a box may move before the tree changes, above 0. Left out: from the motion seen. */
@@ -120,7 +127,16 @@ export class BroadPhase extends Queries {
     if (typeof options !== 'object' || options === null) {
       badValue('new BroadPhase', options, 'an object of options', true);
     }
-    const { dimensions = 2, technique = 'auto', cellSize, bounds, margin, events = false, capacity = 0 } = options;
+    const {
+      dimensions = 2,
+      technique = 'auto',
+      cellSize,
+      bounds,
+      margin,
+      wrap,
+      events = false,
+      capacity = 0,
+    } = options;
     if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
     checkTechnique(technique);
     if (typeof events !== 'boolean') badValue('events', events, 'true or false', true);
@@ -128,8 +144,9 @@ export class BroadPhase extends Queries {
     const cells = cellSize === undefined ? undefined : checkCellSize(cellSize, dimensions);
     if (bounds !== undefined) checkBounds(bounds, dimensions);
     if (margin !== undefined) checkMargin(margin);
+    if (wrap !== undefined) checkWrap(wrap, dimensions);
 
-    super(dimensions);
+    super(dimensions, wrap !== undefined);
     this.#technique = technique;
     this.kernel.set_technique(techniques.indexOf(technique));
     this.#events = events;
@@ -140,6 +157,10 @@ export class BroadPhase extends Queries {
       this.kernel.set_cell_size();
     }
     if (margin !== undefined) this.kernel.set_margin(margin);
+    if (wrap) {
+      io.set(wrap);
+      this.kernel.set_wrap();
+    }
     if (bounds) {
       io.set(bounds);
       this.kernel.set_bounds();
@@ -714,6 +735,14 @@ function checkMargin(margin: unknown): void {
   const expected = 'a number above 0';
   if (typeof margin !== 'number') badValue('margin', margin, expected, true);
   if (!(margin > 0 && margin < Number.POSITIVE_INFINITY)) badValue('margin', margin, expected);
+}
+
+function checkWrap(wrap: readonly number[], dimensions: 2 | 3): void {
+  const expected = `${dimensions} numbers above 0 and no more than 1e300`;
+  if (!Array.isArray(wrap)) badValue('wrap', wrap, expected, true);
+  const good =
+    wrap.length === dimensions && wrap.every((size) => typeof size === 'number' && size > 0 && size <= 1e300);
+  if (!good) badValue('wrap', wrap, expected);
 }
 
 function checkBounds(bounds: readonly number[], dimensions: 2 | 3): void {

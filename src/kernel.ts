@@ -12,6 +12,7 @@ export interface KernelExports {
   open_space(dimensions: number): void;
   set_cell_size(): void;
   set_margin(margin: number): void;
+  set_wrap(): void;
   set_bounds(): void;
   reserve(count: number): void;
   set(id: number): void;
