@@ -119,11 +119,13 @@ template <int D> class Space {
     exposed_ = rounding_ = false;
   }
 
-  /// Where everything stands, for a recorder: the ids (0: slots), the boxes, the doubles they were given as (0: none).
+  /// Where everything stands, for a recorder: the ids (0: slots), the boxes, the doubles they were given as (0: none),
+  /// the rules (0: none).
   COLD void contents(f64* out) const {
     out[0] = f64(u64(ids_.names()));
     out[1] = f64(u64(boxes_.data()));
     out[2] = rounding_ ? f64(u64(exact_.data())) : 0;
+    out[3] = filters_.active() ? f64(u64(filters_.rules())) : 0;
   }
 
   /// Memory into which the next `replace` expects its boxes, as float32 or as doubles.

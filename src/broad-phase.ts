@@ -620,12 +620,13 @@ export class BroadPhase extends Queries {
 
   #show(watcher: Watcher): void {
     this.kernel.contents();
-    const [ids, boxes, doubles] = this.io();
+    const [ids, boxes, doubles, rules] = this.io();
     const { buffer } = this.kernel.memory;
     const length = this.size * this.width;
     watcher(
       doubles ? new Float64Array(buffer, doubles, length) : new Float32Array(buffer, boxes, length),
       ids ? new Uint32Array(buffer, ids, this.size) : undefined,
+      rules ? new Uint32Array(buffer, rules, 3 * this.size) : undefined,
     );
   }
 

@@ -5,7 +5,7 @@ import { TraceWriter } from 'broadphase/trace';
 import type { SceneName } from '../../src/scenes/index.ts';
 import { pairsDigest } from '../../src/trace/compare.ts';
 import { timeUpdate } from '../../src/trace/replay.ts';
-import { heedsCellSize, typicalSide } from '../../src/trace/tune.ts';
+import { heeds, typicalSide } from '../../src/trace/tune.ts';
 import { cellSlot, chosenSlot, Groups, heatSlot, heats, partnerSlot } from '../shared/groups.ts';
 import { heapSize } from '../shared/heap.ts';
 import { type Feed, generate, play } from './feed.ts';
@@ -126,7 +126,7 @@ export class Engine implements Record<keyof Requests, unknown> {
 
   cellSizes(): CellSizes {
     const { frame, dimensions } = this.#need();
-    const heeded = frame.count > 0 && heedsCellSize(this.#setup.technique, dimensions, frame);
+    const heeded = frame.count > 0 && heeds({ technique: this.#setup.technique }, 'cellSize', dimensions, [frame]);
     return { heeded, typical: frame.count > 0 ? typicalSide(frame, dimensions) : 1 };
   }
 
@@ -180,8 +180,8 @@ export class Engine implements Record<keyof Requests, unknown> {
   #record(): void {
     const recording = this.#recording;
     if (!recording || recording.full) return;
-    const { boxes, ids } = this.#need().frame;
-    const piece = recording.writer.frame(boxes, ids);
+    const { boxes, ids, rules } = this.#need().frame;
+    const piece = recording.writer.frame(boxes, ids, rules);
     recording.pieces.push(piece);
     recording.bytes += piece.length;
     recording.full = recording.bytes > mostRecorded;
