@@ -102,7 +102,7 @@ export async function race(contenders, setting, { rounds, frames, budget, slowes
 /** Notes why a contender gave no answer; says whether it gave one. */
 function note(result, { error, slow }, slowest) {
   if (error) result.problem = error.split('\n')[0];
-  else if (slow) result.skipped = `over ${Math.round(Math.max(slow, slowest))} ms a frame`;
+  else if (slow) result.skipped = `over ${seconds(Math.max(slow, slowest))} a frame`;
   return !error && !slow;
 }
 
@@ -117,5 +117,7 @@ async function inTurns(atOnce, items, work) {
   };
   await Promise.all(Array.from({ length: atOnce }, worker));
 }
+
+const seconds = (milliseconds) => `${Math.round(milliseconds / 100) / 10} s`;
 
 const lastLine = (text) => text.trim().split('\n').at(-1);

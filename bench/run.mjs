@@ -1,6 +1,7 @@
 // The benchmark: every contender gives all overlapping pairs of the same moving boxes, frame after frame.
 //   npm run bench -- --scenes uniform2d,mixed2d,uniform3d --n 100000
 //   npm run bench -- --full                      all there is, within 25 minutes, into results/<machine>.json
+//   npm run bench -- --techniques all            every technique on every scene, within 12 minutes, no peers
 //   npm run bench -- --compare before.json after.json
 //   npm run bench -- --markdown [results.json]
 // One process per contender and case, pairs checked before anything is timed, rounds in turns. See README.md.
@@ -18,11 +19,11 @@ import { machine, machineName } from './machine.mjs';
 import { markdown } from './markdown.mjs';
 import { race, start } from './race.mjs';
 import { table } from './table.mjs';
+import { techniqueTables } from './techniques.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
 /** How much of the time given may be overrun, as a share. */
 const grace = 0.15;
-const resultsFile = `${here}results/${machineName}.json`;
 const { values: options, positionals } = parseArgs({
   allowPositionals: true,
   options: {
@@ -43,13 +44,19 @@ const { values: options, positionals } = parseArgs({
     markdown: { type: 'boolean', default: false },
   },
 });
+/** Every technique on every scene, instead of against others. */
+const everyTechnique = options.techniques === 'all';
+const resultsFile = `${here}results/${machineName}${everyTechnique ? '-techniques' : ''}.json`;
+const whole = options.full || everyTechnique;
 const list = (text) => text.split(',').filter(Boolean);
 const read = (file) => JSON.parse(readFileSync(file, 'utf8'));
 
 if (options.compare || options.markdown) {
   const files = positionals.length > 0 ? positionals : [resultsFile];
   if (options.compare && files.length !== 2) fail('--compare takes two files of results: before and after.');
-  console.log(options.compare ? compare(read(files[0]), read(files[1])) : markdown(read(files[0]), loadCases()));
+  const [first, second] = files.map(read);
+  const show = first.everyTechnique ? techniqueTables : markdown;
+  console.log(options.compare ? compare(first, second) : show(first, loadCases()));
   process.exit();
 }
 
@@ -72,18 +79,20 @@ writeFileSync(`${here}../build/bench/sort.wasm`, await compile('bench/floors/sor
 const [rounds, frames, slowest, seed] = [options.rounds, options.frames, options.slowest, options.seed].map(Number);
 const cases = loadCases(options.traces);
 const headline = ['uniform2d', 'mixed2d', 'uniform3d'];
-const scenes = options.scenes ? list(options.scenes) : options.full ? [...cases.keys()] : headline;
+const scenes = options.scenes ? list(options.scenes) : whole ? [...cases.keys()] : headline;
 refuseUnknown('scene', scenes, [...cases.keys()]);
 const counts = options.n ? list(options.n).map(Number) : undefined;
 /** Boxes a case is run with, ascending, since what is too slow for few is not tried with more. */
-const countsOf = (item) => (item.recording ? [0] : (counts ?? (options.full ? item.counts : [100_000])));
+const countsOf = (item) => (item.recording ? [0] : (counts ?? (whole ? item.counts : [100_000])));
 
 const contenders = await describeAll();
 const settings = { rounds, frames, slowest, seed };
+const minutes = Number(options.minutes ?? (everyTechnique ? 12 : options.full ? 25 : Infinity));
 const races = await raceAll();
-const record = { date: new Date().toISOString(), machine, versions: versions(), settings, races };
+const record = { date: new Date().toISOString(), machine, versions: versions(), settings, everyTechnique, races };
 if (options.full) record.library = await libraryFigures();
-const output = options.json ?? (options.full ? resultsFile : undefined);
+if (everyTechnique) console.log(`${techniqueTables(record)}\n`);
+const output = options.json ?? (whole ? resultsFile : undefined);
 if (output) {
   mkdirSync(dirname(output), { recursive: true });
   writeFileSync(output, `${JSON.stringify(record, rounded, 1)}\n`);
@@ -94,7 +103,7 @@ if (output) {
 async function describeAll() {
   const files = readdirSync(`${here}peers`).sort();
   const peerNames = files.map((file) => file.slice(0, -'.mjs'.length)).filter((name) => name !== 'broadphase');
-  const asked = options.peers === undefined ? peerNames : list(options.peers);
+  const asked = options.peers !== undefined ? list(options.peers) : everyTechnique ? [] : peerNames;
   refuseUnknown('peer', asked, peerNames);
   const all = [];
   const runner = start();
@@ -102,7 +111,7 @@ async function describeAll() {
     const module = `./peers/${peer}.mjs`;
     const { variants, dimensions, npm, error } = await runner.ask('describe', module);
     if (error) fail(`${peer}: ${error}`);
-    if (peer === 'broadphase' && options.techniques !== undefined) {
+    if (peer === 'broadphase' && options.techniques !== undefined && !everyTechnique) {
       refuseUnknown('technique', list(options.techniques), variants);
       variants.splice(0, variants.length, ...list(options.techniques));
     }
@@ -113,13 +122,13 @@ async function describeAll() {
     }
   }
   runner.stop();
+  if (everyTechnique) return all;
   const floor = { name: 'radix sort floor', peer: 'floor', module: './floors/sort.mjs', dimensions: [2, 3], npm: null };
   return [...all, floor];
 }
 
 async function raceAll() {
   const plan = scenes.flatMap((name) => countsOf(cases.get(name)).map((count) => ({ item: cases.get(name), count })));
-  const minutes = Number(options.minutes ?? (options.full ? 25 : Infinity));
   const end = performance.now() + minutes * 60_000;
   console.log(`${machine.cpu}, ${machine.cores} cores, ${machine.system}, Node ${machine.node}\n`);
   let overhead = 0;
@@ -163,7 +172,7 @@ function sift(ready, item, count, done) {
         name,
         peer,
         variant,
-        skipped: `at least ${Math.round(guess)} ms a frame, by its ${before.count.toLocaleString('en')}`,
+        skipped: `over ${Math.round(guess / 100) / 10} s a frame, by its ${before.count.toLocaleString('en')}`,
       });
     else entering.push(contender);
   }
