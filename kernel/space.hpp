@@ -250,12 +250,12 @@ template <int D> class Space {
     if (filters_.active()) filters_.finish(pairs);
     if (rounding_ && !wraps) retest();
     if (!ids_.same()) name_pairs();
+    if (asked_) see();
     if (restored_) table_.made = false;
     restored_ = false;
     if (keeps_events) events.follow(pairs, table_);
     table_.made = neighbours_made_ = false;
     updates++;
-    if (asked_) see();
     stats.pairs = f64(pairs.count);
     // Growing later would cut the views of the pairs off: what the ids take at the first gap is taken now.
     heap::reach(u64(ids_.count()) * 2 * sizeof(u32) + (1 << 16));
