@@ -237,7 +237,18 @@ export class BroadPhase extends Queries {
     dy: number,
     dz: number,
   ): this;
-  setSwept(id: number, a: number, b: number, c: number, d: number, e: number, f: number, g = 0, h = 0, i = 0): this {
+  setSwept(
+    id: number,
+    a: number,
+    b: number,
+    c: number,
+    d: number,
+    e: number,
+    f: number,
+    g?: number,
+    h?: number,
+    i?: number,
+  ): this {
     const flat = this.width === 4;
     if (
       // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
@@ -245,9 +256,9 @@ export class BroadPhase extends Queries {
       id >>> 0 !== id ||
       id > maxId ||
       !(flat ? a <= c && b <= d : a <= d && b <= e && c <= f) ||
-      !(areNumbers(a, b, c, d, e, f) && areNumbers(g, h, i)) ||
+      !(areNumbers(a, b, c, d, e, f) && (flat || areNumbers(g, h, i))) ||
       // What is infinite is NaN without itself.
-      (flat ? e - e + (f - f) : g - g + (h - h) + (i - i)) !== 0
+      (flat ? e - e + (f - f) : g! - g! + (h! - h!) + (i! - i!)) !== 0
     ) {
       // biome-ignore lint/complexity/noArguments: the same
       badSwept(arguments, this.dimensions);
@@ -259,12 +270,12 @@ export class BroadPhase extends Queries {
       io[2] = c + Math.max(e, 0);
       io[3] = d + Math.max(f, 0);
     } else {
-      io[0] = a + Math.min(g, 0);
-      io[1] = b + Math.min(h, 0);
-      io[2] = c + Math.min(i, 0);
-      io[3] = d + Math.max(g, 0);
-      io[4] = e + Math.max(h, 0);
-      io[5] = f + Math.max(i, 0);
+      io[0] = a + Math.min(g!, 0);
+      io[1] = b + Math.min(h!, 0);
+      io[2] = c + Math.min(i!, 0);
+      io[3] = d + Math.max(g!, 0);
+      io[4] = e + Math.max(h!, 0);
+      io[5] = f + Math.max(i!, 0);
     }
     this.#write(id);
     return this;
