@@ -1,16 +1,17 @@
 // One contender on one case, in a process of its own. The parent asks for one thing at a time:
-//   { describe: module }      ->  what it can do: { dimensions, variants, npm }
+//   { describe: module }      ->  what it can do: { dimensions, variants, answers, npm }
 //   { prepare: { … } }        ->  makes the scene and the contender, runs and checks the first frames:
 //                                 { fingerprints, wrong } or { unable } or { slow: milliseconds of a frame }
 //   { warmUp: milliseconds }  ->  { frames } that were run
 //   { round: { … } }          ->  { times } in milliseconds of each frame, and what its own profiler says, { own }
 //   { finish: milliseconds }  ->  { garbage: bytes of JavaScript heap allocated per frame, peak: bytes of memory }
 // and any of them can be answered by { error }. The scene's own motion is never timed. Every contender goes through the
-// same seeded motion; a slow one gets less far. `sink` keeps what the frames return from being optimised away.
+// same seeded motion; a slow one gets less far. Who answers questions is made a contender of pairs by questions.mjs. `sink` keeps what the frames return from being optimised away.
 import { readFileSync } from 'node:fs';
 import { keysOf, referencePairs } from '../build/bench/library.mjs';
 import { fingerprint } from './fingerprint.mjs';
 import { allocatedBy } from './garbage.mjs';
+import { asking, naive } from './questions.mjs';
 import { openScene } from './scene.mjs';
 
 /** A contender whose frames took so long in all is checked in two of them only, in milliseconds. */
@@ -19,6 +20,8 @@ const mostWarmUp = 3000;
 
 let scene;
 let contender;
+/** Of the boxes as they are, as [a, b, …]: only to tell what is wrong. */
+let exactPairs;
 let sink = 0;
 
 function timedFrame() {
@@ -30,8 +33,8 @@ function timedFrame() {
 
 const actions = {
   async describe(module) {
-    const { dimensions, variants = [undefined], npm } = await import(module);
-    return { dimensions, variants, npm };
+    const { dimensions, variants = [undefined], answers, npm } = await import(module);
+    return { dimensions, variants, answers, npm };
   },
 
   async prepare({ module, variant, item, count, seed, checkedFrames, expected, slowest }) {
@@ -39,6 +42,16 @@ const actions = {
     scene = openScene(item, count, seed);
     const { dimensions, boxes, fixed } = scene;
     contender = await create({ dimensions, count: scene.count, boxes, fixed, variant });
+    if (item.question) {
+      const exact = asking(naive(scene), item, scene, seed);
+      exactPairs = () => {
+        exact.update(scene.boxes);
+        return keysOf(exact.pairs());
+      };
+      contender = asking(contender, item, scene, seed);
+    } else {
+      exactPairs = () => referencePairs(scene.boxes, dimensions);
+    }
     const fingerprints = [];
     let wrong;
     let spent = 0;
@@ -81,9 +94,9 @@ const actions = {
   },
 };
 
-/** How the contender's pairs differ from the exact ones: how many there are, how many it missed and added. */
+/** How the contender's pairs, or answers, differ from the exact ones: how many there are, how many it missed and added. */
 function fault() {
-  const exact = referencePairs(scene.boxes, scene.dimensions);
+  const exact = exactPairs();
   const found = keysOf(contender.pairs());
   let [i, j, missed, extra] = [0, 0, 0, 0];
   while (i < exact.length || j < found.length) {

@@ -3,10 +3,23 @@ import { goals } from './goals.mjs';
 import { bestOf, short, whole } from './table.mjs';
 
 export function markdown(record, cases) {
-  const { machine, date, races } = record;
+  const { machine, date } = record;
+  const races = record.races.filter(({ question }) => !question);
+  const asked = record.races.filter(({ question }) => question);
   const lines = [
     `Milliseconds per frame, one thread, on ${machine.cpu} (${machine.system}, Node ${machine.node}), ${date.slice(0, 10)}.`,
-    '',
+  ];
+  if (races.length > 0) lines.push('', ...pairTable(races));
+  if (asked.length > 0) lines.push('', ...questionTable(asked));
+  lines.push('', '| goal | figure | met |', '| --- | --- | --- |');
+  for (const { goal, figure, met } of goals(record, cases)) {
+    lines.push(`| ${goal} | ${figure} | ${met === undefined ? 'not measured' : met ? 'yes' : 'no'} |`);
+  }
+  return lines.join('\n');
+}
+
+function pairTable(races) {
+  const lines = [
     '| scene | boxes | pairs | `auto` | the best technique | the fastest npm package | that is |',
     '| --- | ---: | ---: | ---: | --- | --- | ---: |',
   ];
@@ -26,11 +39,30 @@ export function markdown(record, cases) {
       ].join(' | ')} |`,
     );
   }
-  lines.push('', '| goal | figure | met |', '| --- | --- | --- |');
-  for (const { goal, figure, met } of goals(record, cases)) {
-    lines.push(`| ${goal} | ${figure} | ${met === undefined ? 'not measured' : met ? 'yes' : 'no'} |`);
+  return lines;
+}
+
+/** 1,000 questions a frame. */
+function questionTable(races) {
+  const lines = [
+    '| 1,000 questions a frame | boxes | answers | `broadphase` | the fastest npm package | that is |',
+    '| --- | ---: | ---: | ---: | --- | ---: |',
+  ];
+  for (const { scene, still, count, pairs, results } of races) {
+    const ours = bestOf(results);
+    const peer = bestPeer(results);
+    lines.push(
+      `| ${[
+        `\`${scene.replace('-moved', '')}\`${still ? '' : ' after an update of all'}`,
+        whole(count),
+        whole(pairs),
+        ours ? short(ours.figures.median) : '',
+        peer ? `${short(peer.figures.median)} ${peer.name}` : 'none',
+        peer && ours ? `${short(peer.figures.median / ours.figures.median)}x` : '',
+      ].join(' | ')} |`,
+    );
   }
-  return lines.join('\n');
+  return lines;
 }
 
 /** The fastest package whose pairs are right. What a tutorial would write is no package. */

@@ -47,9 +47,10 @@ export function start() {
 /** The number of boxes and the fingerprints of the first frames' exact pairs. */
 export async function reference(setting) {
   const runner = start();
-  const module = './floors/reference.mjs';
+  const { count, item } = setting;
+  const module = item.question ? './floors/answers.mjs' : './floors/reference.mjs';
   // Among so many boxes the exact reference takes seconds a frame.
-  const frames = setting.count >= 500_000 ? 1 : setting.count >= 100_000 ? 2 : checkedFrames;
+  const frames = count >= 500_000 || item.still ? 1 : count >= 100_000 ? 2 : checkedFrames;
   const answer = await runner.ask('prepare', { ...setting, module, checkedFrames: frames, slowest: 1e9 }, 120_000);
   runner.stop();
   if (answer.error || answer.slow) throw new Error(`the reference failed: ${answer.error ?? `${answer.slow} ms`}`);
@@ -102,7 +103,7 @@ export async function race(contenders, setting, { rounds, frames, budget, slowes
 /** Notes why a contender gave no answer; says whether it gave one. */
 function note(result, { error, slow }, slowest) {
   if (error) result.problem = error.split('\n')[0];
-  else if (slow) result.skipped = `over ${Math.round(Math.max(slow, slowest))} ms a frame`;
+  else if (slow) result.skipped = `over ${seconds(Math.max(slow, slowest))} a frame`;
   return !error && !slow;
 }
 
@@ -117,5 +118,7 @@ async function inTurns(atOnce, items, work) {
   };
   await Promise.all(Array.from({ length: atOnce }, worker));
 }
+
+const seconds = (milliseconds) => `${Math.round(milliseconds / 100) / 10} s`;
 
 const lastLine = (text) => text.trim().split('\n').at(-1);

@@ -1,6 +1,9 @@
-// The benchmark: every contender gives all overlapping pairs of the same moving boxes, frame after frame.
+// The benchmark: every contender gives all overlapping pairs of the same moving boxes, frame after frame; or answers the
+// same questions.
 //   npm run bench -- --scenes uniform2d,mixed2d,uniform3d --n 100000
+//   npm run bench -- --queries                   questions instead of pairs, into results/<machine>-queries.json
 //   npm run bench -- --full                      all there is, within 25 minutes, into results/<machine>.json
+//   npm run bench -- --techniques all            every technique on every scene, within 12 minutes, no peers
 //   npm run bench -- --compare before.json after.json
 //   npm run bench -- --markdown [results.json]
 // One process per contender and case, pairs checked before anything is timed, rounds in turns. See README.md.
@@ -11,22 +14,23 @@ import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { bundle } from '../scripts/bundle.mjs';
 import { compile } from '../scripts/compile.mjs';
-import { loadCases } from './cases.mjs';
+import { loadCases, questionCases } from './cases.mjs';
 import { compare } from './compare.mjs';
 import { libraryFigures } from './library-figures.mjs';
 import { machine, machineName } from './machine.mjs';
 import { markdown } from './markdown.mjs';
 import { race, start } from './race.mjs';
 import { table } from './table.mjs';
+import { techniqueTables } from './techniques.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
 /** How much of the time given may be overrun, as a share. */
 const grace = 0.15;
-const resultsFile = `${here}results/${machineName}.json`;
 const { values: options, positionals } = parseArgs({
   allowPositionals: true,
   options: {
     full: { type: 'boolean', default: false },
+    queries: { type: 'boolean', default: false },
     minutes: { type: 'string' },
     scenes: { type: 'string' },
     n: { type: 'string' },
@@ -43,13 +47,20 @@ const { values: options, positionals } = parseArgs({
     markdown: { type: 'boolean', default: false },
   },
 });
+/** Every technique on every scene, instead of against others. */
+const everyTechnique = options.techniques === 'all';
+const kind = everyTechnique ? '-techniques' : options.queries ? '-queries' : '';
+const resultsFile = `${here}results/${machineName}${kind}.json`;
+const whole = options.full || everyTechnique;
 const list = (text) => text.split(',').filter(Boolean);
 const read = (file) => JSON.parse(readFileSync(file, 'utf8'));
 
 if (options.compare || options.markdown) {
   const files = positionals.length > 0 ? positionals : [resultsFile];
   if (options.compare && files.length !== 2) fail('--compare takes two files of results: before and after.');
-  console.log(options.compare ? compare(read(files[0]), read(files[1])) : markdown(read(files[0]), loadCases()));
+  const [first, second] = files.map(read);
+  const show = first.everyTechnique ? techniqueTables : markdown;
+  console.log(options.compare ? compare(first, second) : show(first, loadCases()));
   process.exit();
 }
 
@@ -70,20 +81,33 @@ await bundle('bench/library.ts', 'build/bench/library.mjs');
 writeFileSync(`${here}../build/bench/sort.wasm`, await compile('bench/floors/sort.cpp'));
 
 const [rounds, frames, slowest, seed] = [options.rounds, options.frames, options.slowest, options.seed].map(Number);
-const cases = loadCases(options.traces);
+const pairCases = loadCases(options.traces);
+const cases = new Map([...pairCases, ...questionCases()]);
 const headline = ['uniform2d', 'mixed2d', 'uniform3d'];
-const scenes = options.scenes ? list(options.scenes) : options.full ? [...cases.keys()] : headline;
+const usual = everyTechnique
+  ? [...pairCases.keys()]
+  : options.full
+    ? [...cases.keys()]
+    : options.queries
+      ? [...questionCases().keys()]
+      : headline;
+const scenes = options.scenes ? list(options.scenes) : usual;
 refuseUnknown('scene', scenes, [...cases.keys()]);
 const counts = options.n ? list(options.n).map(Number) : undefined;
 /** Boxes a case is run with, ascending, since what is too slow for few is not tried with more. */
-const countsOf = (item) => (item.recording ? [0] : (counts ?? (options.full ? item.counts : [100_000])));
+const countsOf = (item) => {
+  if (item.recording) return [0];
+  return counts ?? (whole || item.question ? item.counts : [100_000]);
+};
 
 const contenders = await describeAll();
 const settings = { rounds, frames, slowest, seed };
+const minutes = Number(options.minutes ?? (everyTechnique ? 12 : options.full ? 25 : Infinity));
 const races = await raceAll();
-const record = { date: new Date().toISOString(), machine, versions: versions(), settings, races };
+const record = { date: new Date().toISOString(), machine, versions: versions(), settings, everyTechnique, races };
 if (options.full) record.library = await libraryFigures();
-const output = options.json ?? (options.full ? resultsFile : undefined);
+if (everyTechnique) console.log(`${techniqueTables(record)}\n`);
+const output = options.json ?? (whole || options.queries ? resultsFile : undefined);
 if (output) {
   mkdirSync(dirname(output), { recursive: true });
   writeFileSync(output, `${JSON.stringify(record, rounded, 1)}\n`);
@@ -92,40 +116,52 @@ if (output) {
 
 /** Every contender that was asked for, each variant of a peer one of its own, with what it can do. */
 async function describeAll() {
-  const files = readdirSync(`${here}peers`).sort();
-  const peerNames = files.map((file) => file.slice(0, -'.mjs'.length)).filter((name) => name !== 'broadphase');
-  const asked = options.peers === undefined ? peerNames : list(options.peers);
-  refuseUnknown('peer', asked, peerNames);
+  const known = { peers: peersIn('peers'), askers: peersIn('askers') };
+  const asked = options.peers !== undefined ? list(options.peers) : everyTechnique ? [] : undefined;
+  refuseUnknown('peer', asked ?? [], [...known.peers, ...known.askers]);
   const all = [];
   const runner = start();
-  for (const peer of ['broadphase', ...asked]) {
-    const module = `./peers/${peer}.mjs`;
-    const { variants, dimensions, npm, error } = await runner.ask('describe', module);
+  const modules = Object.entries(known).flatMap(([folder, peers]) =>
+    ['broadphase', ...peers]
+      .filter((peer) => peer === 'broadphase' || !asked || asked.includes(peer))
+      .map((peer) => ({ peer, module: `./${folder}/${peer}.mjs` })),
+  );
+  for (const { peer, module } of modules) {
+    const { variants, dimensions, answers, npm, error } = await runner.ask('describe', module);
     if (error) fail(`${peer}: ${error}`);
-    if (peer === 'broadphase' && options.techniques !== undefined) {
+    if (peer === 'broadphase' && !answers && options.techniques !== undefined && !everyTechnique) {
       refuseUnknown('technique', list(options.techniques), variants);
       variants.splice(0, variants.length, ...list(options.techniques));
     }
     for (const variant of variants) {
       // JSON turns an undefined variant into null.
-      const name = peer === 'broadphase' ? variant : variant ? `${peer} (${variant})` : peer;
-      all.push({ name, peer, variant: variant ?? undefined, module, dimensions, npm });
+      const name = variant ? (peer === 'broadphase' ? variant : `${peer} (${variant})`) : peer;
+      all.push({ name, peer, variant: variant ?? undefined, module, dimensions, answers, npm });
     }
   }
   runner.stop();
+  if (everyTechnique) return all;
   const floor = { name: 'radix sort floor', peer: 'floor', module: './floors/sort.mjs', dimensions: [2, 3], npm: null };
   return [...all, floor];
 }
 
+/** The names of the adapters in a folder, without our own. */
+function peersIn(folder) {
+  const names = readdirSync(here + folder).map((file) => file.slice(0, -'.mjs'.length));
+  return names.filter((name) => name !== 'broadphase').sort();
+}
+
 async function raceAll() {
   const plan = scenes.flatMap((name) => countsOf(cases.get(name)).map((count) => ({ item: cases.get(name), count })));
-  const minutes = Number(options.minutes ?? (options.full ? 25 : Infinity));
   const end = performance.now() + minutes * 60_000;
   console.log(`${machine.cpu}, ${machine.cores} cores, ${machine.system}, Node ${machine.node}\n`);
   let overhead = 0;
   const done = [];
   for (const [k, { item, count }] of plan.entries()) {
-    const ready = contenders.filter(({ dimensions }) => dimensions.includes(dimensionsOf(item)));
+    const ready = contenders.filter(
+      ({ dimensions, answers }) =>
+        dimensions.includes(dimensionsOf(item)) && (item.question ? answers?.includes(item.question) : !answers),
+    );
     if (performance.now() > end + grace * minutes * 60_000) {
       console.log(`Out of time before ${item.name}, ${count}: run it alone, or give more --minutes.`);
       break;
@@ -138,7 +174,8 @@ async function raceAll() {
     const began = performance.now();
     const { results, ...facts } = await race(entering, { item, count, seed }, { ...settings, budget });
     overhead = Math.max(0, (performance.now() - began) / Math.max(1, entering.length) - rounds * budget);
-    done.push({ scene: item.name, dimensions: dimensionsOf(item), ...facts, results: [...results, ...left] });
+    const { name: scene, question, still } = item;
+    done.push({ scene, question, still, dimensions: dimensionsOf(item), ...facts, results: [...results, ...left] });
     console.log(`${table(done.at(-1))}\n`);
   }
   return done;
@@ -163,7 +200,7 @@ function sift(ready, item, count, done) {
         name,
         peer,
         variant,
-        skipped: `at least ${Math.round(guess)} ms a frame, by its ${before.count.toLocaleString('en')}`,
+        skipped: `over ${Math.round(guess / 100) / 10} s a frame, by its ${before.count.toLocaleString('en')}`,
       });
     else entering.push(contender);
   }

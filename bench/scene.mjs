@@ -1,10 +1,13 @@
-// The scene of a case: a seeded one of src/scenes, or a recording, played forth and back without end.
+// The scene of a case: a seeded one of src/scenes, moving or still, or a recording, played forth and back without end.
 import { readFileSync } from 'node:fs';
 import { gunzipSync } from 'node:zlib';
 import { createScene, readRecording } from '../build/bench/library.mjs';
 
-export function openScene({ scene, recording }, count, seed) {
-  return recording ? play(recording) : createScene(scene, count, { seed });
+export function openScene({ scene, recording, still }, count, seed) {
+  if (recording) return play(recording);
+  const made = createScene(scene, count, { seed });
+  if (still) made.step = () => {};
+  return made;
 }
 
 function play(path) {

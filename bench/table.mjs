@@ -5,11 +5,11 @@ export const short = (value) => (value < 10 ? value.toPrecision(3) : value.toFix
 export const whole = (value) => value.toLocaleString('en');
 
 /** What is wrong with a contender's pairs, in words: the share of the exact pairs that it found, and what it added. */
-export function faultOf({ wrong }) {
+export function faultOf({ wrong }, what = 'the pairs') {
   if (!wrong) return '';
   const { exact, missed, extra } = wrong;
   const share = exact === 0 ? 100 : Math.floor((1e4 * (exact - missed)) / exact) / 100;
-  return `WRONG: ${share} % of the pairs${extra ? ` and ${whole(extra)} that are none` : ''}`;
+  return `WRONG: ${share} % of ${what}${extra ? ` and ${whole(extra)} that are none` : ''}`;
 }
 
 export function bestOf(results) {
@@ -26,14 +26,18 @@ function bytes(count) {
       : `${Math.round(count)} B`;
 }
 
-export function table({ scene, count, pairs, results }) {
+export function table(race) {
+  const { results } = race;
   const best = bestOf(results);
   const rows = results.map((result) => {
     const { name, figures, problem, skipped, own, garbage, peak } = result;
     if (!figures) return [name, problem ?? `skipped: ${skipped}`];
     const times = [figures.median, figures.mean, figures.p95, figures.worst].map(short);
     const ratio = best ? `${short(figures.median / best.figures.median)}x` : '';
-    const remarks = [own === undefined ? '' : `its broad phase alone: ${short(own)}`, faultOf(result)];
+    const remarks = [
+      own === undefined ? '' : `its broad phase alone: ${short(own)}`,
+      faultOf(result, race.question && 'the answers'),
+    ];
     return [name, ...times, ratio, bytes(garbage), bytes(peak), remarks.filter(Boolean).join('; ')];
   });
   const header = ['ms per frame', 'median', 'mean', 'p95', 'worst', 'ratio', 'garbage', 'memory', ''];
@@ -46,5 +50,11 @@ export function table({ scene, count, pairs, results }) {
       .join('  ')
       .trimEnd(),
   );
-  return [`${scene}: ${whole(count)} boxes, ${whole(pairs)} pairs`, ...lines].join('\n');
+  return [titleOf(race), ...lines].join('\n');
+}
+
+function titleOf({ scene, question, still, count, pairs }) {
+  if (!question) return `${scene}: ${whole(count)} boxes, ${whole(pairs)} pairs`;
+  const when = still ? '' : ' after an update of all boxes';
+  return `${scene}: ${whole(count)} boxes, 1,000 questions a frame${when}, ${whole(pairs)} answers`;
 }

@@ -21,12 +21,15 @@ template <class What> auto with_space(What what) { return is_flat ? what(flat) :
 
 EXPORT(io_address)() -> f64* { return io; }
 
-/// Once, first; then, where the user says so, the margin, and the cell size and the bounds, from io.
+/// Once, first; then, where the user says so, the margin, and the cell size, the world and the bounds, from io.
 EXPORT(open_space)(u32 dimensions) -> void { is_flat = dimensions == 2; }
 EXPORT(set_cell_size)() -> void {
   for (int k = 0; k < 3; k++) options.cell_size[k] = io[k];
 }
 EXPORT(set_margin)(f64 margin) -> void { options.margin = margin; }
+EXPORT(set_wrap)() -> void {
+  for (int k = 0; k < 3; k++) options.wrap[k] = io[k];
+}
 EXPORT(set_bounds)() -> void {
   for (int k = 0; k < 6; k++) options.bounds[k] = io[k];
 }
@@ -82,6 +85,26 @@ EXPORT(expose)(u32 count) -> f32* {
 /// A number of a box that was staged, for the message that says why it is bad.
 EXPORT(staged_number)(u32 index, u32 doubles) -> f64 {
   return with_space([&](auto& space) { return space.staged_number(index, doubles != 0); });
+}
+
+/// The bytes of a snapshot; in io, how many, and the first bad id among boxes written in place (-1: none).
+EXPORT(save)() -> const u64* {
+  return with_space([](auto& space) {
+    io[1] = space.save();
+    io[0] = space.snapshot.bytes();
+    return space.snapshot.words();
+  });
+}
+/// Room for a snapshot of so many bytes, the first of which are in io; where they are bad, io[0] says how, else it is 0.
+EXPORT(stage_snapshot)(u32 size) -> const u64* {
+  return with_space([&](auto& space) {
+    io[0] = f64(u32(space.snapshot.stage(load<SnapshotHeader>(io), size, is_flat ? 2 : 3, built)));
+    return space.snapshot.words();
+  });
+}
+/// What is wrong with what was staged; 0: nothing, and it is restored.
+EXPORT(restore)() -> u32 {
+  return with_space([](auto& space) { return u32(space.restore()); });
 }
 
 /// Marks boxes 0 … red - 1 as red and the rest as blue: only pairs of both colours are reported.

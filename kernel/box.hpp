@@ -23,6 +23,7 @@ template <int D> struct Scene {
   u32 count;
   const u32* excluded;  // exclusion bits per slot, or null where no slot has any
   const Changes* changes = nullptr;  // what may differ from the last update; null: all
+  bool ordered = false;  // no update before this one may show in the order of the pairs
 };
 
 /// Which axis stands where in an item: axis[0] is swept, the others are binned.

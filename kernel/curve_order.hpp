@@ -16,7 +16,7 @@ template <int D> class HilbertCurve {
   // Two digits of the radix sort. Finer cells than about one for each item order nothing that matters.
   static constexpr u32 levels = D == 2 ? 11 : 7, level_bits = 4;
 
-  explicit HilbertCurve(const Statistics<D>& world) {
+  COLD explicit HilbertCurve(const Statistics<D>& world) {
     for (int a = 0; a < D; a++) {
       f64 middle = world.size[a] / 2;
       Axis axis = Axis::make(world.low[a] + middle, world.high[a] + middle, 1 << levels);
@@ -25,7 +25,7 @@ template <int D> class HilbertCurve {
   }
 
   /// Centres to cells, cells to the curve.
-  u32x4 operator()(const SceneItems<D>& items, const u32 (&index)[4]) const {
+  SHARED u32x4 operator()(const SceneItems<D>& items, const u32 (&index)[4]) const {
     f32x4 centres[4];
     for (int k = 0; k < 4; k++) {
       Item<D> item = items[index[k]];

@@ -7,6 +7,9 @@
 #pragma once
 #include "pair_table.hpp"
 
+/// In the pairs of a snapshot: the box of the smaller or of the larger id was deleted since they were found.
+inline constexpr u64 smaller_gone = u64(1) << 31, larger_gone = u64(1) << 63;
+
 class Events {
   Pairs before_;       // of the last update
   Buffer<u8> met_;     // per pair of those, whether it is among the pairs now
@@ -31,6 +34,32 @@ class Events {
   void forget(u32 id) {
     gone_[id / 32] |= 1u << id % 32;
     any_gone_ = true;
+  }
+
+  /// The pairs of the last update, and which of their boxes were deleted since, for a snapshot.
+  u64 count() const { return before_.count; }
+  COLD void save(u64* to) const {
+    for (u64 p = 0; p < before_.count; p++) {
+      u64 pair = before_.list[p];
+      to[p] = pair | (is_gone(u32(pair)) ? smaller_gone : 0) | (is_gone(u32(pair >> 32)) ? larger_gone : 0);
+    }
+  }
+
+  /// Room to restore so many pairs, whose ids are all below this one.
+  COLD void stage(u64 pairs, u32 ids) {
+    before_.list.grow(larger(pairs, u64(1)), before_.count);
+    make_room(ids);
+  }
+  COLD void restore(const u64* from, u64 count) {
+    if (any_gone_) __builtin_memset(gone_.data(), 0, gone_words_ * sizeof(u32));
+    any_gone_ = false;
+    before_.count = count;
+    for (u64 p = 0; p < count; p++) {
+      u64 pair = from[p] & ~(smaller_gone | larger_gone);
+      before_.list[p] = pair;
+      if (from[p] & smaller_gone) forget(u32(pair));
+      if (from[p] & larger_gone) forget(u32(pair >> 32));
+    }
   }
 
   /// These are the pairs now. `table` is for the pairs before, once it is made. Where memory ends it is as if this
@@ -63,6 +92,7 @@ class Events {
         next = at + 1;
       }
     }
+    ROLLED
     for (u64 p = 0; p < old_count; p++) {
       *ended_end = old[p];
       ended_end += !met[p];

@@ -40,6 +40,7 @@ class Filters {
   bool some_ = false;     // not all boxes are searched
   u32 searched_ = 0;      // how many are, while `some_`
   Buffer<Rule> rules_;    // per slot
+  Buffer<Rule> staged_;   // what `replace` puts in their place
   Buffer<u32> excluded_;  // per slot, or per searched box: the exclusion bits for the search
   Buffer<u32> slots_;     // per searched box
   Buffer<f32> boxes_;     // per searched box
@@ -62,6 +63,13 @@ class Filters {
   COLD void start(u32 count, u64 capacity) {
     rules_.reserve(capacity);
     for (u32 s = 0; s < count; s++) rules_[s] = everybody;
+    active_ = changed_ = true;
+  }
+
+  /// Room for the rules that `replace` will put in the place of all.
+  COLD Rule* stage(u32 count) { return staged_.reserve(larger(count, 1u)); }
+  COLD void replace() {
+    rules_.swap(staged_);
     active_ = changed_ = true;
   }
 
@@ -108,6 +116,9 @@ class Filters {
     }
     return to;
   }
+
+  /// Where the k-th of the boxes that are searched stands.
+  u32 slot(u32 k) const { return active_ && some_ ? slots_[k] : k; }
 
   /// After the search: places in the scene back to slots, and the forbidden pairs out.
   COLD void finish(Pairs& pairs) const {

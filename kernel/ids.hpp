@@ -11,6 +11,7 @@ class Ids {
   bool named_ = false;  // ids are kept; else slot == id for all (all zero, so that it takes no room in the wasm)
   u32 count_ = 0;
   Buffer<u32> id_of_;              // per slot
+  Buffer<u32> next_;               // what `replace` puts in its place
   Buffer<u32> pages_[page_count];  // per 4,096 ids: slot + 1 of each, 0 where the id is free
 
   u32* page(u32 id) {
@@ -31,6 +32,11 @@ class Ids {
       page(id)[id % page_size] = id + 1;
     }
     named_ = true;
+  }
+
+  /// Writes to the pages, which are there, in which slots these ids stand, or that they are free.
+  COLD void mark(const u32* ids, u32 count, bool on) {
+    for (u32 s = 0; s < count; s++) page(ids[s])[ids[s] % page_size] = on ? s + 1 : 0;
   }
 
  public:
@@ -77,9 +83,35 @@ class Ids {
     if (named_) {
       for (auto& page : pages_) page.release();
       id_of_.release();
+      next_.release();
     }
     named_ = false;
     count_ = count;
+  }
+
+  /// From now on the ids are these, in this order; false, and nothing has changed, where they are not ids or one of
+  /// them comes twice.
+  COLD bool replace(const u32* ids, u32 count) {
+    for (u32 s = 0; s < count; s++) {
+      if (ids[s] >= page_size * page_count) return false;
+    }
+    next_.reserve(larger(count, 1u));
+    for (u32 s = 0; s < count; s++) page(ids[s]);
+    mark(names(), names() ? count_ : 0, false);
+    for (u32 s = 0; s < count; s++) {
+      u32& entry = page(ids[s])[ids[s] % page_size];
+      if (entry) {
+        mark(ids, s, false);
+        mark(names(), names() ? count_ : 0, true);
+        return false;
+      }
+      entry = s + 1;
+      next_[s] = ids[s];
+    }
+    id_of_.swap(next_);
+    named_ = true;
+    count_ = count;
+    return true;
   }
 
   /// Whether slots and ids name each other.

@@ -41,11 +41,13 @@ class RadixSort {
       u32* counts = counts_.data() + p * values;
       if (counts[from_[0].key >> (p * digit) & (values - 1)] == n) continue;  // one value: nothing to order
       u32 at = 0;
+      ROLLED
       for (u32 v = 0; v < values; v++) {
         u32 count = counts[v];
         counts[v] = at;
         at += count;
       }
+      ROLLED
       for (u32 k = 0; k < n; k++) {
         Entry entry = from_[k];
         to_[counts[entry.key >> (p * digit) & (values - 1)]++] = entry;

@@ -21,6 +21,8 @@ using u64 = uint64_t;
 typedef f32 f32x4 __attribute__((vector_size(16)));
 typedef i32 i32x4 __attribute__((vector_size(16)));
 typedef u32 u32x4 __attribute__((vector_size(16)));
+typedef f64 f64x2 __attribute__((vector_size(16)));
+typedef f32 f32x2 __attribute__((vector_size(8)));
 typedef u8 u8x16 __attribute__((vector_size(16)));
 
 /// Reads any plain value from unaligned memory.
@@ -33,6 +35,7 @@ template <class T> inline T load(const void* at) {
 template <class T> inline void store(void* at, T value) { __builtin_memcpy(at, &value, sizeof(T)); }
 
 inline f32x4 splat(f32 x) { return f32x4{x, x, x, x}; }
+inline f64x2 splat(f64 x) { return f64x2{x, x}; }
 inline u32x4 splat(u32 x) { return u32x4{x, x, x, x}; }
 
 template <class To, class From> inline To bits(From value) {
@@ -45,22 +48,27 @@ template <class To, class From> inline To bits(From value) {
 #if defined(__wasm_simd128__)
 /// One bit a lane: its sign.
 inline u32 bitmask(i32x4 v) { return wasm_i32x4_bitmask(bits<v128_t>(v)); }
+/// One bit a lane: whether a is at most b.
+inline u32 at_most(f64x2 a, f64x2 b) { return wasm_i64x2_bitmask(bits<v128_t>(a <= b)); }
 inline bool any(i32x4 v) { return wasm_v128_any_true(bits<v128_t>(v)); }
 inline u32x4 min(u32x4 a, u32x4 b) { return bits<u32x4>(wasm_u32x4_min(bits<v128_t>(a), bits<v128_t>(b))); }
 inline u32x4 max(u32x4 a, u32x4 b) { return bits<u32x4>(wasm_u32x4_max(bits<v128_t>(a), bits<v128_t>(b))); }
 /// min and max of floats; where one is NaN the result is the second.
 inline f32x4 min(f32x4 a, f32x4 b) { return bits<f32x4>(wasm_f32x4_pmin(bits<v128_t>(b), bits<v128_t>(a))); }
 inline f32x4 max(f32x4 a, f32x4 b) { return bits<f32x4>(wasm_f32x4_pmax(bits<v128_t>(b), bits<v128_t>(a))); }
+inline f64x2 max(f64x2 a, f64x2 b) { return bits<f64x2>(wasm_f64x2_pmax(bits<v128_t>(b), bits<v128_t>(a))); }
 inline u8x16 swizzle(u8x16 v, u8x16 index) {
   return bits<u8x16>(wasm_i8x16_swizzle(bits<v128_t>(v), bits<v128_t>(index)));
 }
 #else
 inline u32 bitmask(i32x4 v) { return u32(_mm_movemask_ps(bits<__m128>(v))); }
+inline u32 at_most(f64x2 a, f64x2 b) { return u32(_mm_movemask_pd(bits<__m128d>(a <= b))); }
 inline bool any(i32x4 v) { return !_mm_testz_si128(bits<__m128i>(v), bits<__m128i>(v)); }
 inline u32x4 min(u32x4 a, u32x4 b) { return bits<u32x4>(_mm_min_epu32(bits<__m128i>(a), bits<__m128i>(b))); }
 inline u32x4 max(u32x4 a, u32x4 b) { return bits<u32x4>(_mm_max_epu32(bits<__m128i>(a), bits<__m128i>(b))); }
 inline f32x4 min(f32x4 a, f32x4 b) { return bits<f32x4>(_mm_min_ps(bits<__m128>(a), bits<__m128>(b))); }
 inline f32x4 max(f32x4 a, f32x4 b) { return bits<f32x4>(_mm_max_ps(bits<__m128>(a), bits<__m128>(b))); }
+inline f64x2 max(f64x2 a, f64x2 b) { return bits<f64x2>(_mm_max_pd(bits<__m128d>(a), bits<__m128d>(b))); }
 inline u8x16 swizzle(u8x16 v, u8x16 index) {
   return bits<u8x16>(_mm_shuffle_epi8(bits<__m128i>(v), bits<__m128i>(index)));
 }

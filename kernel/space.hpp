@@ -10,7 +10,9 @@
 #include "neighbours.hpp"
 #include "queries.hpp"
 #include "rounding.hpp"
+#include "snapshot.hpp"
 #include "techniques.hpp"
+#include "wrap.hpp"
 
 template <int D> class Space {
   static constexpr u32 width = 2 * D;  // numbers in a box
@@ -30,6 +32,7 @@ template <int D> class Space {
   bool exposed_ = false;  // `boxes()` has handed out the memory: look for bad numbers at the next update
   Filters filters_;
   Changes changes_;  // since the last update, for the technique that asks
+  Wrap wrap_;
   Techniques<D> techniques_;
   Technique ran_ = Technique::brute_force;
   u32 seen_ = 0;  // boxes in the last update
@@ -39,6 +42,8 @@ template <int D> class Space {
   bool neighbours_made_ = false;
   Index<D> index_;
   bool asked_ = false;  // from the first question on, the index keeps what each update saw
+  bool ordered_ = false;   // a snapshot was taken or restored: from then on no update before may show in the order of pairs
+  bool restored_ = false;  // since the last update: the pairs before are not those of which `table_` may be made
 
  public:
   Pairs pairs;
@@ -52,6 +57,7 @@ template <int D> class Space {
   Buffer<f32> cells;  // what structure() has written
   u32 cell_count = 0;
   Technique technique = Technique::automatic;
+  Snapshot snapshot;
 
   constexpr Space(Ids& ids, const Settings& options) : ids_(ids), options_(options) {}
 
@@ -119,11 +125,13 @@ template <int D> class Space {
     exposed_ = rounding_ = false;
   }
 
-  /// Where everything stands, for a recorder: the ids (0: slots), the boxes, the doubles they were given as (0: none).
+  /// Where everything stands, for a recorder: the ids (0: slots), the boxes, the doubles they were given as (0: none),
+  /// the rules (0: none).
   COLD void contents(f64* out) const {
     out[0] = f64(u64(ids_.names()));
     out[1] = f64(u64(boxes_.data()));
     out[2] = rounding_ ? f64(u64(exact_.data())) : 0;
+    out[3] = filters_.active() ? f64(u64(filters_.rules())) : 0;
   }
 
   /// Memory into which the next `replace` expects its boxes, as float32 or as doubles.
@@ -143,13 +151,7 @@ template <int D> class Space {
     i32 bad = doubles ? round_staged(count, rounded) : first_bad(staged_.data(), count);
     if (bad >= 0) return bad;
     renumber(count);
-    boxes_.swap(staged_);
-    rounding_ = rounded;
-    if (rounded) {
-      exact_.swap(staged_exact_);
-      rounded_.swap(staged_rounded_);
-    }
-    exposed_ = false;
+    take_staged(rounded);
     return -1;
   }
 
@@ -195,22 +197,58 @@ template <int D> class Space {
     rule.excluded = on ? rule.excluded | bit : rule.excluded & ~bit;
   }
 
+  /// Writes what stands in the space to `snapshot`. Returns the first bad id among boxes written in place, or -1.
+  COLD i32 save() {
+    i32 bad = bad_in_place();
+    if (bad >= 0) return bad;
+    ordered_ = true;
+    bool doubles = false;
+    for (u32 s = 0; rounding_ && s < ids_.count(); s++) doubles |= rounded_[s];
+    u8 used = technique == Technique::automatic ? SnapshotHeader::automatic : u8(technique);
+    snapshot.write(D, used, doubles, ids_, filters_, keeps_events ? &events : nullptr);
+    const void* boxes = doubles ? static_cast<const void*>(exact_.data()) : boxes_.data();
+    if (ids_.count()) __builtin_memcpy(snapshot.boxes(), boxes, snapshot.box_bytes());
+    snapshot.seal();
+    return -1;
+  }
+
+  /// Takes what was staged in `snapshot` in place of all there is; pairs stay those of the last update until the next.
+  /// Where the bytes are bad nothing changes.
+  COLD SnapshotFault restore() {
+    if (!snapshot.is_whole()) return SnapshotFault::damaged;
+    const SnapshotHeader& head = snapshot.head();
+    bool doubles = snapshot.doubles(), rounded = false;
+    void* staged = doubles ? static_cast<void*>(stage_exact(head.count)) : stage(head.count);
+    if (head.count) __builtin_memcpy(staged, snapshot.boxes(), snapshot.box_bytes());
+    i32 bad = doubles ? round_staged(head.count, rounded) : first_bad(staged_.data(), head.count);
+    Events* kept = keeps_events ? &events : nullptr;
+    if (bad >= 0 || !snapshot.check(filters_, kept) || !snapshot.take(ids_, filters_, kept)) return SnapshotFault::content;
+    take_staged(rounded);
+    technique = head.technique == SnapshotHeader::automatic ? Technique::automatic : Technique(head.technique);
+    restored_ = ordered_ = true;
+    return SnapshotFault::none;
+  }
+
   /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
   i32 update() {
-    if (exposed_) {
-      i32 bad = first_bad(boxes_.data(), ids_.count());
-      if (bad >= 0) return i32(ids_.id(u32(bad)));  // since it was written, a removal may have moved it
-    }
+    i32 bad = bad_in_place();
+    if (bad >= 0) return bad;
     Technique chosen = choose();
     bool follows = chosen == Technique::incremental;
     if (exposed_) changes_.note_all();
     if (follows && chosen == ran_ && changes_.none() && ids_.count() == seen_ && !filters_.changed()) return rest();
-    Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr};
+    Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_};
     if (filters_.active()) {
       bool others = filters_.changed();
       scene.boxes = filters_.select(scene.boxes, scene.count, width);
       scene.excluded = filters_.excluded();
       if (others || scene.boxes != boxes_.data()) scene.changes = nullptr;
+    }
+    bool wraps = options_.wrap[0] > 0;
+    if (wraps) {
+      const f64* doubles = rounding_ ? exact_.data() : nullptr;
+      scene.changes = nullptr;
+      scene.boxes = wrap_.unfold(scene.count, scene.excluded, filters_, boxes_.data(), doubles, options_.wrap, D);
     }
     pairs.count = 0;
     stats = Stats{};
@@ -220,18 +258,21 @@ template <int D> class Space {
     }
     ran_ = chosen;
     techniques_.with(ran_, [&](auto& chosen) { chosen.update(scene, options_, pairs, stats); });
-    if (filters_.active() || rounding_ || !ids_.same()) pairs.kept = 0;
+    if (filters_.active() || rounding_ || wraps || !ids_.same()) pairs.kept = 0;
     if (follows) changes_.clear(ids_.count());
     else changes_.note_all();
     seen_ = ids_.count();
     if (stats.candidates == 0) stats.candidates = f64(pairs.count);
+    if (wraps) wrap_.fold(pairs);
     if (filters_.active()) filters_.finish(pairs);
-    if (rounding_) retest();
+    if (rounding_ && !wraps) retest();
     if (!ids_.same()) name_pairs();
+    if (asked_) see();
+    if (restored_) table_.made = false;
+    restored_ = false;
     if (keeps_events) events.follow(pairs, table_);
     table_.made = neighbours_made_ = false;
     updates++;
-    if (asked_) see();
     stats.pairs = f64(pairs.count);
     // Growing later would cut the views of the pairs off: what the ids take at the first gap is taken now.
     heap::reach(u64(ids_.count()) * 2 * sizeof(u32) + (1 << 16));
@@ -300,6 +341,7 @@ template <int D> class Space {
     pairs.list.release();
     pairs.count = events.began.count = events.ended.count = 0;
     table_.made = neighbours_made_ = false;
+    wrap_.release();
     index_.release();
     answers.release();
     hits.release();
@@ -348,7 +390,8 @@ template <int D> class Space {
   /// What `automatic` stands for now.
   Technique choose() const {
     if (technique != Technique::automatic) return technique;
-    return ids_.count() <= handful ? Technique::brute_force : Technique::incremental;
+    if (ids_.count() <= handful) return Technique::brute_force;
+    return ordered_ ? Technique::strip_sweep : Technique::incremental;
   }
 
   /// An update in which nothing has changed.
@@ -357,6 +400,24 @@ template <int D> class Space {
     updates++;
     stats.tests = 0;
     return -1;
+  }
+
+  /// The id of the first bad box among those written in place, or -1.
+  i32 bad_in_place() const {
+    i32 bad = exposed_ ? first_bad(boxes_.data(), ids_.count()) : -1;
+    return bad < 0 ? -1 : i32(ids_.id(u32(bad)));  // since it was written, a removal may have moved it
+  }
+
+  /// What was staged is now what stands in the space; `rounded`: with doubles that float32 cannot hold.
+  void take_staged(bool rounded) {
+    changes_.note_all();
+    boxes_.swap(staged_);
+    rounding_ = rounded;
+    if (rounded) {
+      exact_.swap(staged_exact_);
+      rounded_.swap(staged_rounded_);
+    }
+    exposed_ = false;
   }
 
   f64 number(u32 slot, u32 k) const {

@@ -18,14 +18,13 @@ template <int D> struct Statistics {
   f64 size[D];          // mean sizes, each clipped to the extent
   f64 crowding;         // 1: spread evenly
 
-  /// The axis along which the world is longest, measured in boxes; `kept` where it is nearly that.
-  COLD int longest(int kept = -1) const {
+  /// The axis along which the world is longest, measured in boxes.
+  COLD int longest() const {
     int best = 0;
     f64 most = -1;
     for (int a = 0; a < D; a++) {
       f64 extent = high[a] - low[a];
       f64 length = extent > 0 ? extent / larger(size[a], extent * 1e-7) : 0;
-      if (a == kept) length *= 1.5;
       if (length > most) {
         most = length;
         best = a;
@@ -128,12 +127,14 @@ template <int D> SHARED Statistics<D> judge(u32 n) {
     extents(sample[a], n, found.low[a], found.high[a]);
     f64 extent = found.high[a] - found.low[a];
     f64 sum = 0;
+    ROLLED
     for (u32 k = 0; k < n; k++) {
       f64 size = f64(sample[D + a][k]) - f64(sample[a][k]);
       if (size > 0) sum += smaller(size, extent);  // not where both are the same infinity: NaN
     }
     found.size[a] = sum / n;
     f64 scale = extent > 0 ? side / extent : 0;
+    ROLLED
     for (u32 k = 0; k < n; k++) {
       f64 at = (f64(sample[a][k]) - found.low[a]) * scale;
       u32 index = at > 0 ? u32(smaller(at, f64(side - 1))) : 0;
@@ -145,6 +146,7 @@ template <int D> SHARED Statistics<D> judge(u32 n) {
   static u16 histogram[cells];
   for (u32 c = 0; c < cells; c++) histogram[c] = 0;
   f64 meetings = 0;
+  ROLLED
   for (u32 k = 0; k < n; k++) meetings += 2 * histogram[cell[k]]++;
   found.crowding = n < 64 ? 1 : larger(1.0, meetings * cells / (f64(n) * (n - 1)));
   return found;

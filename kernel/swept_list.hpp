@@ -36,6 +36,7 @@ template <int D> class SweptList {
       store(cells + k, at);
       for (int lane = 0; lane < 4; lane++) starts[at[lane]]++;
     }
+    ROLLED
     for (u32 k = whole; k < count; k++) starts[cells[k] = axis(items[k].lo(0))]++;
     u32 at = 0;
     u64 crowd = 0;  // the sum of the squares: what the unsorted cells cost

@@ -3,14 +3,14 @@
 //   npm run fuzz                        a minute
 //   npm run fuzz -- --seconds 3600      an hour
 //   npm run fuzz -- --keep              afterwards makes kernel/test/corpus the smallest set that reaches as much
-//   npm run fuzz -- --coverage          instead of fuzzing, says which lines of the kernel the corpus reaches
+//   npm run fuzz -- --coverage          instead of fuzzing, says which lines of the kernel native tests and corpus reach
 //   npm run fuzz -- FILE                runs one sequence, such as one that failed
 //
 // What is found on the way waits in build/fuzz/found for the next run. Where clang has no libFuzzer it says so.
 import { mkdirSync, readdirSync, renameSync, rmSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
-import { build, clangs, findCompiler, root, run, tests } from './native.mjs';
+import { build, clangs, findCompiler, root, run, testSources, tests } from './native.mjs';
 
 const { values, positionals } = parseArgs({
   allowPositionals: true,
@@ -28,6 +28,7 @@ const corpus = join(tests, 'corpus');
 const found = join(folder, 'found');
 const longest = 600; // bytes: about 60 calls
 const slowest = 30; // seconds for one sequence
+const fewest = 0.95; // of the kernel's lines that are reached
 
 const probe = 'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }\n';
 const { compiler, reasons } = await findCompiler(clangs, options, probe, folder, ['-runs=1']);
@@ -83,23 +84,28 @@ async function keep(program) {
   console.log(`fuzz: the corpus is ${kept.length} sequences, ${bytes} bytes`);
 }
 
-/** Runs the corpus, and what was found, once, in a build that counts lines. */
+/** Runs the native tests, which run the corpus too, in a build that counts lines and branches. */
 async function coverage() {
-  const counting = ['-fsanitize=fuzzer', '-fprofile-instr-generate', '-fcoverage-mapping'];
-  const program = await build(compiler, counting, sources, folder, 'coverage');
+  const counting = ['-fprofile-instr-generate', '-fcoverage-mapping'];
+  const program = await build(compiler, counting, testSources(), folder, 'coverage');
   const raw = join(folder, 'coverage.profraw');
   const data = join(folder, 'coverage.profdata');
-  const steps = [
-    [program, ['-runs=0', corpus, found], { env: { LLVM_PROFILE_FILE: raw } }],
-    [compiler.replace('clang++', 'llvm-profdata'), ['merge', '-sparse', raw, '-o', data]],
-    [
-      compiler.replace('clang++', 'llvm-cov'),
-      ['report', program, `-instr-profile=${data}`, '-ignore-filename-regex=kernel/test/|/usr/'],
-      { show: true },
-    ],
-  ];
-  for (const [tool, given, settings] of steps) {
-    const { ok, output } = await run(tool, given, settings);
-    if (!ok) throw new Error(`fuzz: ${tool} did not work\n${output}`);
+  const profile = [program, `-instr-profile=${data}`, '-ignore-filename-regex=kernel/test/|/usr/'];
+  const tool = (name) => compiler.replace('clang++', name);
+  const must = async (program, given, settings) => {
+    const { ok, output } = await run(program, given, settings);
+    if (!ok) throw new Error(`fuzz: ${program} did not work\n${output}`);
+    return output;
+  };
+  await must(program, [], { env: { LLVM_PROFILE_FILE: raw } });
+  await must(tool('llvm-profdata'), ['merge', '-sparse', raw, '-o', data]);
+  await must(tool('llvm-cov'), ['report', ...profile], { show: true });
+  const { lines, branches } = JSON.parse(await must(tool('llvm-cov'), ['export', '-summary-only', ...profile])).data[0]
+    .totals;
+  const share = ({ covered, count }) => `${((100 * covered) / count).toFixed(2)} % (${covered} of ${count})`;
+  console.log(`fuzz: native tests and corpus reach ${share(lines)} of the lines, ${share(branches)} of the branches`);
+  if (lines.covered < fewest * lines.count) {
+    console.error(`fuzz: fewer lines than ${100 * fewest} %`);
+    process.exit(1);
   }
 }

@@ -15,13 +15,23 @@ export default defineConfig({
   root: path('.'),
   base: './',
   plugins: [everyTechnique],
-  resolve: { alias: { 'broadphase/ro': path('../src/ro/index.ts'), broadphase: path('../src/index.ts') } },
+  resolve: {
+    alias: {
+      'broadphase/ro': path('../src/ro/index.ts'),
+      'broadphase/trace': path('../src/trace/index.ts'),
+      broadphase: path('../src/index.ts'),
+    },
+  },
+  worker: { format: 'es', plugins: () => [everyTechnique] },
   build: {
     target: 'es2022',
     outDir: path('dist'),
     emptyOutDir: true,
     assetsInlineLimit: 0,
-    rolldownOptions: { input: { index: path('index.html'), article: path('article/index.html') } },
+    chunkSizeWarningLimit: 600, // three.js, which only the lab's solid scenes fetch
+    rolldownOptions: {
+      input: { index: path('index.html'), article: path('article/index.html'), lab: path('lab/index.html') },
+    },
   },
   server: { headers, fs: { allow: [path('..')] } },
   preview: { headers },

@@ -4,6 +4,7 @@
 import { badBox, badCount, badId, badQuestion, badValue, checkBits, maxId, noBox, sweep2, sweep3 } from './errors.ts';
 import { builtTechniques } from './kernel.ts';
 import { Queries } from './queries.ts';
+import { badSnapshot, bytesOf, headerBytes } from './snapshot.ts';
 import { type Watcher, watch } from './watch.ts';
 
 /** Options of {@link BroadPhase}, all optional. */
@@ -16,6 +17,13 @@ export interface BroadPhaseOptions {
   cellSize?: number | readonly number[];
   /** For `spatial-grid`: the world that is cut into cells, minima then maxima. Boxes outside are found all the same. */
   bounds?: readonly number[];
+  /**
+   * The size of a world that wraps around, along each axis: what leaves it on one side comes in on the other, as in
+   * Asteroids. Boxes may be given anywhere; two are a pair where they overlap once both are moved by whole worlds. A
+   * box as long as the world, or without an end, reaches all around. The numbers stay as they were given; queries
+   * cannot be asked. Numbers above 0, up to 1e300. Left out: the world has no end.
+   */
+  wrap?: readonly number[];
   /** Whether every update finds out which pairs began and ended, for {@link BroadPhase.began}. Default false. */
   events?: boolean;
   /** For `aabb-tree`: how far a box may move before the tree changes, above 0. Left out: from the motion seen. */
@@ -24,7 +32,7 @@ export interface BroadPhaseOptions {
   capacity?: number;
 }
 
-/** All that there are, in the order of the kernel's numbers. */
+/** All that there are, in the order of the kernel's numbers, which stand in snapshots: new ones go before 'auto'. */
 const techniques = [
   'brute-force',
   'spatial-grid',
@@ -120,7 +128,16 @@ export class BroadPhase extends Queries {
     if (typeof options !== 'object' || options === null) {
       badValue('new BroadPhase', options, 'an object of options', true);
     }
-    const { dimensions = 2, technique = 'auto', cellSize, bounds, margin, events = false, capacity = 0 } = options;
+    const {
+      dimensions = 2,
+      technique = 'auto',
+      cellSize,
+      bounds,
+      margin,
+      wrap,
+      events = false,
+      capacity = 0,
+    } = options;
     if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
     checkTechnique(technique);
     if (typeof events !== 'boolean') badValue('events', events, 'true or false', true);
@@ -128,8 +145,9 @@ export class BroadPhase extends Queries {
     const cells = cellSize === undefined ? undefined : checkCellSize(cellSize, dimensions);
     if (bounds !== undefined) checkBounds(bounds, dimensions);
     if (margin !== undefined) checkMargin(margin);
+    if (wrap !== undefined) checkWrap(wrap, dimensions);
 
-    super(dimensions);
+    super(dimensions, wrap !== undefined);
     this.#technique = technique;
     this.kernel.set_technique(techniques.indexOf(technique));
     this.#events = events;
@@ -140,6 +158,10 @@ export class BroadPhase extends Queries {
       this.kernel.set_cell_size();
     }
     if (margin !== undefined) this.kernel.set_margin(margin);
+    if (wrap) {
+      io.set(wrap);
+      this.kernel.set_wrap();
+    }
     if (bounds) {
       io.set(bounds);
       this.kernel.set_bounds();
@@ -216,7 +238,18 @@ export class BroadPhase extends Queries {
     dy: number,
     dz: number,
   ): this;
-  setSwept(id: number, a: number, b: number, c: number, d: number, e: number, f: number, g = 0, h = 0, i = 0): this {
+  setSwept(
+    id: number,
+    a: number,
+    b: number,
+    c: number,
+    d: number,
+    e: number,
+    f: number,
+    g?: number,
+    h?: number,
+    i?: number,
+  ): this {
     const flat = this.width === 4;
     if (
       // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
@@ -224,9 +257,9 @@ export class BroadPhase extends Queries {
       id >>> 0 !== id ||
       id > maxId ||
       !(flat ? a <= c && b <= d : a <= d && b <= e && c <= f) ||
-      !(areNumbers(a, b, c, d, e, f) && areNumbers(g, h, i)) ||
+      !(areNumbers(a, b, c, d, e, f) && (flat || areNumbers(g, h, i))) ||
       // What is infinite is NaN without itself.
-      (flat ? e - e + (f - f) : g - g + (h - h) + (i - i)) !== 0
+      (flat ? e - e + (f - f) : g! - g! + (h! - h!) + (i! - i!)) !== 0
     ) {
       // biome-ignore lint/complexity/noArguments: the same
       badSwept(arguments, this.dimensions);
@@ -238,12 +271,12 @@ export class BroadPhase extends Queries {
       io[2] = c + Math.max(e, 0);
       io[3] = d + Math.max(f, 0);
     } else {
-      io[0] = a + Math.min(g, 0);
-      io[1] = b + Math.min(h, 0);
-      io[2] = c + Math.min(i, 0);
-      io[3] = d + Math.max(g, 0);
-      io[4] = e + Math.max(h, 0);
-      io[5] = f + Math.max(i, 0);
+      io[0] = a + Math.min(g!, 0);
+      io[1] = b + Math.min(h!, 0);
+      io[2] = c + Math.min(i!, 0);
+      io[3] = d + Math.max(g!, 0);
+      io[4] = e + Math.max(h!, 0);
+      io[5] = f + Math.max(i!, 0);
     }
     this.#write(id);
     return this;
@@ -423,11 +456,7 @@ export class BroadPhase extends Queries {
         this.#readStats();
       }
     }
-    if (bad >= 0) {
-      const box = new Float32Array(this.width);
-      this.get(bad, box);
-      badBox('update', bad, box, this.dimensions);
-    }
+    if (bad >= 0) this.#badInPlace('update', bad);
     this.#readStats();
     if (this.#watcher !== undefined) this.#show(this.#watcher);
     return this;
@@ -501,6 +530,74 @@ export class BroadPhase extends Queries {
   }
 
   /**
+   * What stands in the space, as bytes to go back to with `restore`, or to save: boxes as they were given, ids,
+   * filters, which boxes are static, the technique, and with `events: true` the pairs of the last update. Options of
+   * the constructor are not in it. A box takes 16 bytes in 2D and 24 in 3D, twice that where some box is not a
+   * float32, 4 more where ids have gaps, up to 9 more with filters; a pair 8.
+   *
+   * From the first call on, and from `restore` on, the order of the pairs depends on what stands in the space alone,
+   * so that a restored space gives them in the very order of the one that went on. `auto` then keeps nothing from
+   * update to update, and `incremental` sorts its pairs.
+   *
+   * @throws RangeError that names the first bad box written through `boxes()`
+   *
+   * @example
+   * const saved = space.snapshot();
+   * // … some frames later the network says that one of them was wrong:
+   * space.restore(saved); // and play them again
+   */
+  snapshot(): Uint8Array<ArrayBuffer> {
+    let bad = -1;
+    try {
+      const at = this.kernel.save() >>> 0;
+      const [length, id] = this.io() as unknown as [number, number];
+      if (id < 0) return new Uint8Array(this.kernel.memory.buffer, at, length).slice();
+      bad = id;
+    } catch (error) {
+      this.recover(error, 'snapshot');
+    }
+    this.#badInPlace('snapshot', bad);
+  }
+
+  /**
+   * Puts what stood in a space when `snapshot` was called in place of all that stands in this one. From there on the
+   * same calls give the same pairs, in the same order, as they gave there, whatever either space did before, where the
+   * two were made with the same options.
+   *
+   * As with every change of boxes, pairs and answers stay those of the last update until the next. With `events: true`
+   * what begins and ends with that one does so against the pairs that the space of the snapshot had: events come again
+   * as they came there, and what happened only in frames that were taken back does not end. A snapshot of a space
+   * without events has no pairs to tell them from: all begin.
+   *
+   * @param bytes what `snapshot` gave, in this version of the library or an older one
+   * @throws RangeError that says why for bytes that are damaged, cut off, of other dimensions, or no snapshot at all;
+   *   TypeError for other than bytes. The space is as before.
+   */
+  restore(bytes: Uint8Array | ArrayBuffer): this {
+    const source = bytesOf(bytes);
+    const io = this.io();
+    // The header first: memory is taken only for what may be a snapshot and is as long as it says.
+    const header = new Uint8Array(io.buffer, io.byteOffset, headerBytes);
+    header.fill(0);
+    header.set(source.subarray(0, headerBytes));
+    let fault = 0;
+    try {
+      const at = this.kernel.stage_snapshot(source.length) >>> 0;
+      fault = this.io()[0]!;
+      if (fault === 0) {
+        new Uint8Array(this.kernel.memory.buffer, at, source.length).set(source);
+        fault = this.kernel.restore();
+      }
+    } catch (error) {
+      this.recover(error, 'restore');
+    }
+    if (fault !== 0) badSnapshot(fault, source, this.dimensions, techniques[source[7]!] ?? `number ${source[7]}`);
+    this.#technique = techniques[source[7]!] ?? 'auto';
+    this.#view = undefined;
+    return this;
+  }
+
+  /**
    * Checks every invariant of the space, in time proportional to boxes and pairs.
    * @throws Error that says what is broken, which would be a fault of this library
    */
@@ -539,12 +636,13 @@ export class BroadPhase extends Queries {
 
   #show(watcher: Watcher): void {
     this.kernel.contents();
-    const [ids, boxes, doubles] = this.io();
+    const [ids, boxes, doubles, rules] = this.io();
     const { buffer } = this.kernel.memory;
     const length = this.size * this.width;
     watcher(
       doubles ? new Float64Array(buffer, doubles, length) : new Float32Array(buffer, boxes, length),
       ids ? new Uint32Array(buffer, ids, this.size) : undefined,
+      rules ? new Uint32Array(buffer, rules, 3 * this.size) : undefined,
     );
   }
 
@@ -561,6 +659,13 @@ export class BroadPhase extends Queries {
     stats.entries = from[4]!;
     stats.bytes = from[5]!;
     stats.technique = techniques[from[6]!]!;
+  }
+
+  /** A box that was written through `boxes()` is bad. */
+  #badInPlace(where: string, id: number): never {
+    const box = new Float32Array(this.width);
+    this.get(id, box);
+    badBox(where, id, box, this.dimensions);
   }
 
   /** A view of staged boxes. Two arrays take turns in the kernel, so the last two views are kept. */
@@ -647,6 +752,14 @@ function checkMargin(margin: unknown): void {
   const expected = 'a number above 0';
   if (typeof margin !== 'number') badValue('margin', margin, expected, true);
   if (!(margin > 0 && margin < Number.POSITIVE_INFINITY)) badValue('margin', margin, expected);
+}
+
+function checkWrap(wrap: readonly number[], dimensions: 2 | 3): void {
+  const expected = `${dimensions} numbers above 0 and no more than 1e300`;
+  if (!Array.isArray(wrap)) badValue('wrap', wrap, expected, true);
+  const good =
+    wrap.length === dimensions && wrap.every((size) => typeof size === 'number' && size > 0 && size <= 1e300);
+  if (!good) badValue('wrap', wrap, expected);
 }
 
 function checkBounds(bounds: readonly number[], dimensions: 2 | 3): void {

@@ -12,6 +12,7 @@ export interface KernelExports {
   open_space(dimensions: number): void;
   set_cell_size(): void;
   set_margin(margin: number): void;
+  set_wrap(): void;
   set_bounds(): void;
   reserve(count: number): void;
   set(id: number): void;
@@ -28,6 +29,9 @@ export interface KernelExports {
   replace(count: number, doubles: number): number;
   expose(count: number): number;
   staged_number(index: number, doubles: number): number;
+  save(): number;
+  stage_snapshot(size: number): number;
+  restore(): number;
   split(red: number): void;
   techniques(): number;
   set_technique(technique: number): void;

@@ -413,6 +413,7 @@ export abstract class Queries extends Space {
 
   /** Asks for the boxes that touch what stands in the kernel's array. */
   #area(where: string, options: IdsOptions | undefined): number[] {
+    if (this.wraps) noQueries(where);
     const mask = maskOf(where, options);
     const ignored = ignoredOf(where, options);
     if (options?.visit !== undefined) {
@@ -430,6 +431,7 @@ export abstract class Queries extends Space {
 
   /** Asks for the first boxes that the box in the kernel's array meets, or for the nearest; returns how many. */
   #order(where: string, moving: boolean, options: QueryOptions | undefined, most: number): number {
+    if (this.wraps) noQueries(where);
     const mask = maskOf(where, options);
     const ignored = ignoredOf(where, options);
     try {
@@ -470,6 +472,7 @@ export abstract class Queries extends Space {
     most: number,
     visitor: (id: number, rank: number) => unknown,
   ): void {
+    if (this.wraps) noQueries(where);
     const mask = maskOf(where, options);
     const ignored = ignoredOf(where, options);
     checkVisitor(where, visitor);
@@ -566,4 +569,10 @@ function wrongShape(where: string, dimensions: number, right: string): never {
 
 function updatedInside(where: string): never {
   throw new Error(`${where}: update was called by the visitor, expected it to wait until the search has ended`);
+}
+
+function noQueries(where: string): never {
+  throw new Error(
+    `${where}: this world wraps around, in which queries are not answered, expected a space without wrap`,
+  );
 }

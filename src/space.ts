@@ -14,11 +14,14 @@ export abstract class Space {
   protected kernel: KernelExports;
   /** Numbers in a box. @internal */
   protected readonly width: number;
+  /** Whether the world wraps around. @internal */
+  protected readonly wraps: boolean;
   readonly #stackTop: number;
   #io = new Float64Array();
 
-  constructor(dimensions: 2 | 3) {
+  constructor(dimensions: 2 | 3, wraps: boolean) {
     this.dimensions = dimensions;
+    this.wraps = wraps;
     this.width = 2 * dimensions;
     this.kernel = instantiate();
     this.#stackTop = this.kernel.__stack_pointer.value;

@@ -2,6 +2,7 @@
 import { expect, test } from 'vitest';
 import { fingerprint } from '../bench/fingerprint.mjs';
 import { change, summary } from '../bench/statistics.mjs';
+import { autoAgainstBest } from '../bench/techniques.mjs';
 
 test('a fingerprint depends on the pairs, not on their order', () => {
   const pairs = [0, 1, 5, 9, 2, 2 ** 24 - 1, 7, 3];
@@ -34,4 +35,17 @@ test('a change is beyond the noise when no round of one lies among those of the 
   expect(change(figures(9, 10, 11), figures(4, 5, 6))).toEqual({ ratio: 0.5, beyondNoise: true });
   expect(change(figures(9, 10, 19), figures(18, 20, 22)).beyondNoise).toBe(false);
   expect(change(figures(10, 10, 10), figures(10.2, 10.2, 10.2)).beyondNoise).toBe(false);
+});
+
+test('auto is held against the best of our fixed techniques, with 10 % and 0.02 ms to spare', () => {
+  const results = (auto: number) =>
+    Object.entries({ a: 2, b: 1, auto, peer: 0.1 }).map(([name, median]) => ({
+      name,
+      peer: name === 'peer' ? name : 'broadphase',
+      figures: { median },
+    }));
+  expect(autoAgainstBest({ results: results(1.5) })).toEqual({ best: 'b', slower: 0.5, within: false });
+  expect(autoAgainstBest({ results: results(1.11) })).toMatchObject({ best: 'b', within: true });
+  expect(autoAgainstBest({ results: results(0.9) })).toMatchObject({ best: 'b', within: true });
+  expect(autoAgainstBest({ results: [{ name: 'auto', peer: 'broadphase' }] })).toBeUndefined();
 });

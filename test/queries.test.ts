@@ -32,9 +32,10 @@ class Asker {
     return from[Math.floor(this.#random() * from.length)];
   }
 
-  /** Whole numbers mostly, some far outside. */
+  /** Whole numbers mostly, some far outside, a few beyond what float32 can reckon with. */
   #place(): number {
     const at = this.#random() * this.#world;
+    if (this.#random() < 0.02) return this.#pick(1e-40, 1e35, 1e300) * (at - this.#world / 2);
     return this.#pick(Math.floor(at), Math.floor(at), at, at, Math.floor(at) + 0.1, 1e9 * (at - this.#world / 2));
   }
 
@@ -53,7 +54,8 @@ class Asker {
 
   /** Whole numbers mostly, often along an axis, sometimes none at all. */
   #way(): number[] {
-    const reach = this.#pick(1, this.#world, this.#world * 10, 0.3);
+    let reach = this.#pick(1, this.#world, this.#world * 10, 0.3);
+    if (this.#random() < 0.1) reach = this.#pick(1e-45, 1e-35, 1e25, 1e35);
     return this.#point().map(() => this.#pick(0, 0, 1, -1, this.#random() - 0.5) * reach);
   }
 

@@ -43,7 +43,9 @@ test.each([2, 3] as const)('bad boxes and ways are refused in %d dimensions', (d
   for (const id of [-1, 2 ** 24, 1.5, '7']) expect(() => setSwept(space, id, ...good)).toThrow('setSwept: the id is');
   for (let at = 0; at < good.length; at++) {
     expect(() => setSwept(space, 1, ...good.with(at, Number.NaN))).toThrow(RangeError);
-    expect(() => setSwept(space, 1, ...good.with(at, '1' as unknown as number))).toThrow(TypeError);
+    for (const value of ['1', undefined, null]) {
+      expect(() => setSwept(space, 1, ...good.with(at, value as unknown as number))).toThrow(TypeError);
+    }
   }
   expect(() => setSwept(space, 1, ...good.with(0, 2))).toThrow('setSwept: minX: got 2');
   expect(() => setSwept(space, 1, ...good.with(2 * dimensions, Infinity))).toThrow('setSwept: dx: got Infinity');

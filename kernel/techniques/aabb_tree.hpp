@@ -13,6 +13,7 @@
 // kept with a margin from L. Verlet, "Computer Experiments on Classical Fluids", 1967.
 #pragma once
 #include "packed_tree.hpp"
+#include "pair_order.hpp"
 #include "settings.hpp"
 
 template <int D> class AabbTree {
@@ -33,7 +34,9 @@ template <int D> class AabbTree {
   static constexpr u32 longest_pause = 256;
 
   PackedTree<D> tree_;
-  Pairs candidates_;
+  Pairs candidates_;       // in the order of their slots
+  Buffer<u64> merged_;     // where they go with each update, and what they are swapped with
+  PairOrder pair_order_;
   Buffer<f32> fat_;      // per slot its fat box, as in a scene
   Buffer<f32> origin_;   // per slot its minima when it was fattened, and in which update that was
   Buffer<u32> tags_;     // per slot its exclusion bits, and whether it rests
@@ -59,6 +62,7 @@ template <int D> class AabbTree {
       pause_--;
       tree_.build(scene, 0);
       tree_.join(pairs, stats);
+      pair_order_.sort(pairs.list.data(), pairs.count, n);
       stats.cells = tree_.nodes();
       return;
     }
@@ -105,6 +109,7 @@ template <int D> class AabbTree {
       count_ = n;
       tree_.join(candidates_, stats);
     }
+    pair_order_.sort(candidates_.list.data() + kept, candidates_.count - kept, n);
     retest(scene.boxes, kept, pairs);
     f64 fresh = build_cost * n + test_cost * stats.tests;
     cost += test_cost * stats.tests + candidate_cost * f64(candidates_.count);
@@ -124,6 +129,8 @@ template <int D> class AabbTree {
     tree_.release();
     candidates_.list.release();
     candidates_.count = 0;
+    merged_.release();
+    pair_order_.release();
     fat_.release();
     origin_.release();
     tags_.release();
@@ -204,24 +211,35 @@ template <int D> class AabbTree {
     candidates_.count = left;
   }
 
-  /// Drops, of the first `kept` candidates, those of boxes that moved; reports all that overlap.
+  /// Drops, of the first `kept` candidates, those of boxes that moved; reports all that overlap. The first and the
+  /// others are both in order, and so is what comes out.
   void retest(const f32* boxes, u64 kept, Pairs& pairs) {
-    u64 count = candidates_.count, left = 0;
-    u64* list = candidates_.list.data();
+    u64 count = candidates_.count;
+    const u64* list = candidates_.list.data();
+    u64* left = merged_.reserve(count + 1);
     u64* out = pairs.list.grow(count + Pairs::slack, 0);
-    for (u64 k = 0; k < count; k++) {
-      u64 pair = list[k];
-      u32 a = u32(pair), b = u32(pair >> 32);
-      bool keep = k >= kept || (tags_[a] & tags_[b] & rests);
-      const f32* one = boxes + u64(a) * width;
-      const f32* other = boxes + u64(b) * width;
+    auto take = [&](u64 pair, bool is_kept) {
+      const f32* one = boxes + u64(u32(pair)) * width;
+      const f32* other = boxes + (pair >> 32) * width;
       u32 overlap = bitmask((load<f32x4>(one) <= load<f32x4>(other + D)) & (load<f32x4>(other) <= load<f32x4>(one + D)));
-      list[left] = pair;
-      left += keep;
+      *left = pair;
+      left += is_kept;
       *out = pair;
-      out += keep && !(~overlap & ((1 << D) - 1));
+      out += is_kept && !(~overlap & ((1 << D) - 1));
+    };
+    u64 k = 0, next = kept;
+    auto stays = [&](u64 pair) { return bool(tags_[u32(pair)] & tags_[pair >> 32] & rests); };
+    while (k < kept && next < count) {
+      u64 old = list[k], fresh = list[next];
+      bool first = PairOrder::key(old) < PairOrder::key(fresh);  // no branch: it would be mispredicted
+      k += first;
+      next += !first;
+      take(first ? old : fresh, !first | stays(old));
     }
-    candidates_.count = left;
+    for (; k < kept; k++) take(list[k], stays(list[k]));
+    for (; next < count; next++) take(list[next], true);
+    candidates_.count = u64(left - merged_.data());
+    candidates_.list.swap(merged_);
     pairs.count = u64(out - pairs.list.data());
   }
 };

@@ -19,6 +19,7 @@
 // From: candidates kept with a margin, L. Verlet, "Computer Experiments on Classical Fluids", 1967; fat boxes, as in
 // the dynamic trees of Bullet and Box2D; k-d tree, J. Bentley, 1975. The combination is ours.
 #pragma once
+#include "pair_order.hpp"
 #include "strip_sweep.hpp"
 
 /// Fat boxes as structure of arrays that grow: minima, maxima, tags, then `more` rows of the owner's.
@@ -150,6 +151,7 @@ template <int D> class Incremental {
   u32 huge_[most_huge] = {};
   u32 huge_count_ = 0;
   Pairs settled_;
+  PairOrder order_;
   Buffer<u32> woken_;    // a bit per slot: it rested, and does no longer
   bool any_woken_ = false;
   bool excluding_ = false;  // boxes had exclusion bits
@@ -172,26 +174,10 @@ template <int D> class Incremental {
 #endif
 
   void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
-    u32 n = scene.count;
-    now_ += 1;
-    if (leaves_ > 0 && (n < few || n > 2 * planned_ || 4 * n < planned_)) forget();
-    pairs.count = 0;
-    moving_ = candidates_ = late_ = turned_ = motion_ = 0;
-    if (leaves_ > 0) {
-      follow(scene, pairs);
-      serve(scene, options, stats);
-      if (leaves_ > 0 && queued_ == 0) {
-        take_turns(scene, options, stats);
-        if (leaves_ > 0 && pays()) report(scene, options, pairs, stats);
-      }
-    }
-    kept_ = leaves_ > 0 && queued_ == 0;
-    if (kept_) return balance(f64(pairs.count - settled_.count));
-    stats = Stats{};
-    pairs.count = pairs.kept = 0;
-    anew_.update(scene, options, pairs, stats);
-    fresh_ = entry_cost * stats.entries + test_cost * stats.tests;
-    if (leaves_ == 0 && n >= few && steady(scene)) plan(scene);
+    find(scene, options, pairs, stats);
+    if (!scene.ordered) return;
+    order_.sort(pairs.list.data(), pairs.count, scene.count);
+    pairs.kept = 0;
   }
 
   /// The cells, or the strips.
@@ -216,6 +202,7 @@ template <int D> class Incremental {
     queue_.release();
     late_list_.release();
     settled_.list.release();
+    order_.release();
     woken_.release();
     watched_.release();
     sample_.release();
@@ -225,6 +212,29 @@ template <int D> class Incremental {
   }
 
  private:
+  void find(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+    u32 n = scene.count;
+    now_ += 1;
+    if (leaves_ > 0 && (n < few || n > 2 * planned_ || 4 * n < planned_)) forget();
+    pairs.count = 0;
+    moving_ = candidates_ = late_ = turned_ = motion_ = 0;
+    if (leaves_ > 0) {
+      follow(scene, pairs);
+      serve(scene, options, stats);
+      if (leaves_ > 0 && queued_ == 0) {
+        take_turns(scene, options, stats);
+        if (leaves_ > 0 && pays()) report(scene, options, pairs, stats);
+      }
+    }
+    kept_ = leaves_ > 0 && queued_ == 0;
+    if (kept_) return balance(f64(pairs.count - settled_.count));
+    stats = Stats{};
+    pairs.count = pairs.kept = 0;
+    anew_.update(scene, options, pairs, stats);
+    fresh_ = entry_cost * stats.entries + test_cost * stats.tests;
+    if (leaves_ == 0 && n >= few && steady(scene)) plan(scene);
+  }
+
   f32* last(u32 slot) const { return known_[slot].box; }
   static const f32* box_of(const Scene<D>& scene, u32 slot) { return scene.boxes + u64(slot) * width; }
   static u32 excluded_of(const Scene<D>& scene, u32 slot) { return scene.excluded ? scene.excluded[slot] : 0; }

@@ -2,15 +2,16 @@
 //
 // Idea: each box is compared with the copy of it from the update before. One that has not changed costs nothing
 // more; one that has, makes its cells dirty, and only where it has come into other cells it is taken out of the old
-// ones and put into the new. Then the dirty cells are searched; the pairs of the others are those they had. A cell is
-// a short list of slots with room to grow. When much has changed at once, or boxes have drifted until the cells fit
-// them badly, all is built anew.
+// ones and put into the new. Then the dirty cells are searched for pairs of boxes that have changed; those of boxes
+// that have not stay what they were. A cell is a short list of slots with room to grow. When much has changed at once,
+// or boxes have drifted until the cells fit them badly, all is built anew.
 // Cost: update O(n + entries of the boxes that changed cells), pairs O(dirty cells * their squared number of boxes);
 // memory about 100 (2D) or 200 (3D) bytes a box, and the pairs, which are kept too.
 // Wins where most boxes rest. Loses where all move: then looking what has changed saves little.
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, future expansion.
 #pragma once
 #include "grid.hpp"
+#include "pair_order.hpp"
 #include "stats.hpp"
 #include "sweep.hpp"
 
@@ -21,7 +22,6 @@ template <int D> class RetainedGrid {
   struct Cell {
     u32 at, size, room;  // its entries
     u32 dirty;
-    u32 pairs_at, pairs;  // what it found when it was last dirty
   };
 
   Grid<D> grid_;
@@ -30,11 +30,15 @@ template <int D> class RetainedGrid {
   u32 entries_end_ = 0;
   Buffer<f32> boxes_;    // of the last update
   Buffer<u32> tags_;
+  Buffer<u8> moved_;     // per slot, whether it changed with this update
   u32 count_ = 0;        // of boxes in the cells; 0: all is to be built
   f64 placed_ = 0, tests_ = 0;              // entries, and tests if all cells were dirty
   f64 built_placed_ = 0, built_tests_ = 0;  // the same when the cells were built
   f64 effort_ = 0;       // entries looked at while boxes were moved
-  Buffer<u64> found_;    // pairs, cell by cell
+  Buffer<u64> found_;    // the pairs of the last update, in the order of their slots
+  u64 found_count_ = 0;
+  Pairs fresh_;          // those of the dirty cells
+  PairOrder pair_order_;
   // For the search of dirty cells.
   Buffer<u32> picked_, end_;
   Lanes<D> lanes_;
@@ -68,7 +72,11 @@ template <int D> class RetainedGrid {
     entries_.release();
     boxes_.release();
     tags_.release();
+    moved_.release();
     found_.release();
+    fresh_.list.release();
+    pair_order_.release();
+    found_count_ = 0;
     picked_.release();
     end_.release();
     lanes_.release();
@@ -90,6 +98,7 @@ template <int D> class RetainedGrid {
     u64 total = grid_.choose(items, n, options, smaller(n, max_slots / 4) * 4);
     u32 cells = grid_.total();
     Axes axes = grid_.axes();
+    found_count_ = 0;
     cells_.reserve(cells);
     __builtin_memset(cells_.data(), 0, u64(cells) * sizeof(Cell));
     for (u32 k = 0; k < n; k++) {
@@ -107,6 +116,7 @@ template <int D> class RetainedGrid {
     entries_end_ = at;
     boxes_.reserve(u64(n) * 2 * D + 4);
     tags_.reserve(n);
+    __builtin_memset(moved_.reserve(n), 1, n);
     tests_ = 0;
     for (u32 k = 0; k < n; k++) {
       put(grid_.range(axes, items[k]), k);
@@ -124,15 +134,23 @@ template <int D> class RetainedGrid {
     if (n > 2 * had || had > 2 * n) return false;
     boxes_.grow(u64(n) * 2 * D + 4, u64(smaller(n, had)) * 2 * D);
     tags_.grow(n, smaller(n, had));
+    moved_.reserve(larger(n, had));
     SceneItems<D> old{{boxes_.data(), had, tags_.data()}, items.order};
     Axes axes = grid_.axes();
     effort_ = 0;
-    for (u32 k = n; k < had; k++) take(grid_.range(axes, old[k]), k);
+    for (u32 k = n; k < had; k++) {
+      take(grid_.range(axes, old[k]), k);
+      moved_[k] = 1;
+    }
     for (u32 k = 0; k < n; k++) {
       Item<D> item = items[k];
+      moved_[k] = 1;
       if (k < had) {
         Item<D> before = old[k];
-        if (same(item, before)) continue;
+        if (same(item, before)) {
+          moved_[k] = 0;
+          continue;
+        }
         Range range = grid_.range(axes, item), left = grid_.range(axes, before);
         if (!any(bits<i32x4>((range.first ^ left.first) | (range.last ^ left.last)))) {
           grid_.visit(range, [&](u32 cell, u32) { cells_[cell].dirty = 1; });
@@ -188,48 +206,62 @@ template <int D> class RetainedGrid {
     entries_end_ += room;
   }
 
-  /// The pairs of clean cells, as they were, then those of the dirty ones.
+  /// Finds what overlaps in the dirty cells.
   void search(const SceneItems<D>& items, Pairs& pairs, Stats& stats) {
     u32 cells = grid_.total();
     u32 picked = 0;
-    for (u32 c = 0; c < cells; c++) picked += cells_[c].dirty ? cells_[c].size : 0;
+    for (u32 c = 0; c < cells; c++) {
+      stats.cells += cells_[c].size > 0;
+      picked += cells_[c].dirty ? cells_[c].size : 0;
+    }
     picked_.reserve(picked);
     end_.reserve(picked);
     lanes_.reserve(picked);
     picked = 0;
-    u64* out = pairs.list.data();
     for (u32 c = 0; c < cells; c++) {
-      Cell& cell = cells_[c];
-      stats.cells += cell.size > 0;
-      if (cell.dirty) {
-        u32 end = picked + cell.size;
-        for (u32 k = 0; k < cell.size; k++, picked++) {
-          picked_[picked] = entries_[cell.at + k];
-          end_[picked] = end;
-        }
-      } else if (cell.pairs > 0) {
-        out = pairs.room(out, cell.pairs);
-        for (u32 k = 0; k < cell.pairs; k++) out[k] = found_[cell.pairs_at + k];
-        cell.pairs_at = u32(out - pairs.list.data());
-        out += cell.pairs;
-      }
-    }
-    pairs.count = u64(out - pairs.list.data());
-    lanes_.fill(PickedItems<D>{items, picked_.data()}, picked);
-    u32 at = 0;
-    for (u32 c = 0; c < cells; c++) {
-      Cell& cell = cells_[c];
+      const Cell& cell = cells_[c];
       if (!cell.dirty) continue;
-      cell.dirty = 0;
-      cell.pairs_at = u32(pairs.count);
-      if (cell.size > 1) {
-        sweep<D, true>(lanes_, end_.data(), at, at + cell.size, pairs);
-        stats.tests += f64(cell.size) * (cell.size - 1) / 2;
+      u32 end = picked + cell.size;
+      stats.tests += f64(cell.size) * (f64(cell.size) - 1) / 2;
+      for (u32 k = 0; k < cell.size; k++, picked++) {
+        picked_[picked] = entries_[cell.at + k];
+        end_[picked] = end;
       }
-      at += cell.size;
-      cell.pairs = u32(pairs.count) - cell.pairs_at;
     }
+    lanes_.fill(PickedItems<D>{items, picked_.data()}, picked);
+    fresh_.count = 0;
+    sweep<D, true>(lanes_, end_.data(), 0, picked, fresh_);
+    merge(items.scene.count, pairs);
+    for (u32 c = 0; c < cells; c++) cells_[c].dirty = 0;
+  }
+
+  /// The pairs of boxes that rest, as they were, and of what was found those of boxes that moved, all in order.
+  void merge(u32 slots, Pairs& pairs) {
+    auto moves = [&](u64 pair) { return bool(moved_[u32(pair)] | moved_[pair >> 32]); };
+    u64* fresh = fresh_.list.data();
+    u64 count = 0, k = 0, next = 0;
+    for (u64 p = 0; p < fresh_.count; p++) {
+      fresh[count] = fresh[p];
+      count += moves(fresh[p]);
+    }
+    pair_order_.sort(fresh, count, slots);
+    u64* out = pairs.list.grow(found_count_ + count + Pairs::slack, 0);
+    while (k < found_count_ && next < count) {
+      u64 old = found_[k];
+      bool first = PairOrder::key(old) < PairOrder::key(fresh[next]);  // no branch: it would be mispredicted
+      *out = first ? old : fresh[next];
+      out += !first | !moves(old);
+      k += first;
+      next += !first;
+    }
+    for (; k < found_count_; k++) {
+      *out = found_[k];
+      out += !moves(found_[k]);
+    }
+    for (; next < count; next++) *out++ = fresh[next];
+    pairs.count = u64(out - pairs.list.data());
     found_.reserve(pairs.count);
     if (pairs.count) __builtin_memcpy(found_.data(), pairs.list.data(), pairs.count * sizeof(u64));
+    found_count_ = pairs.count;
   }
 };

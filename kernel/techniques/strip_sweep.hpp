@@ -211,13 +211,16 @@ template <int D> class StripSweep {
       }
     }
     if constexpr (D == 3) {
+      ROLLED
       for (u32 l = 0; l < lists; l++) {
         if (l % across) offsets[l] += offsets[l - 1];
       }
     }
+    ROLLED
     for (u32 l = across; l < lists; l++) offsets[l] += offsets[l - across];
     u64 total = base;
     f64 tests = 0;  // relative to those of the uncut items
+    ROLLED
     for (u32 l = 0; l < lists; l++) {
       u32 size = offsets[l];
       offsets[l] = u32(total);
@@ -228,7 +231,7 @@ template <int D> class StripSweep {
     // next cut to spread it.
     bool pays = tests * 2 < f64(count) * count || (total - base) * 2 < count * 3;
     if (!pays || total > most_copies * boxes_) return false;
-    if (depth == 0) entered_ = u32(total);
+    if (base == 0) entered_ = u32(total);
     size_t source = place(items);
     entries_.grow(total, base);
     move(items, source);

@@ -2,7 +2,8 @@
 //
 // Idea: the axis along which the world is longest, measured in boxes, is swept. The order is kept: from one update
 // to the next boxes move little, so it is nearly right and an insertion sort repairs it in one pass. Where too much
-// has changed (or all is new) that is given up after a few moves for a radix sort. Few of the boxes that meet on one
+// has changed (or all is new) that is given up after a few moves for a radix sort. Boxes that start together stand in
+// the order of their slots, so that what the order is depends on the boxes alone. Few of the boxes that meet on one
 // axis overlap, so eight are tested at a time and only looked at closer where one of them hits.
 // Cost: update O(n + moves in the order), at most that of one radix sort; pairs O(n * boxes that one meets along the
 // axis), which grows with the square root (2D) or the power 2/3 (3D) of n; memory about 50 (2D) or 65 (3D) bytes a box.
@@ -32,7 +33,7 @@ template <int D> class SweepAndPrune {
   void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     if (n < 2) return;
-    axis_ = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, n).longest(axis_);
+    axis_ = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, n).longest();
     take(n);
     keys_.reserve(n);
     lanes_.reserve(n);
@@ -40,7 +41,7 @@ template <int D> class SweepAndPrune {
     for (u32 k = 0; k < n; k++) keys_[k] = least[size_t(order_[k]) * 2 * D];
     if (!repair(n)) {
       sort_.begin(n);
-      for (u32 k = 0; k < n; k++) sort_.put(order_[k], keys_[k]);
+      for (u32 k = 0; k < n; k++) sort_.put(k, least[size_t(k) * 2 * D]);
       sort_.sort(n);
       for (u32 k = 0; k < n; k++) order_[k] = sort_.index(k);
     }
@@ -82,16 +83,17 @@ template <int D> class SweepAndPrune {
     count_ = n;
   }
 
-  /// Insertion sort of the order by its keys; false where that would take too long.
+  /// Insertion sort of the order by its keys, then by the slots; false where that would take too long.
   bool repair(u32 n) {
     f32* keys = keys_.data();
     u32* order = order_.data();
     u64 moves = 0;
     for (u32 k = 1; k < n; k++) {
       f32 key = keys[k];
-      if (keys[k - 1] <= key) continue;
+      if (keys[k - 1] < key) continue;
       u32 slot = order[k], at = k;
-      for (; at > 0 && keys[at - 1] > key; at--) {
+      auto is_behind = [&](u32 other) { return keys[other] > key || (keys[other] == key && order[other] > slot); };
+      for (; at > 0 && is_behind(at - 1); at--) {
         keys[at] = keys[at - 1];
         order[at] = order[at - 1];
       }

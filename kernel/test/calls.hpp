@@ -4,6 +4,8 @@
 // After each call space and model agree on ids and numbers; after each update on the pairs. Some calls are made
 // with little memory left: those that fail must have changed nothing.
 #pragma once
+#include <optional>
+
 #include "check.hpp"
 #include "scenes.hpp"
 
@@ -45,13 +47,27 @@ template <int D> class Calls {
   Ids& ids_;
   Space<D>& space_;
   Model<D> model_;
+  PairList before_;           // of the last update
+  bool found_ = false;        // whether they are still the space's: not after memory ended
+  std::optional<Model<D>> seen_;  // by the questions, once one was asked
+  bool updated_ = false, asked_ = false;
   bool starved_ = false;  // the next call has little memory
+
+  /// A snapshot, and what it is one of.
+  struct Saved {
+    std::vector<u64> words;
+    Model<D> model;
+    PairList before;
+    Technique technique;
+  };
+  std::optional<Saved> saved_;
 
  public:
   Calls(Bytes& bytes, Technique first)
       : bytes_(bytes), instance_(open<D>(first)), ids_(instance_->ids), space_(instance_->space) {
     // Not the extremes, which take the grid a while and have a test of their own.
     u8 with = bytes_.next();
+    space_.keeps_events = with & 16;
     for (u32 a = 0; a < D; a++) {
       if (with % 16 == 1) instance_->settings.cell_size[a] = std::exp2(f64(bytes_.below(12)));
       if (with % 16 == 2) {
@@ -69,11 +85,12 @@ template <int D> class Calls {
     update();
     compare();
     look();
+    ask_area();
   }
 
  private:
   void step() {
-    switch (bytes_.below(24)) {
+    switch (bytes_.below(32)) {
       default: return set(id(), box());
       case 8: case 9: case 10: return remove(id());
       case 11: return replace_by_a_scene();
@@ -87,6 +104,14 @@ template <int D> class Calls {
       case 19: return look();
       case 20: return compare();
       case 21: case 22: case 23: return update();
+      case 24: return filter();
+      case 25: return save();
+      case 26: return restore();
+      case 27: return ask_area();
+      case 28: return ask_near();
+      case 29: return ask_sweep();
+      case 30: return ask_partners();
+      case 31: return update();
     }
   }
 
@@ -106,6 +131,8 @@ template <int D> class Calls {
     starved_ = false;
     if (!ended) return true;
     space_.recover();
+    found_ = false;
+    seen_.reset();
     CHECK(space_.pairs.count == 0);
     compare();
     return false;
@@ -209,12 +236,259 @@ template <int D> class Calls {
 
   void switch_technique() { space_.technique = Technique(bytes_.below(technique_count)); }
 
+  void filter() {
+    static const u32 bits[] = {~0u, 1, 2, 3, 6, 0, 0x80000000};
+    if (model_.count() == 0) return;
+    u32 id = someone();
+    u32 layer = bits[bytes_.next() % std::size(bits)], mask = bits[bytes_.next() % std::size(bits)];
+    if (bytes_.below(8) == 0) layer = mask = 1u << bytes_.below(32) | bytes_.next();  // many kinds
+    if (made([&] { space_.filter(ids_.slot(id), layer, mask); })) model_.filter(id, layer, mask);
+  }
+
+  u32 someone() {
+    std::vector<u32> all = model_.ids();
+    return all[bytes_.next16() % all.size()];
+  }
+
+  void save() {
+    if (!made([&] { CHECK(space_.save() == -1); })) return;
+    const Snapshot& made = space_.snapshot;
+    saved_ = Saved{{made.words(), made.words() + made.bytes() / 8}, model_, before_, space_.technique};
+  }
+
+  /// Goes back to what was saved; or tries to with other bytes, which must change nothing.
+  void restore() {
+    if (!saved_) return;
+    std::vector<u64> words = saved_->words;
+    u8 how = bytes_.below(4);
+    u64 size = words.size() * 8;
+    u8* bytes = reinterpret_cast<u8*>(words.data());
+    if (how == 1) bytes[bytes_.next16() % size] ^= u8(1u << bytes_.below(8));
+    if (how == 2) size = bytes_.next16() % size;
+    // Bytes of anybody's making behind a right checksum: what they say may be restored, but must be in order.
+    if (how == 3) bytes[bytes_.next16() % size] = bytes_.next();
+    SnapshotHeader head = {};
+    __builtin_memcpy(&head, bytes, smaller(size, u64(sizeof(head))));
+    SnapshotFault fault = SnapshotFault::none;
+    bool done = made([&] {
+      fault = space_.snapshot.stage(head, u32(size), D, built);
+      if (fault != SnapshotFault::none) return;
+      __builtin_memcpy(const_cast<u64*>(space_.snapshot.words()), bytes, size);
+      if (how == 3) space_.snapshot.seal();
+      fault = space_.restore();
+    });
+    if (!done) return;
+    if (how == 1 || how == 2) CHECK(fault != SnapshotFault::none);
+    if (how == 0) CHECK(fault == SnapshotFault::none);
+    if (fault != SnapshotFault::none) return compare();
+    if (how == 3) {
+      u32 detail;
+      CHECK(space_.validate(detail) == 0);
+      restored_others();
+    } else {
+      model_ = saved_->model;
+      before_ = saved_->before;
+      space_.technique = saved_->technique;
+    }
+    found_ = false;
+    compare();
+  }
+
+  /// The model of what stands in the space, whatever it is.
+  void restored_others() {
+    model_ = Model<D>();
+    Boxes<D> boxes;
+    for (u32 s = 0; s < ids_.count(); s++) {
+      Box<D> box;
+      CHECK(space_.get(ids_.id(s), box.data()));
+      model_.set(ids_.id(s), box);
+    }
+    // Filters and pairs before cannot be asked for: what they are shows in a space that saves again.
+    CHECK(space_.save() == -1);
+    CHECK(space_.update() == -1);
+    u32 detail;
+    CHECK(space_.validate(detail) == 0);
+    for (u32 id : model_.ids()) {
+      space_.filter(ids_.slot(id), ~0u, ~0u);
+      for (u32 bit : {u32(is_static), u32(is_red), u32(is_blue)}) space_.exclude(ids_.slot(id), bit, false);
+    }
+    CHECK(space_.update() == -1);
+    updated_ = true;
+    before_ = model_.pairs();
+    if (asked_) seen_ = model_;
+  }
+
   void update() {
     if (!made([&] { CHECK(space_.update() == -1); })) return;
-    CHECK(sorted_pairs(space_) == model_.pairs());
+    PairList now = sorted_pairs(space_);
+    CHECK(now == model_.pairs());
     CHECK(space_.stats.pairs == f64(space_.pairs.count));
     CHECK(space_.stats.candidates >= space_.stats.pairs);
     CHECK(space_.stats.bytes == f64(heap::used));
+    if (space_.keeps_events) check_events(now);
+    before_ = now;
+    updated_ = found_ = true;
+    model_.updated();
+    if (asked_) seen_ = model_;
+  }
+
+  void check_events(const PairList& now) {
+    PairList began, ended;
+    for (u64 pair : now) {
+      if (model_.is_gone(pair) || !std::binary_search(before_.begin(), before_.end(), pair)) began.push_back(pair);
+    }
+    for (u64 pair : before_) {
+      if (model_.is_gone(pair) || !std::binary_search(now.begin(), now.end(), pair)) ended.push_back(pair);
+    }
+    CHECK(sorted(space_.events.began) == began);
+    CHECK(sorted(space_.events.ended) == ended);
+  }
+
+  static PairList sorted(const Pairs& pairs) {
+    PairList list(pairs.list.data(), pairs.list.data() + pairs.count);
+    std::sort(list.begin(), list.end());
+    return list;
+  }
+
+  /// Asks; returns whether there was memory for it. The first question sees what stands there if there was an update.
+  template <class Ask> bool asked(Ask ask) {
+    bool done = made(ask);
+    if (!done) {  // whether the index was made before memory ended cannot be told: begin anew
+      update();
+      ask();
+    }
+    if (!asked_ || !done) seen_ = updated_ ? std::optional<Model<D>>(model_) : std::nullopt;
+    asked_ = true;
+    return done;
+  }
+
+  Question<D>& question() {
+    Question<D>& question = space_.question;
+    question = {};
+    question.radius = -1;
+    question.mask = bytes_.below(3) ? ~0u : bytes_.below(8);
+    question.ignored = bytes_.below(3) ? ~0u : id();
+    Box<D> given = box();
+    for (u32 a = 0; a < D; a++) {
+      question.lo[a] = given[a];
+      question.hi[a] = given[D + a];
+    }
+    return question;
+  }
+
+  /// The ids that a question is about.
+  std::vector<u32> eligible(const Question<D>& question) const {
+    std::vector<u32> ids;
+    if (!seen_) return ids;
+    for (u32 id : seen_->ids()) {
+      bool wanted = question.mask == ~0u || (seen_->rule(id).layer & question.mask);
+      if (wanted && id != question.ignored) ids.push_back(id);
+    }
+    return ids;
+  }
+
+  void ask_area() {
+    Question<D> asks = question();
+    std::vector<u32> answer;
+    asked([&] {
+      space_.question = asks;
+      answer.clear();
+      u32 from = 0, part = 7;  // in parts, as visitors are served
+      for (;;) {
+        u32 count = space_.ask_area(from, part);
+        answer.insert(answer.end(), space_.answers.data(), space_.answers.data() + count);
+        if (count < part) break;
+      }
+    });
+    Box<D> box;
+    for (u32 a = 0; a < D; a++) {
+      box[a] = asks.lo[a];
+      box[D + a] = asks.hi[a];
+    }
+    std::vector<u32> expected;
+    for (u32 id : eligible(asks)) {
+      if (overlap(box.data(), seen_->at(id).data(), D)) expected.push_back(id);
+    }
+    std::sort(answer.begin(), answer.end());
+    CHECK(answer == expected);
+  }
+
+  /// Up to rounding: the nearest, in order.
+  void ask_near() {
+    Question<D> asks = question();
+    for (u32 a = 0; a < D; a++) asks.lo[a] = asks.hi[a] = f64(bytes_.below(40));
+    asks.limit = bytes_.below(2) ? std::numeric_limits<f64>::infinity() : f64(bytes_.next()) * 4;
+    u32 most = 1 + bytes_.below(12);
+    std::vector<Hit> hits;
+    asked([&] {
+      space_.question = asks;
+      u32 count = space_.ask_order(false, most, nullptr);
+      hits.assign(space_.hits.data(), space_.hits.data() + count);
+    });
+    CHECK(hits.size() <= most);
+    bool good = true;
+    std::map<u32, f64> distances;
+    for (u32 id : eligible(asks)) {
+      const Box<D>& box = seen_->at(id);
+      f64 sum = 0;
+      for (u32 a = 0; a < D; a++) {
+        f64 apart = std::max({box[a] - asks.lo[a], asks.lo[a] - box[D + a], 0.0});
+        sum += apart * apart;
+      }
+      distances[id] = sum;
+    }
+    for (size_t k = 0; k < hits.size(); k++) {
+      good &= k == 0 || hits[k - 1] < hits[k];
+      good &= distances.count(hits[k].id) > 0;
+      if (!good) break;
+      f64 is = distances[hits[k].id];
+      good &= is == hits[k].rank || std::fabs(is - hits[k].rank) <= 1e-12 * is;
+      distances.erase(hits[k].id);
+    }
+    f64 last = hits.size() == most ? hits.back().rank : asks.limit;
+    for (const auto& [id, left] : distances) good &= !(left < last * (1 - 1e-12));
+    CHECK(good);
+  }
+
+  void ask_sweep() {
+    Question<D> asks = question();
+    for (u32 a = 0; a < D; a++) asks.along[a] = f64(bytes_.next()) - 128;
+    asks.limit = asks.length = 1;
+    std::vector<Hit> hits;
+    asked([&] {
+      space_.question = asks;
+      u32 count = space_.ask_order(true, 3, nullptr);
+      hits.assign(space_.hits.data(), space_.hits.data() + count);
+    });
+    std::vector<u32> ids = eligible(asks);
+    bool good = hits.size() <= 3;
+    for (const Hit& hit : hits) {
+      good &= hit.rank >= 0 && hit.rank <= 1 && std::binary_search(ids.begin(), ids.end(), hit.id);
+    }
+    CHECK(good);
+  }
+
+  void ask_partners() {
+    if (!found_) return;
+    u32 mine = model_.count() ? someone() : id();
+    std::vector<u32> answer;
+    if (!made([&] {
+          u32 count = space_.partners(mine);
+          answer.assign(space_.answers.data(), space_.answers.data() + count);
+        })) {
+      return;
+    }
+    std::sort(answer.begin(), answer.end());
+    std::vector<u32> expected;
+    for (u64 pair : before_) {
+      if (u32(pair) == mine) expected.push_back(u32(pair >> 32));
+      if (u32(pair >> 32) == mine) expected.push_back(u32(pair));
+    }
+    std::sort(expected.begin(), expected.end());
+    CHECK(answer == expected);
+    u32 other = expected.empty() ? id() : expected[bytes_.next() % expected.size()];
+    bool met = false;
+    if (made([&] { met = space_.is_pair(mine, other); })) CHECK(met == !expected.empty() || expected.empty());
   }
 
   /// The structure is made of boxes.

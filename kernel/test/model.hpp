@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "space.hpp"
@@ -38,12 +39,14 @@ inline f32 outward(f64 x, bool up) {
 template <int D> class Model {
   struct Entry {
     Box<D> box = {};
-    u32 excluded = 0;
+    Rule rule{~0u, ~0u, 0};
   };
   std::map<u32, Entry> entries_;
+  std::set<u32> gone_;  // deleted since the last update
 
-  /// Ids are 0 … count - 1 from now on; those that were there keep their exclusion bits.
+  /// Ids are 0 … count - 1 from now on; those that were there keep their rules.
   void renumber(u32 count) {
+    for (auto entry = entries_.lower_bound(count); entry != entries_.end(); ++entry) gone_.insert(entry->first);
     entries_.erase(entries_.lower_bound(count), entries_.end());
     for (u32 id = 0; id < count; id++) entries_[id];
   }
@@ -59,8 +62,15 @@ template <int D> class Model {
   }
 
   void set(u32 id, const Box<D>& box) { entries_[id].box = box; }
-  bool remove(u32 id) { return entries_.erase(id) > 0; }
-  void clear() { entries_.clear(); }
+  bool remove(u32 id) {
+    if (entries_.erase(id) == 0) return false;
+    gone_.insert(id);
+    return true;
+  }
+  void clear() { renumber(0); }
+  const Rule& rule(u32 id) const { return entries_.at(id).rule; }
+  bool is_gone(u64 pair) const { return gone_.count(u32(pair)) || gone_.count(u32(pair >> 32)); }
+  void updated() { gone_.clear(); }
   void replace(const Boxes<D>& boxes) {
     renumber(u32(boxes.size()));
     for (u32 id = 0; id < boxes.size(); id++) entries_[id].box = boxes[id];
@@ -72,8 +82,12 @@ template <int D> class Model {
     }
   }
   void exclude(u32 id, u32 bit, bool on) {
-    u32& bits = entries_.at(id).excluded;
+    u32& bits = entries_.at(id).rule.excluded;
     bits = on ? bits | bit : bits & ~bit;
+  }
+  void filter(u32 id, u32 layer, u32 mask) {
+    entries_.at(id).rule.layer = layer;
+    entries_.at(id).rule.mask = mask;
   }
 
   PairList pairs() const {
@@ -87,7 +101,7 @@ template <int D> class Model {
     for (size_t i = 0; i < known.size(); i++) {
       for (size_t j = i + 1; j < known.size(); j++) {
         const Entry &a = *known[i].entry, &b = *known[j].entry;
-        if (a.excluded & b.excluded) continue;
+        if (!meet(a.rule, b.rule)) continue;
         if (overlap(a.box.data(), b.box.data(), D)) found.push_back(known[i].id | u64(known[j].id) << 32);
       }
     }

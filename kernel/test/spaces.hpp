@@ -141,6 +141,43 @@ template <int D> void check_switches() {
   });
 }
 
+/// The order of the pairs follows from what stands in the space, not from the updates before: a space that has seen
+/// other boxes, with few and with many changes in between, gives them as a fresh one does.
+template <int D> void check_history() {
+  Random random(16);
+  Boxes<D> boxes = spread<D>(random, 400, 0, 60, 8);
+  for (auto& box : spread<D>(random, 200, 0, 12, 0)) {  // many that start together
+    for (u32 a = 0; a < D; a++) box[a] = box[D + a] = std::floor(box[a]);
+    boxes.push_back(box);
+  }
+  each_technique([&](Technique technique) {
+    auto old = open<D>(technique);
+    Boxes<D> now = boxes;
+    for (u32 frame = 0; frame < 60; frame++) {
+      testing::Where where("frame " + std::to_string(frame));
+      u32 moving = frame % 20 == 0 ? u32(now.size()) : frame % 5 == 0 ? 0 : 20;
+      for (u32 k = 0; k < moving; k++) {
+        Box<D>& box = now[random.below(u32(now.size()))];
+        for (u32 a = 0; a < D; a++) {
+          f64 by = frame % 7 == 0 ? 30 - f64(random.below(60)) : (f64(random.below(9)) - 4) / 4;
+          box[a] += by;
+          box[D + a] += by;
+        }
+      }
+      if (frame % 11 == 10) now.resize(now.size() - 40);
+      if (frame % 13 == 12) now.insert(now.end(), boxes.begin(), boxes.begin() + 50);
+      auto fresh = open<D>(technique);
+      for (auto* space : {&old->space, &fresh->space}) {
+        replace(*space, now, true);
+        space->update();
+      }
+      const u64 *one = old->space.pairs.list.data(), *other = fresh->space.pairs.list.data();
+      CHECK(old->space.pairs.count == fresh->space.pairs.count);
+      CHECK(std::equal(one, one + old->space.pairs.count, other));
+    }
+  });
+}
+
 /// The order of the pairs follows from the calls alone.
 template <int D> void check_order() {
   each_technique([&](Technique technique) {
@@ -302,6 +339,7 @@ template <int D> void list_space_tests() {
       {"spaces find the pairs of scenes that need deep cuts", D, check_deep_cuts<D>},
       {"spaces go from any scene and technique to any other", D, check_switches<D>},
       {"spaces give the pairs in an order that follows from the calls", D, check_order<D>},
+      {"spaces give the pairs in the same order whatever was there before", D, check_history<D>},
       {"spaces follow random calls", D, check_calls<D>},
       {"spaces follow the fuzzer's calls", D, check_corpus<D>},
       {"spaces keep the numbers they were given", D, check_rounding<D>},

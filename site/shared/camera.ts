@@ -33,6 +33,20 @@ export class Camera {
     this.fitted = true;
   }
 
+  /** How much larger than when all of the world is shown. */
+  get zoomed(): number {
+    return this.scale / this.#fitScale();
+  }
+
+  /** Puts a world point into the middle, so many times as large as when all is shown. */
+  look(x: number, y: number, zoomed: number): void {
+    this.fit();
+    this.zoom(zoomed);
+    this.x = x;
+    this.y = y;
+    this.fitted = false;
+  }
+
   resize(width: number, height: number): void {
     this.width = Math.max(1, width);
     this.height = Math.max(1, height);

@@ -4,7 +4,16 @@
 /** Slot 0 is a box that touches nothing; the slots after it run through the hues, each in all its shades. */
 export const hues = 12;
 export const shades = 4;
-export const slotCount = 1 + hues * shades;
+
+/** After these come the colours of the structure of a technique: a cell, of which only the outline is drawn, */
+export const cellSlot = 1 + hues * shades;
+/** cells that hold more and more boxes, */
+export const heatSlot = cellSlot + 1;
+export const heats = 4;
+/** and a box that was chosen, and its partners. */
+export const chosenSlot = heatSlot + heats;
+export const partnerSlot = chosenSlot + 1;
+export const slotCount = partnerSlot + 1;
 
 /** The shade of a box by its number of partners: 1 or 2, 3 or 4, 5 to 8, more. */
 const shadeOf = Uint8Array.of(0, 0, 0, 1, 1, 2, 2, 2, 2, 3);

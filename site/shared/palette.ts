@@ -1,6 +1,6 @@
 // The colours of the boxes, light and dark, made in OKLCH so that no hue stands out.
 // The conversion is B. Ottosson's, https://bottosson.github.io/posts/oklab/.
-import { hues, shades, slotCount } from './groups.ts';
+import { cellSlot, chosenSlot, heatSlot, heats, hues, partnerSlot, shades, slotCount } from './groups.ts';
 
 const gamma = (c: number) => {
   const v = Math.min(1, Math.max(0, c));
@@ -39,6 +39,16 @@ export function makePalette(dark: boolean, background: string): Palette {
       slots.set([...colour, 1], (1 + hue * shades + shade) * 4);
     }
   }
+  slots.set([...oklch(dark ? 0.74 : 0.5, 0.11, 265), dark ? 0.42 : 0.36], cellSlot * 4);
+  for (let heat = 0; heat < heats; heat++) {
+    const depth = heat / (heats - 1);
+    slots.set(
+      [...oklch(0.78 - 0.16 * depth, 0.15 + 0.05 * depth, 75 - 45 * depth), 0.3 + 0.6 * depth],
+      (heatSlot + heat) * 4,
+    );
+  }
+  slots.set([...oklch(dark ? 0.97 : 0.2, 0, 0), 1], chosenSlot * 4);
+  slots.set([...oklch(dark ? 0.85 : 0.42, 0.03, 265), 1], partnerSlot * 4);
   const part = (at: number) => Number.parseInt(background.slice(at, at + 2), 16) / 255;
   return { slots, background: [part(1), part(3), part(5)] };
 }

@@ -1,6 +1,6 @@
 // Without a GPU: boxes painted into an array of pixels by hand, one pass, which shows them as the shaders do and
 // beats both a 2D canvas' own rectangles and a WebGL that runs in software by far.
-import { slotCount } from './groups.ts';
+import { cellSlot, slotCount } from './groups.ts';
 import type { BoxRenderer } from './renderer.ts';
 
 const opaque = 256;
@@ -61,7 +61,8 @@ export function createCanvasRenderer(canvas: HTMLCanvasElement): BoxRenderer {
     }
 
     const ease = Math.min(1, (extent - outlineFrom) / 10);
-    const fill = solid - (solid - light) * ease * ease * (3 - 2 * ease);
+    const least = slot === cellSlot ? 0 : light;
+    const fill = solid - (solid - least) * ease * ease * (3 - 2 * ease);
     const reach = 1.25 * density + 0.5;
     const band = Math.ceil(reach + 1);
     for (let y = y0; y < y1; y++) {
@@ -72,7 +73,9 @@ export function createCanvasRenderer(canvas: HTMLCanvasElement): BoxRenderer {
       for (let x = x0; x < x1; x++) {
         if (x === x0 + band) {
           // Away from both sides a row has one alpha.
-          for (const end = x1 - band; x < end; x++) pixels[at + x] = mix(pixels[at + x], colour, plain);
+          const end = x1 - band;
+          if (plain === 0) x = Math.max(x, end);
+          for (; x < end; x++) pixels[at + x] = mix(pixels[at + x], colour, plain);
         }
         const inside = Math.min(insideY, x + 0.5 - left, right - x - 0.5);
         const covered = Math.min(right, x + 1) - Math.max(left, x);

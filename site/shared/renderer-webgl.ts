@@ -1,7 +1,7 @@
 // All boxes in one instanced draw call, straight from their Float32Array. The fragment shader computes how much of
 // each pixel a box covers, so boxes of a pixel or less glide instead of flickering, and draws an outline inside the
 // boxes that are large enough to show one.
-import { slotCount } from './groups.ts';
+import { cellSlot, slotCount } from './groups.ts';
 import type { BoxRenderer } from './renderer.ts';
 
 const vertexSource = `#version 300 es
@@ -12,6 +12,7 @@ uniform vec2 centre, size;
 uniform float scale;
 flat out vec4 edges;
 flat out vec4 colour;
+flat out float light;
 out vec2 pixel;
 void main() {
   vec4 placed = clamp((box - centre.xyxy) * scale + size.xyxy * 0.5, vec4(-9.0), size.xyxy + 9.0);
@@ -19,6 +20,7 @@ void main() {
   vec2 reach = max((placed.zw - placed.xy) * 0.5, 0.5);
   edges = vec4(middle - reach, middle + reach);
   colour = palette[slot];
+  light = slot == ${cellSlot}u ? 0.0 : 0.3;
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
   pixel = middle + corner * (reach + 0.5);
   gl_Position = vec4(pixel / size * 2.0 - 1.0, 0.0, 1.0);
@@ -29,13 +31,14 @@ precision highp float;
 uniform float density;
 flat in vec4 edges;
 flat in vec4 colour;
+flat in float light;
 in vec2 pixel;
 out vec4 result;
 void main() {
   vec2 covered = clamp(min(edges.zw, pixel + 0.5) - max(edges.xy, pixel - 0.5), 0.0, 1.0);
   vec2 inside = min(pixel - edges.xy, edges.zw - pixel);
   vec2 extent = edges.zw - edges.xy;
-  float fill = mix(0.92, 0.3, smoothstep(4.0, 14.0, min(extent.x, extent.y) / density));
+  float fill = mix(0.92, light, smoothstep(4.0, 14.0, min(extent.x, extent.y) / density));
   float outline = clamp(1.25 * density + 0.5 - min(inside.x, inside.y), 0.0, 1.0);
   float alpha = colour.a * covered.x * covered.y * mix(fill, 1.0, outline);
   result = vec4(colour.rgb * alpha, alpha);

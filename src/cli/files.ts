@@ -64,7 +64,7 @@ function exportRaw(source: FrameSource): Uint8Array {
 function exportTrace(source: FrameSource): Uint8Array {
   const writer = new TraceWriter(source.dimensions);
   const pieces: Uint8Array[] = [writer.header()];
-  for (const { boxes, ids } of source) pieces.push(writer.frame(boxes, ids));
+  for (const { boxes, ids, rules } of source) pieces.push(writer.frame(boxes, ids, rules));
   pieces.push(writer.end());
   return Buffer.concat(pieces);
 }

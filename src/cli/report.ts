@@ -1,6 +1,6 @@
 // The report of `broadphase tune`: one HTML page that needs nothing else. Plots are SVG made here; the page asks for
 // nothing from anywhere, and says so itself in a policy that forbids it.
-import type { Candidate, Tuned } from 'broadphase/trace';
+import type { Candidate, Parameter, Tuned } from 'broadphase/trace';
 import { barPlot, htmlText, linePlot } from './plots.ts';
 import { number, percent, time } from './terminal.ts';
 
@@ -57,18 +57,8 @@ ${barPlot(
   techniques.map((each) => ({ name: nameOf(each), value: each.ms })),
   'milliseconds per update, logarithmic',
 )}
-${curves.length === 0 ? '' : '<h2>Cell size</h2>'}
-${
-  curves.length === 0
-    ? ''
-    : linePlot(
-        curves.map(({ technique, points }) => ({
-          name: technique,
-          points: points.map(({ cellSize, ms }) => ({ x: cellSize, y: ms })),
-        })),
-        { x: 'side of a cell', y: 'milliseconds', logX: true },
-      )
-}
+${curvesOf(curves, 'cellSize', 'Cell size', 'side of a cell')}
+${curvesOf(curves, 'margin', 'Margin', 'margin')}
 <h2>Frame by frame</h2>
 ${linePlot(
   shown.map((each) => ({ name: nameOf(each), points: perFrame(each.times) })),
@@ -80,9 +70,23 @@ ${linePlot([{ name: 'pairs', points: perFrame(frames.map(({ pairs }) => pairs)) 
 `;
 }
 
+/** What each value of a parameter costs; nothing where no technique heeds it. */
+function curvesOf(curves: Tuned['curves'], parameter: Parameter, title: string, x: string): string {
+  const lines = curves
+    .filter((curve) => curve.parameter === parameter)
+    .map(({ technique, points }) => ({
+      name: technique,
+      points: points.map(({ value, ms }) => ({ x: value, y: ms })),
+    }));
+  if (lines.length === 0) return '';
+  return `<h2>${title}</h2>\n${linePlot(lines, { x, y: 'milliseconds', logX: true })}`;
+}
+
 /** A setting in a few words. */
-export const nameOf = ({ technique, cellSize }: Candidate): string =>
-  cellSize === undefined ? technique : `${technique}, cells of ${cellSize}`;
+export const nameOf = ({ technique, cellSize, margin }: Candidate): string =>
+  technique +
+  (cellSize === undefined ? '' : `, cells of ${cellSize}`) +
+  (margin === undefined ? '' : `, margin of ${margin}`);
 
 /** What is recommended, and what it gains. */
 export function verdictOf({ best, margin }: Pick<Tuned, 'best' | 'margin'>): string {

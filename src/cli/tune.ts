@@ -1,4 +1,4 @@
-// `broadphase tune`: the technique and cell size that suit a trace best, with a report of how they were found.
+// `broadphase tune`: the technique, cell size and margin that suit a trace best, with a report of how they were found.
 import { basename } from 'node:path';
 import { BroadPhase } from 'broadphase';
 import { tune } from 'broadphase/trace';
@@ -14,7 +14,7 @@ export const tuneCommand: Command = {
   options: {
     techniques: { value: 'names', help: `some of ${techniqueHelp}, with commas (all)` },
     seconds: { value: 'n', help: 'how long the finalists run against each other (8)' },
-    exhaustive: { help: 'try every technique with every cell size on all frames: slow' },
+    exhaustive: { help: 'try every technique with every cell size and margin on all frames: slow' },
     report: { value: 'file', help: 'write an HTML page with plots, which needs nothing else' },
     ...sourceOptions,
   },

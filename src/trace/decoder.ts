@@ -1,9 +1,9 @@
 // Reads the bodies of frames, one after the other. A body is looked through before anything is made of it: memory is
 // taken only for boxes whose numbers are there, at most some 100 bytes for each byte of the file.
 import { Cursor } from './bytes.ts';
-import { doublesFlag, type Frame, frameKind, maxBoxes } from './format.ts';
+import { doublesFlag, type Frame, frameKind, maxBoxes, ruleBits, rulesFlag } from './format.ts';
 import { predict, takeDistance } from './numbers.ts';
-import { IdSet, TraceState } from './state.ts';
+import { all, IdSet, TraceState } from './state.ts';
 
 export class FrameDecoder {
   readonly #state: TraceState;
@@ -11,9 +11,13 @@ export class FrameDecoder {
   /** The boxes once more as float32, while frames hold such. */
   #floats = new Float32Array();
   #index = 0;
+  /** What may be set in the first byte of a frame. */
+  readonly #flags: number;
 
-  constructor(dimensions: 2 | 3) {
+  /** @param version of the trace: older ones know less */
+  constructor(dimensions: 2 | 3, version: number) {
     this.#state = new TraceState(dimensions);
+    this.#flags = doublesFlag | (version > 1 ? rulesFlag : 0);
   }
 
   /** How many frames have been read. */
@@ -36,20 +40,22 @@ export class FrameDecoder {
       this.#finish(cursor);
       return undefined;
     }
-    const doubles = (first & doublesFlag) !== 0;
-    const kind = first & ~doublesFlag;
+    const kind = first & ~this.#flags;
     if (kind !== frameKind.snapshot && kind !== frameKind.changes) cursor.fail(`a frame of unknown kind ${first}`);
     if (kind === frameKind.changes && this.#index === 0) cursor.fail('the first frame is not a snapshot');
-    return this.#decodeBoxes(cursor, kind === frameKind.snapshot, doubles);
+    return this.#decodeBoxes(cursor, kind === frameKind.snapshot, first);
   }
 
-  #decodeBoxes(cursor: Cursor, snapshot: boolean, doubles: boolean): Frame {
+  #decodeBoxes(cursor: Cursor, snapshot: boolean, flags: number): Frame {
+    const doubles = (flags & doublesFlag) !== 0;
     const state = this.#state;
     const { width } = state;
     const had = snapshot ? 0 : state.count;
     const count = cursor.varint('the number of boxes', maxBoxes);
     const idsAt = cursor.at;
     const renamed = skipIds(cursor, count);
+    const rulesAt = cursor.at;
+    if (flags & rulesFlag) skipRules(cursor, count);
     const runsAt = cursor.at;
     const changed = skipRuns(cursor, count, had);
     const sizesAt = cursor.at;
@@ -60,13 +66,16 @@ export class FrameDecoder {
     state.resize(count);
     if (renamed > 0) this.#readIds(cursor, idsAt, renamed);
     if (renamed > 0 || (state.named && (shrank || count > had))) this.#checkIds(cursor);
+    if (flags & rulesFlag) this.#readRules(cursor, rulesAt);
+    else if (shrank && state.ruled) state.lookAtRules();
     cursor.at = sizesAt + (changed * width) / 2;
     this.#readNumbers(cursor, runsAt, sizesAt, doubles);
     this.#finish(cursor);
     const boxes = doubles ? state.before.subarray(0, count * width) : this.#asFloats();
     state.turn(had);
     const ids = state.named ? state.ids.subarray(0, count) : undefined;
-    return { index: this.#index++, count, ids, boxes, changed };
+    const rules = state.ruled ? state.rules.subarray(0, 3 * count) : undefined;
+    return { index: this.#index++, count, ids, rules, boxes, changed };
   }
 
   #readIds(cursor: Cursor, at: number, renamed: number): void {
@@ -77,6 +86,22 @@ export class FrameDecoder {
       place += cursor.varint('', maxBoxes);
       ids[place] = cursor.varint('', maxBoxes);
     }
+  }
+
+  #readRules(cursor: Cursor, at: number): void {
+    cursor.at = at;
+    const state = this.#state;
+    state.startRules();
+    const changed = cursor.varint('', maxBoxes);
+    for (let k = 0, place = 0; k < changed; k++, place++) {
+      place += cursor.varint('', maxBoxes);
+      const bits = cursor.byte('');
+      const filtered = (bits & ruleBits.filter) !== 0;
+      state.rules[3 * place] = filtered ? cursor.varint('', all) : all;
+      state.rules[3 * place + 1] = filtered ? cursor.varint('', all) : all;
+      state.rules[3 * place + 2] = bits & ruleBits.still ? 1 : 0;
+    }
+    state.lookAtRules();
   }
 
   #checkIds(cursor: Cursor): void {
@@ -145,6 +170,23 @@ function skipIds(cursor: Cursor, count: number): number {
     next = place + 1;
   }
   return renamed;
+}
+
+/** Looks whether a list of new rules is sound. */
+function skipRules(cursor: Cursor, count: number): void {
+  const changed = cursor.varint('the number of new rules', count);
+  cursor.need(2 * changed, 'the new rules');
+  for (let k = 0, next = 0; k < changed; k++) {
+    const place = next + cursor.varint('the place of a rule', maxBoxes);
+    if (place >= count) cursor.fail(`a rule for place ${place} of ${count}`);
+    const bits = cursor.byte('a rule');
+    if (bits > (ruleBits.still | ruleBits.filter)) cursor.fail(`a rule of unknown kind ${bits}`);
+    if (bits & ruleBits.filter) {
+      cursor.varint('a layer', all);
+      cursor.varint('a mask', all);
+    }
+    next = place + 1;
+  }
 }
 
 /** Looks whether the runs of changed boxes are sound; returns how many boxes they hold. */

@@ -3,8 +3,16 @@
 
 const idLimit = 2 ** 24;
 
-/** The pairs of closed boxes that overlap. Box k has the id `ids[k]`, or k. */
-export function exactPairs(boxes: ArrayLike<number>, dimensions: 2 | 3, ids?: ArrayLike<number>): Float64Array {
+/**
+ * The pairs of closed boxes that overlap and may meet. Box k has the id `ids[k]`, or k; `rules` are those of
+ * {@link Frame.rules}.
+ */
+export function exactPairs(
+  boxes: ArrayLike<number>,
+  dimensions: 2 | 3,
+  ids?: ArrayLike<number>,
+  rules?: ArrayLike<number>,
+): Float64Array {
   const width = 2 * dimensions;
   const count = boxes.length / width;
   const axis = longestAxis(boxes, dimensions);
@@ -26,6 +34,7 @@ export function exactPairs(boxes: ArrayLike<number>, dimensions: 2 | 3, ids?: Ar
         const q = other * width + a;
         apart ||= boxes[p] > boxes[q + dimensions] || boxes[q] > boxes[p + dimensions];
       }
+      if (!apart && rules) apart = !mayMeet(rules, 3 * box, 3 * other);
       if (!apart) keys.push(ids ? key(ids[box], ids[other]) : key(box, other));
     }
   }
@@ -68,6 +77,12 @@ export function differenceOf(found: Float64Array, expected: Float64Array): Diffe
     }
   }
   return missing + extra > 0 ? { missing, extra, pair: [Math.floor(first / idLimit), first % idLimit] } : undefined;
+}
+
+/** Whether each one's layer is in the other's mask, and not both are static. */
+function mayMeet(rules: ArrayLike<number>, a: number, b: number): boolean {
+  const filtered = (rules[a] & rules[b + 1]) !== 0 && (rules[b] & rules[a + 1]) !== 0;
+  return filtered && !(rules[a + 2] !== 0 && rules[b + 2] !== 0);
 }
 
 const key = (a: number, b: number): number => (a < b ? a * idLimit + b : b * idLimit + a);

@@ -4,7 +4,7 @@
 export const magic = Uint8Array.of(0x89, 0x42, 0x50, 0x54, 0x0d, 0x0a, 0x1a, 0x0a);
 
 /** The version that is written, and the newest that is read. */
-export const formatVersion = 1;
+export const formatVersion = 2;
 
 /** Magic, version (2 bytes), dimensions, a reserved zero, checksum of those twelve. */
 export const headerBytes = 16;
@@ -18,11 +18,17 @@ export const frameKind = { end: 0, snapshot: 1, changes: 2 } as const;
 /** Set in the first byte of a frame whose numbers are doubles. */
 export const doublesFlag = 0x10;
 
+/** Set in the first byte of a frame in which rules change: who may meet whom. Since version 2. */
+export const rulesFlag = 0x20;
+
+/** What a rule says: that a box is static, and that a layer and a mask follow. */
+export const ruleBits = { still: 1, filter: 2 } as const;
+
 /** Ids, and so boxes, end here. */
 export const maxBoxes = 2 ** 24;
 
-/** No body is longer: every box new, in 3D, all numbers doubles of 8 bytes, and its id. */
-export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10) + 64;
+/** No body is longer: every box new, in 3D, all numbers doubles of 8 bytes, its id and its rule. */
+export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10 + 16) + 64;
 
 /** A trace that cannot be read: what is wrong, and where. */
 export class TraceError extends Error {
@@ -47,6 +53,8 @@ export interface Frame {
   readonly count: number;
   /** The id of each box, all different; `undefined` where they are 0 … count - 1. */
   readonly ids: Uint32Array | undefined;
+  /** Layer, mask, and 1 where it is static, of each box; left out where none has a rule of its own. */
+  readonly rules?: Uint32Array | undefined;
   /** Minima then maxima of each box: float32 where that holds all of them exactly. */
   readonly boxes: Float32Array | Float64Array;
   /** How many boxes are new or differ from the frame before. */

@@ -86,7 +86,7 @@ export async function openAny(bytes: Uint8Array, options?: OpenOptions): Promise
 
 /**
  * A raw recording of the same frames.
- * @throws RangeError where that layout cannot hold them: ids, doubles, or a number of boxes that changes
+ * @throws RangeError where that layout cannot hold them: ids, rules, doubles, or a number of boxes that changes
  */
 export function exportRecording(source: FrameSource): Uint8Array<ArrayBuffer> {
   let count = -1;
@@ -99,6 +99,7 @@ export function exportRecording(source: FrameSource): Uint8Array<ArrayBuffer> {
     const where = `frame ${frame.index} cannot be written in the raw layout:`;
     if (frame.count !== count) throw new RangeError(`${where} it has ${frame.count} boxes, the first had ${count}`);
     if (frame.ids) throw new RangeError(`${where} its boxes have ids of their own`);
+    if (frame.rules) throw new RangeError(`${where} some of its boxes are static or have filters`);
     if (frame.boxes instanceof Float64Array) throw new RangeError(`${where} its numbers are doubles`);
     const { buffer, byteOffset, byteLength } = frame.boxes;
     all.set(new Uint8Array(buffer, byteOffset, byteLength), headerBytes + frame.index * byteLength);

@@ -9,5 +9,5 @@ export { type NodeSink, Recording, type RecordOptions, record } from './record.t
 export { applyFrame, type ReplayedFrame, type ReplayOptions, replay } from './replay.ts';
 export type { Bin, Summary } from './statistics.ts';
 export { type Survey, survey } from './survey.ts';
-export { type Candidate, type Measured, type Tuned, type TuneOptions, tune } from './tune.ts';
+export { type Candidate, type Measured, type Parameter, type Tuned, type TuneOptions, tune } from './tune.ts';
 export { TraceWriter } from './writer.ts';

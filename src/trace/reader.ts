@@ -29,15 +29,17 @@ export class Trace implements FrameSource {
   /** With `salvage`: what is wrong with the file behind its last good frame. */
   readonly fault: TraceError | undefined;
   readonly #bytes: Uint8Array;
+  readonly #version: number;
 
   /** @throws TraceError that says what is wrong, in which frame, at which byte */
   constructor(bytes: Uint8Array, options: OpenOptions = {}) {
     this.#bytes = bytes;
-    const { dimensions, checksum } = readHeader(bytes);
+    const { dimensions, version, checksum } = readHeader(bytes);
     this.dimensions = dimensions;
+    this.#version = version;
     let frames = 0;
     try {
-      const decoder = new FrameDecoder(dimensions);
+      const decoder = new FrameDecoder(dimensions, version);
       const bodies = checkedBodies(bytes, checksum);
       // Decoded once here, so that what goes through the frames later never meets an error.
       for (const { body, offset } of bodies) if (decoder.decode(body, offset)) frames++;
@@ -49,7 +51,7 @@ export class Trace implements FrameSource {
   }
 
   *[Symbol.iterator](): Generator<Frame> {
-    const decoder = new FrameDecoder(this.dimensions);
+    const decoder = new FrameDecoder(this.dimensions, this.#version);
     let at = headerBytes;
     for (let k = 0; k < this.frames; k++) {
       const start = at + frameHeaderBytes;
@@ -77,8 +79,8 @@ export async function* readTrace(
   const queue = new ChunkQueue('getReader' in chunks ? chunksOf(chunks) : chunks);
   const head = await queue.take(headerBytes);
   if (!head) throw truncatedHeader(queue.bytesLeft);
-  let { dimensions, checksum } = readHeader(head);
-  const decoder = new FrameDecoder(dimensions);
+  let { dimensions, version, checksum } = readHeader(head);
+  const decoder = new FrameDecoder(dimensions, version);
   let offset = headerBytes;
   for (let index = 0; ; index++) {
     const start = await queue.take(frameHeaderBytes);
@@ -95,7 +97,7 @@ export async function* readTrace(
   if (await queue.take(1)) throw tooMany(decoder.frames, offset);
 }
 
-function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; checksum: number } {
+function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; version: number; checksum: number } {
   const known = Math.min(bytes.length, magic.length);
   for (let k = 0; k < known; k++) {
     if (bytes[k] === magic[k]) continue;
@@ -112,7 +114,7 @@ function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; checksum: number } 
   const dimensions = bytes[10];
   if (dimensions !== 2 && dimensions !== 3) throw new TraceError(`${dimensions} dimensions, expected 2 or 3`, -1, 10);
   if (version === 0 || bytes[11] !== 0) throw new TraceError('not a header of this format', -1, 8);
-  return { dimensions, checksum };
+  return { dimensions, version, checksum };
 }
 
 /** The bodies of all frames, the end's included, each after its checksum was found right. */

@@ -29,7 +29,7 @@ export class Recording {
 
   constructor(space: BroadPhase, options: RecordOptions = {}) {
     this.#writer = new TraceWriter(space.dimensions);
-    space[watch]((boxes, ids) => this.#write(this.#writer.frame(boxes, ids)));
+    space[watch]((...frame) => this.#write(this.#writer.frame(...frame)));
     this.#space = space;
     this.#sink = openSink(options.to, (error) => {
       this.fault ??= error;

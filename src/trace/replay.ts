@@ -2,27 +2,68 @@
 import { BroadPhase, type BroadPhaseOptions, type TechniqueName } from 'broadphase';
 import { type Difference, differenceOf, exactPairs, pairKeys } from './exact.ts';
 import type { Frame, FrameSource } from './format.ts';
+import { all } from './state.ts';
+
+/** What the last frame left in a space: a copy, since frames are views. */
+interface Applied {
+  count: number;
+  ids: Uint32Array | undefined;
+  rules: Uint32Array | undefined;
+}
+
+const applied = new WeakMap<BroadPhase, Applied>();
 
 /**
  * Puts the boxes of a frame into a space in place of all others, in the order they had when they were recorded, so
- * that the pairs come in the same order too. `update()` is the caller's.
+ * that the pairs come in the same order too; and who may meet whom. `update()` is the caller's. Between one frame and
+ * the next nobody else changes the space: it is told only what is new, as a game would tell it.
  */
 export function applyFrame(space: BroadPhase, frame: Frame): void {
   const { ids, boxes, count } = frame;
-  if (!ids) {
-    space.setAll(boxes);
-    return;
+  let before = applied.get(space);
+  // Boxes with ids of their own stand in the order in which they were set, so that other ids begin anew.
+  if (!before || !sameIds(before.ids, ids) || (ids && space.size !== count)) {
+    space.clear();
+    before = { count: 0, ids: ids?.slice(), rules: undefined };
+    applied.set(space, before);
   }
-  space.clear();
-  if (space.dimensions === 2) {
+  if (!ids) space.setAll(boxes);
+  else if (space.dimensions === 2) {
     for (let k = 0, at = 0; k < count; k++, at += 4) {
       space.set(ids[k], boxes[at], boxes[at + 1], boxes[at + 2], boxes[at + 3]);
     }
-    return;
+  } else {
+    for (let k = 0, at = 0; k < count; k++, at += 6) {
+      space.set(ids[k], boxes[at], boxes[at + 1], boxes[at + 2], boxes[at + 3], boxes[at + 4], boxes[at + 5]);
+    }
   }
-  for (let k = 0, at = 0; k < count; k++, at += 6) {
-    space.set(ids[k], boxes[at], boxes[at + 1], boxes[at + 2], boxes[at + 3], boxes[at + 4], boxes[at + 5]);
+  if (frame.rules || before.rules) applyRules(space, frame, before);
+  before.count = count;
+}
+
+function applyRules(space: BroadPhase, { ids, rules, count }: Frame, before: Applied): void {
+  const were = before.rules;
+  const had = were ? Math.min(before.count, count) : 0;
+  let changed = before.count !== count;
+  for (let place = 0, k = 0; place < count; place++, k += 3) {
+    const layer = rules ? rules[k] : all;
+    const mask = rules ? rules[k + 1] : all;
+    const still = rules !== undefined && rules[k + 2] !== 0;
+    const known = were !== undefined && place < had;
+    const filtered = layer !== (known ? were[k] : all) || mask !== (known ? were[k + 1] : all);
+    const stilled = still !== (known && were[k + 2] !== 0);
+    if (filtered) space.setFilter(ids ? ids[place] : place, layer, mask);
+    if (stilled) space.setStatic(ids ? ids[place] : place, still);
+    changed ||= filtered || stilled;
   }
+  if (changed) before.rules = rules?.slice();
+}
+
+function sameIds(a: Uint32Array | undefined, b: Uint32Array | undefined): boolean {
+  if (!a || !b) return a === b;
+  if (a.length !== b.length) return false;
+  for (let k = 0; k < a.length; k++) if (a[k] !== b[k]) return false;
+  return true;
 }
 
 /** How a space is set up to play frames into: its dimensions come from them. */
@@ -62,7 +103,7 @@ export function* replay(source: FrameSource, options: ReplayOptions = {}, verify
       yield result;
       continue;
     }
-    const expected = exactPairs(frame.boxes, source.dimensions, frame.ids);
+    const expected = exactPairs(frame.boxes, source.dimensions, frame.ids, frame.rules);
     yield { ...result, difference: differenceOf(pairKeys(space.pairs), expected) ?? null };
   }
   space.dispose();

@@ -1,10 +1,16 @@
 // What writer and reader both remember of the frames before, grown and carried on in the same way by both.
 
+/** The layer and the mask of a box that has no filter. */
+export const all = 0xffffffff;
+
 export class TraceState {
   readonly width: number;
   count = 0;
   /** Whether any id differs from its place. */
   named = false;
+  /** Whether any box has a rule of its own; only then there are rules. */
+  ruled = false;
+  rules = new Uint32Array();
   ids = new Uint32Array();
   /** The boxes of the frame before, and of the one before that. */
   was = new Float64Array();
@@ -17,7 +23,7 @@ export class TraceState {
   /** A snapshot starts from nothing. */
   forget(): void {
     this.resize(0);
-    this.named = false;
+    this.named = this.ruled = false;
   }
 
   /** For as many boxes: new ones have their place as id, and zeros. */
@@ -30,6 +36,7 @@ export class TraceState {
       this.before = grown(this.before, new Float64Array(room * width));
     }
     for (let k = had; k < count; k++) this.ids[k] = k;
+    if (this.ruled) this.#meetAll(had, count);
     if (count > had) {
       this.was.fill(0, had * width, count * width);
       this.before.fill(0, had * width, count * width);
@@ -46,6 +53,30 @@ export class TraceState {
     this.was = before;
     this.before = was;
     if (count > had) was.set(before.subarray(had * width, count * width), had * width);
+  }
+
+  /** Makes room for rules, where there were none. */
+  startRules(): void {
+    if (this.ruled) return;
+    this.ruled = true;
+    this.#meetAll(0, this.count);
+  }
+
+  /** Looks whether any box has a rule of its own. */
+  lookAtRules(): void {
+    const { rules, count } = this;
+    let own = false;
+    for (let k = 0; k < 3 * count && !own; k += 3) own = rules[k] !== all || rules[k + 1] !== all || rules[k + 2] !== 0;
+    this.ruled = own;
+  }
+
+  /** Places from `had` on have no rule of their own. */
+  #meetAll(had: number, count: number): void {
+    if (3 * count > this.rules.length) this.rules = grown(this.rules, new Uint32Array(3 * this.ids.length));
+    for (let k = 3 * had; k < 3 * count; k += 3) {
+      this.rules[k] = this.rules[k + 1] = all;
+      this.rules[k + 2] = 0;
+    }
   }
 
   /** Looks whether any id differs from its place. */

@@ -7,8 +7,9 @@ import { type Bin, doublingHistogram, type Summary, summarize } from './statisti
 export interface Survey {
   dimensions: 2 | 3;
   frames: number;
-  /** Whether any box has an id other than its place, and whether any number is no float32. */
+  /** Whether any box has an id other than its place or a rule of its own, and whether any number is no float32. */
   ids: boolean;
+  rules: boolean;
   doubles: boolean;
   boxes: Summary;
   pairs: Summary;
@@ -33,6 +34,7 @@ export function survey(source: FrameSource, progress?: (done: number, total: num
   const pairs: number[] = [];
   const moving: number[] = [];
   let ids = false;
+  let rules = false;
   let doubles = false;
   let shape: ReturnType<typeof shapeOf> | undefined;
   let overlaps: Bin[] = [];
@@ -43,6 +45,7 @@ export function survey(source: FrameSource, progress?: (done: number, total: num
     pairs.push(space.pairCount);
     if (frame.index > 0) moving.push(frame.count === 0 ? 0 : frame.changed / frame.count);
     ids ||= frame.ids !== undefined;
+    rules ||= frame.rules !== undefined;
     doubles ||= frame.boxes instanceof Float64Array;
     if (frame.index === middle) {
       shape = shapeOf(frame, dimensions);
@@ -56,6 +59,7 @@ export function survey(source: FrameSource, progress?: (done: number, total: num
     dimensions,
     frames: source.frames,
     ids,
+    rules,
     doubles,
     boxes: summarize(counts),
     pairs: summarize(pairs),

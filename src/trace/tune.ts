@@ -1,11 +1,12 @@
-// Which technique, and which cell size, for these frames? Tries all techniques on a few frames, searches the cell size
-// of those that have one, and lets the best run against each other, and against `auto`, on all frames.
+// Which technique, and which cell size or margin, for these frames? Tries all techniques on a few frames, searches the
+// parameters of those that have any, one after the other, and lets the best run against each other, and against `auto`,
+// on all frames.
 //
 // Machines are noisy, so every time is the fastest of several, candidates take turns, and what is far behind the best
-// is given up early. Whether a technique looks at the cell size at all is found by trying: its counters change.
+// is given up early. Whether a technique looks at a parameter at all is found by trying: its counters change.
 import { BroadPhase, type TechniqueName } from 'broadphase';
 import type { Frame, FrameSource } from './format.ts';
-import { timeUpdate } from './replay.ts';
+import { applyFrame, timeUpdate } from './replay.ts';
 import { percentile, type Summary, summarize } from './statistics.ts';
 import { longestSides } from './survey.ts';
 
@@ -14,7 +15,7 @@ export interface TuneOptions {
   techniques?: readonly TechniqueName[];
   /** For how many seconds the finalists run against each other (8). */
   seconds?: number;
-  /** Try every technique with every cell size on all frames: slow, and what the search is checked against. */
+  /** Try every technique with every value of each parameter on all frames: slow, and what the search is checked against. */
   exhaustive?: boolean;
   progress?: (what: string, done: number, total: number) => void;
 }
@@ -23,7 +24,20 @@ export interface TuneOptions {
 export interface Candidate {
   technique: TechniqueName;
   cellSize?: number;
+  margin?: number;
 }
+
+/** A parameter that is searched. */
+export type Parameter = 'cellSize' | 'margin';
+
+/**
+ * From where to where each is searched, in quarters of a doubling from the typical box: cells from a quarter of it to
+ * 256 of it, margins from a 64th to four.
+ */
+const searched: readonly { parameter: Parameter; least: number; most: number }[] = [
+  { parameter: 'cellSize', least: -8, most: 32 },
+  { parameter: 'margin', least: -24, most: 8 },
+];
 
 export interface Measured extends Candidate {
   /** Milliseconds of `update()` per frame: the fastest of all passes. */
@@ -41,8 +55,8 @@ export interface Tuned {
   finalists: Measured[];
   /** Mean milliseconds of each technique on a few frames, in its best setting, fastest first. */
   techniques: (Candidate & { ms: number })[];
-  /** The same over the cell size, for techniques that have one. */
-  curves: { technique: TechniqueName; points: { cellSize: number; ms: number }[] }[];
+  /** The same over each parameter, for techniques that heed it. */
+  curves: { technique: TechniqueName; parameter: Parameter; points: { value: number; ms: number }[] }[];
   /** The frames that were used: all of them, or windows out of a long trace. */
   frames: { index: number; boxes: number; changed: number; pairs: number }[];
   /** To paste. */
@@ -79,6 +93,7 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
   const few = exhaustive ? frames : frames.slice(middle, middle + screenFrames);
 
   const screened: (Candidate & { ms: number })[] = [];
+  const curves: Tuned['curves'] = [];
   let fastest = Infinity;
   let fastestOfTechnique = Infinity;
   const screen = (candidate: Candidate): number => {
@@ -93,16 +108,28 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
     progress?.(technique, k, techniques.length);
     fastestOfTechnique = Infinity;
     screen({ technique });
-    if (technique === 'auto' || !heedsCellSize(technique, dimensions, few[0])) return;
+    if (technique === 'auto') return;
     const typical = typicalSide(few[0], dimensions);
-    const at = (steps: number) => screen({ technique, cellSize: rounded(typical * 2 ** (steps / 4)) });
-    if (exhaustive) for (let steps = -8; steps <= 32; steps++) at(steps);
-    else searchSteps(at);
+    // Each parameter is searched with the best of those before it.
+    let found: Candidate = { technique };
+    for (const { parameter, least, most } of searched) {
+      if (!heeds(found, parameter, dimensions, few)) continue;
+      const begun = screened.length;
+      const at = (steps: number) => screen({ ...found, [parameter]: rounded(typical * 2 ** (steps / 4)) });
+      if (exhaustive) for (let steps = least; steps <= most; steps++) at(steps);
+      else searchSteps(at, least, most);
+      const points = screened.slice(begun).map(({ ms, ...candidate }) => ({ value: candidate[parameter]!, ms }));
+      curves.push({ technique, parameter, points: points.sort((a, b) => a.value - b.value) });
+      const { ms: _, ...best } = screened.filter((each) => each.technique === technique).sort(byTime)[0];
+      found = best;
+    }
   });
   screened.sort((a, b) => a.ms - b.ms);
 
-  const close = screened.filter(({ ms }, k) => k < mostFinalists && ms <= closeEnough * screened[0].ms);
-  if (!close.some(isAuto)) close.push({ technique: 'auto', ms: 0 });
+  const close: Candidate[] = screened
+    .filter(({ ms }, k) => k < mostFinalists && ms <= closeEnough * screened[0].ms)
+    .map(({ ms: _, ...candidate }) => candidate);
+  if (!close.some(isAuto)) close.push({ technique: 'auto' });
   const finalists = runFinal(close, dimensions, frames, seconds, (done) => progress?.('final', done, 1));
   const auto = finalists.find(isAuto)!;
   const [first] = finalists;
@@ -113,12 +140,7 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
     margin: auto.ms.mean / best.ms.mean,
     finalists,
     techniques: techniques.map((name) => screened.find(({ technique }) => technique === name)!).sort(byTime),
-    curves: techniques.flatMap((technique) => {
-      const points = screened.flatMap(({ technique: name, cellSize, ms }) =>
-        name === technique && cellSize !== undefined ? [{ cellSize, ms }] : [],
-      );
-      return points.length > 0 ? [{ technique, points: points.sort((a, b) => a.cellSize - b.cellSize) }] : [];
-    }),
+    curves,
     frames: describeFrames(frames, dimensions),
     code: codeOf(best, dimensions),
   };
@@ -141,7 +163,7 @@ function keepFrames(source: FrameSource): Frame[] {
     }
     const windowLength = Math.ceil(allowed / windows);
     if (allowed < source.frames && frame.index % Math.ceil(source.frames / windows) >= windowLength) continue;
-    kept.push({ ...frame, boxes: frame.boxes.slice(), ids: frame.ids?.slice() });
+    kept.push({ ...frame, boxes: frame.boxes.slice(), ids: frame.ids?.slice(), rules: frame.rules?.slice() });
   }
   return kept;
 }
@@ -168,29 +190,38 @@ function measure(candidate: Candidate, dimensions: 2 | 3, frames: readonly Frame
 
 const meanOf = (times: readonly number[]) => times.reduce((sum, ms) => sum + ms, 0) / times.length;
 
-/** Whether other cells change what the technique counts. */
-function heedsCellSize(technique: TechniqueName, dimensions: 2 | 3, frame: Frame): boolean {
-  const typical = typicalSide(frame, dimensions);
+/** Whether another value of a parameter changes what the technique counts, on some frames. */
+export function heeds(
+  candidate: Candidate,
+  parameter: Parameter,
+  dimensions: 2 | 3,
+  frames: readonly Frame[],
+): boolean {
+  const typical = typicalSide(frames[0], dimensions);
   const counters = [1, 8].map((factor) => {
-    const space = new BroadPhase({ technique, dimensions, cellSize: rounded(factor * typical) });
-    timeUpdate(space, frame);
-    const { tests, cells, entries } = space.stats;
+    const space = new BroadPhase({ ...candidate, dimensions, [parameter]: rounded(factor * typical) });
+    const counted = frames.map((frame) => {
+      applyFrame(space, frame);
+      const { tests, cells, entries } = space.update().stats;
+      return `${tests} ${cells} ${entries}`;
+    });
     space.dispose();
-    return `${tests} ${cells} ${entries}`;
+    return counted.join();
   });
   return counters[0] !== counters[1];
 }
 
-function typicalSide(frame: Frame, dimensions: 2 | 3): number {
+/** The longest side of the box in the middle of all, by size. */
+export function typicalSide(frame: Pick<Frame, 'boxes'>, dimensions: 2 | 3): number {
   const sides = longestSides(frame.boxes, dimensions).filter((side) => side > 0 && Number.isFinite(side));
   return percentile(sides.sort(), 0.5) || 1;
 }
 
 /**
- * Finds a low point of the cost over the cell size, counted in quarters of a doubling from the typical box: first by
+ * Finds a low point of the cost over a parameter, counted in quarters of a doubling from the typical box: first by
  * doublings, as far as it gets better or not much worse, then closer around the best.
  */
-function searchSteps(costAt: (steps: number) => number): void {
+function searchSteps(costAt: (steps: number) => number, least: number, most: number): void {
   const tried = new Map<number, number>();
   const cost = (steps: number) => {
     const known = tried.get(steps) ?? costAt(steps);
@@ -205,7 +236,7 @@ function searchSteps(costAt: (steps: number) => number): void {
   look(0);
   for (const direction of [4, -4]) {
     let worse = 0;
-    for (let steps = direction; steps <= 32 && steps >= -8 && worse < 2; steps += direction) {
+    for (let steps = direction; steps <= most && steps >= least && worse < 2; steps += direction) {
       worse = look(steps) ? 0 : worse + 1;
     }
   }
@@ -224,10 +255,11 @@ function runFinal(
   seconds: number,
   progress: (done: number) => void,
 ): Measured[] {
-  const runs = candidates.map(({ technique, cellSize }) => {
-    const candidate: Candidate = cellSize === undefined ? { technique } : { technique, cellSize };
-    return { candidate, space: new BroadPhase({ ...candidate, dimensions }), times: [] as number[] };
-  });
+  const runs = candidates.map((candidate) => ({
+    candidate,
+    space: new BroadPhase({ ...candidate, dimensions }),
+    times: [] as number[],
+  }));
   const started = performance.now();
   for (let pass = 0; pass < mostPasses; pass++) {
     const spent = (performance.now() - started) / 1000 / seconds;
@@ -256,11 +288,12 @@ function describeFrames(frames: readonly Frame[], dimensions: 2 | 3): Tuned['fra
   });
 }
 
-function codeOf({ technique, cellSize }: Candidate, dimensions: 2 | 3): string {
+function codeOf({ technique, cellSize, margin }: Candidate, dimensions: 2 | 3): string {
   const options = [
     dimensions === 3 ? 'dimensions: 3' : '',
     technique === 'auto' ? '' : `technique: '${technique}'`,
     cellSize === undefined ? '' : `cellSize: ${cellSize}`,
+    margin === undefined ? '' : `margin: ${margin}`,
   ].filter(Boolean);
   return `const space = new BroadPhase(${options.length > 0 ? `{ ${options.join(', ')} }` : ''});`;
 }

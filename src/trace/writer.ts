@@ -1,9 +1,19 @@
 // Writes traces: frames in, bytes out, nothing kept but the last two frames. Where the bytes go is the caller's.
 import { ByteWriter } from './bytes.ts';
 import { crc32 } from './crc32.ts';
-import { doublesFlag, formatVersion, frameHeaderBytes, frameKind, headerBytes, magic, maxBoxes } from './format.ts';
+import {
+  doublesFlag,
+  formatVersion,
+  frameHeaderBytes,
+  frameKind,
+  headerBytes,
+  magic,
+  maxBoxes,
+  ruleBits,
+  rulesFlag,
+} from './format.ts';
 import { predict, putDistance } from './numbers.ts';
-import { IdSet, TraceState } from './state.ts';
+import { all, IdSet, TraceState } from './state.ts';
 
 /**
  * Turns frames into the bytes of a trace. A file is `header()`, then `frame()` for each frame, then `end()`; the
@@ -18,7 +28,8 @@ export class TraceWriter {
   #checksum = 0;
   /** Where boxes that changed begin and end, of this frame. */
   readonly #runs: number[] = [];
-  readonly #places: number[] = [];
+  readonly #renamed: number[] = [];
+  readonly #reruled: number[] = [];
   readonly #seen = new IdSet();
 
   /** @throws RangeError for other than 2 or 3 dimensions */
@@ -43,10 +54,11 @@ export class TraceWriter {
    * One frame. `header()` must have been called before.
    * @param boxes minima then maxima, box after box
    * @param ids the id of each box; left out: 0, 1, 2, …
+   * @param rules layer, mask, and other than 0 where it is static, of each box; left out: none has a rule of its own
    * @throws RangeError for a box that is none, for an id twice or out of range, and where lengths do not fit: nothing
    *   is written then
    */
-  frame(boxes: Float32Array | Float64Array, ids?: ArrayLike<number>): Uint8Array<ArrayBuffer> {
+  frame(boxes: Float32Array | Float64Array, ids?: ArrayLike<number>, rules?: Uint32Array): Uint8Array<ArrayBuffer> {
     const state = this.#state;
     const { width } = state;
     const count = boxes.length / width;
@@ -55,12 +67,22 @@ export class TraceWriter {
     }
     checkBoxes(boxes, this.dimensions);
     if (ids) checkIds(ids, count, this.#seen);
+    if (rules && rules.length !== 3 * count) {
+      throw new RangeError(`trace: ${rules.length} numbers of rules, expected 3 for each of ${count} boxes`);
+    }
     const doubles = boxes instanceof Float64Array;
-    const out = this.#begin((this.frames === 0 ? frameKind.snapshot : frameKind.changes) | (doubles ? doublesFlag : 0));
     const had = state.count;
     state.resize(count);
+    const renamed = this.#findIds(ids);
+    // Where rules end, they become those of everybody.
+    const ruled = rules ?? (state.ruled ? everybody(count) : undefined);
+    const reruled = this.#findRules(ruled);
+    const kind = this.frames === 0 ? frameKind.snapshot : frameKind.changes;
+    const out = this.#begin(kind | (doubles ? doublesFlag : 0) | (reruled.length > 0 ? rulesFlag : 0));
     out.varint(count);
-    this.#writeIds(ids);
+    this.#writeIds(ids, renamed);
+    if (ruled && reruled.length > 0) this.#writeRules(ruled, reruled);
+    else if (ruled) state.lookAtRules();
     const changed = this.#findRuns(boxes, had);
     out.varint(this.#runs.length / 2);
     for (let k = 0, end = 0; k < this.#runs.length; k += 2) {
@@ -100,15 +122,20 @@ export class TraceWriter {
     return out.bytes.slice(0, out.length);
   }
 
-  #writeIds(ids: ArrayLike<number> | undefined): void {
+  /** The places whose ids differ from the frame before. */
+  #findIds(ids: ArrayLike<number> | undefined): readonly number[] {
     const state = this.#state;
-    const out = this.#out;
-    const { count } = state;
-    const changed = this.#places;
+    const changed = this.#renamed;
     changed.length = 0;
     if (ids || state.named) {
-      for (let k = 0; k < count; k++) if (state.ids[k] !== (ids ? ids[k] : k)) changed.push(k);
+      for (let k = 0; k < state.count; k++) if (state.ids[k] !== (ids ? ids[k] : k)) changed.push(k);
     }
+    return changed;
+  }
+
+  #writeIds(ids: ArrayLike<number> | undefined, changed: readonly number[]): void {
+    const state = this.#state;
+    const out = this.#out;
     out.varint(changed.length);
     let next = 0;
     for (const place of changed) {
@@ -119,6 +146,41 @@ export class TraceWriter {
       next = place + 1;
     }
     state.named = ids !== undefined;
+  }
+
+  /** The places whose rules differ from the frame before. */
+  #findRules(rules: Uint32Array | undefined): readonly number[] {
+    const state = this.#state;
+    const changed = this.#reruled;
+    changed.length = 0;
+    if (!rules) return changed;
+    state.startRules();
+    const were = state.rules;
+    for (let place = 0, k = 0; place < state.count; place++, k += 3) {
+      const same = were[k] === rules[k] && were[k + 1] === rules[k + 1] && (were[k + 2] !== 0) === (rules[k + 2] !== 0);
+      if (!same) changed.push(place);
+    }
+    return changed;
+  }
+
+  #writeRules(rules: Uint32Array, changed: readonly number[]): void {
+    const state = this.#state;
+    const out = this.#out;
+    out.varint(changed.length);
+    let next = 0;
+    for (const place of changed) {
+      const [layer, mask, still] = rules.subarray(3 * place, 3 * place + 3);
+      const filtered = layer !== all || mask !== all;
+      out.varint(place - next);
+      out.byte((still ? ruleBits.still : 0) | (filtered ? ruleBits.filter : 0));
+      if (filtered) {
+        out.varint(layer);
+        out.varint(mask);
+      }
+      state.rules.set([layer, mask, still ? 1 : 0], 3 * place);
+      next = place + 1;
+    }
+    state.lookAtRules();
   }
 
   /** Where the boxes differ from the frame before; returns how many do. All that are new count. */
@@ -166,6 +228,11 @@ export class TraceWriter {
     }
     out.length = at;
   }
+}
+
+/** The rules of boxes that have none of their own. */
+function everybody(count: number): Uint32Array {
+  return Uint32Array.from({ length: 3 * count }, (_, k) => (k % 3 === 2 ? 0 : all));
 }
 
 function checkBoxes(boxes: Float32Array | Float64Array, dimensions: number): void {

@@ -6,6 +6,8 @@ import fc from 'fast-check';
 export interface GivenFrame {
   boxes: Float32Array | Float64Array;
   ids?: number[];
+  /** Layer, mask, static: for each box. */
+  rules?: Uint32Array;
 }
 
 const place = fc.oneof(
@@ -23,6 +25,9 @@ const aBox = (dimensions: number) =>
     );
   });
 
+const bits = fc.constantFrom(0, 1, 2, 5, 0xffffffff);
+const aRule = fc.oneof(fc.constant([0xffffffff, 0xffffffff, 0]), fc.tuple(bits, bits, fc.integer({ min: 0, max: 1 })));
+
 /** Frames that follow from each other: some boxes stay, the others are replaced; doubles and floats take turns. */
 export const someFrames = (dimensions: 2 | 3): fc.Arbitrary<GivenFrame[]> =>
   fc
@@ -33,21 +38,30 @@ export const someFrames = (dimensions: 2 | 3): fc.Arbitrary<GivenFrame[]> =>
           fc.uniqueArray(fc.oneof(fc.nat(20), fc.constantFrom(70_000, 2 ** 24 - 1)), { minLength: 12, maxLength: 12 }),
         ),
         doubles: fc.boolean(),
+        rules: fc.option(fc.array(aRule, { minLength: 12, maxLength: 12 })),
       }),
       { maxLength: 8 },
     )
     .map((frames) => {
       let was: number[][] = [];
-      return frames.map(({ boxes, ids, doubles }) => {
+      return frames.map(({ boxes, ids, doubles, rules }) => {
         was = boxes.map(([box, stays], k) => (stays && was[k]) || box);
         const numbers = new (doubles ? Float64Array : Float32Array)(was.flat());
-        return ids ? { boxes: numbers, ids: ids.slice(0, was.length) } : { boxes: numbers };
+        return {
+          boxes: numbers,
+          ...(ids && { ids: ids.slice(0, was.length) }),
+          ...(rules && { rules: Uint32Array.from(rules.slice(0, was.length).flat()) }),
+        };
       });
     });
 
 export function write(dimensions: 2 | 3, frames: readonly GivenFrame[]): Uint8Array {
   const writer = new TraceWriter(dimensions);
-  return concat([writer.header(), ...frames.map(({ boxes, ids }) => writer.frame(boxes, ids)), writer.end()]);
+  return concat([
+    writer.header(),
+    ...frames.map(({ boxes, ids, rules }) => writer.frame(boxes, ids, rules)),
+    writer.end(),
+  ]);
 }
 
 export function concat(pieces: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
@@ -55,12 +69,16 @@ export function concat(pieces: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
 }
 
 /** What a frame says, kept for comparison: bits, so that -0 is not 0. */
-export function factsOf(dimensions: number, { boxes, ids }: { boxes: Float32Array | Float64Array; ids?: unknown }) {
+export function factsOf(
+  dimensions: number,
+  { boxes, ids, rules }: { boxes: Float32Array | Float64Array; ids?: unknown; rules?: Uint32Array | undefined },
+) {
   const count = boxes.length / (2 * dimensions);
   const named = ids ? [...(ids as ArrayLike<number> as number[])] : undefined;
   return {
     doubles: boxes instanceof Float64Array,
     numbers: [...new Uint8Array(boxes.slice().buffer)],
+    rules: rules?.some((number, k) => number !== (k % 3 === 2 ? 0 : 0xffffffff)) ? [...rules] : undefined,
     ids: named?.some((id, k) => id !== k) ? named : Array.from({ length: count }, (_, k) => k),
   };
 }

@@ -168,7 +168,12 @@ test('tune recommends options, as code, and writes a report that asks for nothin
   expect(best.ms.mean).toBeLessThanOrEqual(auto.ms.mean);
   expect(finalists.map(({ ms }) => ms.mean)).toEqual(finalists.map(({ ms }) => ms.mean).sort((a, b) => a - b));
   expect(techniques.map(({ technique }) => technique).sort()).toEqual([...BroadPhase.techniques].sort());
-  expect(curves.map(({ technique }) => technique)).toContain('spatial-grid');
+  expect(curves.filter(({ parameter }) => parameter === 'cellSize').map(({ technique }) => technique)).toContain(
+    'spatial-grid',
+  );
+  expect(curves.filter(({ parameter }) => parameter === 'margin').map(({ technique }) => technique)).toContain(
+    'aabb-tree',
+  );
   expect(() => new Function('BroadPhase', paste)(BroadPhase)).not.toThrow();
 
   const page = readFileSync(report, 'utf8');

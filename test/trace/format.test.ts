@@ -1,4 +1,6 @@
 // The trace format: what is written is read, to the last bit; what is broken is told apart, and where.
+import { readFileSync } from 'node:fs';
+import { gunzipSync } from 'node:zlib';
 import { openAny, openTrace, readTrace, TraceError, TraceWriter } from 'broadphase/trace';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
@@ -90,8 +92,8 @@ function checksumBefore(dimensions: 2 | 3, frames: GivenFrame[]): number {
   const writer = new TraceWriter(dimensions);
   const header = writer.header();
   let checksum = new DataView(header.buffer).getUint32(12, true);
-  for (const { boxes, ids } of frames) {
-    checksum = new DataView(writer.frame(boxes, ids).buffer).getUint32(4, true);
+  for (const { boxes, ids, rules } of frames) {
+    checksum = new DataView(writer.frame(boxes, ids, rules).buffer).getUint32(4, true);
   }
   return checksum;
 }
@@ -124,10 +126,30 @@ describe('errors say where', () => {
     expect(view.getUint32(20, true)).toBe(crc(covered, view.getUint32(12, true)));
   });
 
+  test('version 1 is read, and knows of no rules', () => {
+    const old = new Uint8Array(gunzipSync(readFileSync('site/public/traces/smash.trace.gz')));
+    expect(old[8]).toBe(1);
+    expect(openTrace(old).frames).toBe(20);
+    const writer = new TraceWriter(2);
+    const pieces = [
+      writer.header(),
+      writer.frame(two[0].boxes, undefined, Uint32Array.of(1, 1, 0, 1, 1, 1)),
+      writer.end(),
+    ];
+    pieces[0][8] = 1;
+    let checksum = crc([...pieces[0].subarray(0, 12)]);
+    pieces[0].set(le(checksum), 12);
+    for (const piece of pieces.slice(1)) {
+      checksum = crc([...piece.subarray(0, 4), ...piece.subarray(8)], checksum);
+      piece.set(le(checksum), 4);
+    }
+    expect(() => openTrace(concat(pieces))).toThrow('frame 0, byte 25: a frame of unknown kind 33');
+  });
+
   test('a newer file is refused as such', () => {
     const newer = bytes.slice();
-    newer[8] = 2;
-    expect(() => openTrace(newer)).toThrow('trace: header, byte 8: of format 2, newer than 1');
+    newer[8] = 3;
+    expect(() => openTrace(newer)).toThrow('trace: header, byte 8: of format 3, newer than 2');
   });
 
   test('other files are no traces, and gzip is recognised', () => {
@@ -164,6 +186,14 @@ describe('errors say where', () => {
   });
 
   test.each([
+    [
+      'rules of more boxes than there are',
+      [0x21, 0, 0, 1, 0, 1, 0],
+      'the number of new rules is 1, expected at most 0',
+    ],
+    ['a rule of a place that is not', [0x21, 2, 0, 1, 2, 1, 0], 'a rule for place 2 of 2'],
+    ['a rule of unknown kind', [0x21, 2, 0, 1, 0, 4, 0], 'a rule of unknown kind 4'],
+    ['a layer of more than 32 bits', [0x21, 2, 0, 1, 0, 2, 255, 255, 255, 255, 127, 1, 0], 'a layer is 34359738367'],
     ['an unknown kind', [7], 'unknown kind'],
     ['changes before any snapshot', [2, 0, 0, 0], 'not a snapshot'],
     ['sixteen million boxes in ten bytes', [1, 0x80, 0x80, 0x80, 8, 0, 0], '16777216 boxes are new, but 0 of them'],

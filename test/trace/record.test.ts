@@ -1,7 +1,7 @@
 // Recording a space: whatever is called between updates, the trace holds what stood there, and replays to its pairs.
 import { PassThrough, Writable } from 'node:stream';
 import { BroadPhase } from 'broadphase';
-import { applyFrame, openTrace, record, TraceError } from 'broadphase/trace';
+import { applyFrame, openTrace, record, replay, TraceError } from 'broadphase/trace';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { setBox } from '../set-box.ts';
@@ -36,6 +36,22 @@ function aCall(dimensions: 2 | 3): fc.Arbitrary<Call> {
         (id): Call =>
           (space) =>
             void space.delete(id),
+      ),
+    },
+    {
+      weight: 2,
+      arbitrary: fc.tuple(id, fc.nat(3), fc.nat(3)).map(
+        ([id, layer, mask]): Call =>
+          (space) =>
+            void (space.has(id) && space.setFilter(id, layer, mask)),
+      ),
+    },
+    {
+      weight: 2,
+      arbitrary: fc.tuple(id, fc.boolean()).map(
+        ([id, still]): Call =>
+          (space) =>
+            void (space.has(id) && space.setStatic(id, still)),
       ),
     },
     { weight: 4, arbitrary: fc.constant<Call>((space) => void space.update()) },
@@ -121,6 +137,65 @@ test('a space is recorded once at a time, from record to stop', async () => {
   const again = record(space);
   space.update();
   expect(again.frames).toBe(1);
+});
+
+test('who may meet whom is recorded, and replayed: only what changes is told again', () => {
+  const space = new BroadPhase();
+  const recording = record(space);
+  space.setAll([0, 0, 4, 4, 1, 1, 5, 5, 2, 2, 6, 6]).update(); // nobody has a rule yet
+  space.setStatic(0).setStatic(1).update();
+  space.setFilter(2, 4, 0xfffffffe).update();
+  space.update();
+  space.setStatic(0, false).update();
+  const rules = Array.from(openTrace(recording.bytes()), (frame) => frame.rules && [...frame.rules]);
+  const all = 0xffffffff;
+  expect(rules[0]).toBeUndefined();
+  expect(rules[1]).toEqual([all, all, 1, all, all, 1, all, all, 0]);
+  expect(rules[2]).toEqual([all, all, 1, all, all, 1, 4, 0xfffffffe, 0]);
+  expect(rules[3]).toEqual(rules[2]);
+  expect(rules[4]).toEqual([all, all, 0, all, all, 1, 4, 0xfffffffe, 0]);
+
+  const twin = new BroadPhase();
+  const told: string[] = [];
+  const { setFilter, setStatic } = twin;
+  twin.setFilter = (...given) => {
+    told.push(`filter ${given}`);
+    return setFilter.apply(twin, given);
+  };
+  twin.setStatic = (...given) => {
+    told.push(`static ${given}`);
+    return setStatic.apply(twin, given);
+  };
+  const pairs: number[][] = [];
+  for (const frame of openTrace(recording.bytes())) {
+    applyFrame(twin, frame);
+    pairs.push([...twin.update().pairs]);
+  }
+  expect(told).toEqual(['static 0,true', 'static 1,true', 'filter 2,4,4294967294', 'static 0,false']);
+  expect(pairs.map((list) => list.length / 2)).toEqual([3, 2, 2, 2, 3]);
+});
+
+test('a replay with filters, static boxes and ids is checked against an answer that knows of them', () => {
+  const space = new BroadPhase();
+  const recording = record(space);
+  for (let frame = 0; frame < 4; frame++) {
+    for (let k = 0; k < 60; k++) {
+      const at = (k * 7 + frame * (k % 3)) % 23;
+      space.set(3 * k + 1, at, at, at + 4, at + 4);
+      if (frame === 0) space.setFilter(3 * k + 1, 1 << (k % 3), k % 5).setStatic(3 * k + 1, k % 4 === 0);
+    }
+    space.update();
+  }
+  const trace = openTrace(recording.bytes());
+  for (const technique of BroadPhase.techniques) {
+    const played = [...replay(trace, { technique }, true)];
+    expect(
+      played.map(({ difference }) => difference),
+      technique,
+    ).toEqual([null, null, null, null]);
+    expect(played[3].pairs).toBe(space.pairCount);
+    expect(played[3].pairs).toBeGreaterThan(0);
+  }
 });
 
 test('the bytes so far are a whole trace while the recording goes on', () => {

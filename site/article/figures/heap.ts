@@ -4,10 +4,10 @@
 // tell the size of its heap gets the number of arrays made instead, which is known everywhere.
 import { makeWorlds } from '../../demos/heap.ts';
 import source from '../../demos/heap.ts?raw';
+import { heapSize } from '../../shared/heap.ts';
 import { demoColumns } from '../demo.ts';
 import { text } from '../kit/drawing.ts';
 import { button, choice, createView, element, excerpt, listing, row, runWhileAttended, sayer } from '../kit/index.ts';
-import { heapSize } from '../memory.ts';
 
 /** Milliseconds that each has its turn, and that the chart is wide. */
 const turn = 3000;

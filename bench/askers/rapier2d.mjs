@@ -1,0 +1,9 @@
+// rapier2d: see ../rapier-rays.mjs.
+import RAPIER from '@dimforge/rapier2d-compat';
+import { rapierRays } from '../rapier-rays.mjs';
+
+export const npm = '@dimforge/rapier2d-compat';
+export const dimensions = [2];
+export const answers = ['rayCast'];
+
+export const create = (scene) => rapierRays(RAPIER, scene);

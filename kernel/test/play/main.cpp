@@ -1,0 +1,176 @@
+// Makes the calls of tapes (test/determinism/tape.ts) on a space, as test/determinism/play.ts does, and prints the hash
+// of all that it answers: `play TECHNIQUE TAPE`, repeated. The kernel alone must answer as the package does.
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <vector>
+
+#include "space.hpp"
+
+namespace {
+
+class Hash {
+  u32 first_ = 0x811c9dc5, second_ = 0x1b873593;
+
+ public:
+  void add(u32 word) {
+    first_ = (first_ ^ word) * 0x9e3779b1u;
+    first_ ^= first_ >> 15;
+    second_ = (second_ ^ word) * 0x85ebca77u;
+    second_ ^= second_ >> 13;
+  }
+  template <class T> void add_all(const T* words, u64 count) {
+    add(u32(count));
+    for (u64 k = 0; k < count; k++) add(words[k]);
+  }
+  void add_all(const Pairs& pairs) { add_all(reinterpret_cast<const u32*>(pairs.list.data()), 2 * pairs.count); }
+  void print() const { std::printf("%08x%08x\n", first_, second_); }
+};
+
+template <int D> class Player {
+  static constexpr u32 width = 2 * D;
+  Ids ids_;
+  Settings settings_;
+  Space<D> space_{ids_, settings_};
+  std::vector<u8> saved_;
+  Hash hash_;
+  const f64* at_;
+  const f64* end_;
+
+  f64 next() { return *at_++; }
+  u32 whole() { return u32(next()); }
+
+ public:
+  Player(const std::vector<f64>& tape, u32 technique) : at_(tape.data() + 2), end_(tape.data() + tape.size()) {
+    space_.technique = Technique(technique);
+    space_.keeps_events = tape[1] == 1;
+  }
+
+  void run() {
+    while (at_ < end_) step();
+    hash_.print();
+  }
+
+ private:
+  void step() {
+    switch (whole()) {
+      case 0: return set();
+      case 1: return hash_.add(space_.remove(whole()));
+      case 2: return filter();
+      case 3: return exclude();
+      case 4: return replace();
+      case 5: return expose();
+      case 6: space_.technique = Technique(whole()); return;
+      case 7: return update();
+      case 8: return space_.clear();
+      case 9: return save();
+      case 10: return restore();
+      case 11: return query_box();
+      case 12: return nearest();
+      case 13: return sweep();
+      case 14: return partners();
+      default: std::fprintf(stderr, "play: the tape has no such call\n"); std::exit(1);
+    }
+  }
+
+  void set() {
+    u32 id = whole();
+    space_.set(id, at_);
+    at_ += width;
+  }
+  void filter() {
+    u32 slot = ids_.slot(whole()), layer = whole();
+    space_.filter(slot, layer, whole());
+  }
+  void exclude() {
+    u32 slot = ids_.slot(whole());
+    space_.exclude(slot, is_static, next() == 1);
+  }
+  void replace() {
+    u32 count = whole();
+    f64* to = space_.stage_exact(count);
+    for (u32 k = 0; k < count * width; k++) to[k] = next();
+    space_.replace(count, true);
+  }
+  void expose() {
+    u32 count = whole();
+    f32* to = space_.expose(count);
+    for (u32 k = 0; k < count * width; k++) to[k] = f32(next());
+  }
+  void update() {
+    space_.update();
+    hash_.add_all(space_.pairs);
+    hash_.add_all(space_.events.began);
+    hash_.add_all(space_.events.ended);
+    hash_.add(u32(space_.stats.candidates));
+  }
+  void save() {
+    space_.save();
+    const u8* bytes = reinterpret_cast<const u8*>(space_.snapshot.words());
+    saved_.assign(bytes, bytes + space_.snapshot.bytes());
+    hash_.add_all(saved_.data(), saved_.size());
+  }
+  void restore() {
+    SnapshotHeader head = load<SnapshotHeader>(saved_.data());
+    space_.snapshot.stage(head, u32(saved_.size()), D, built);
+    __builtin_memcpy(const_cast<u64*>(space_.snapshot.words()), saved_.data(), saved_.size());
+    space_.restore();
+  }
+  void ask(u32 mask, u32 numbers) {
+    Question<D>& question = space_.question;
+    question = {};
+    question.radius = -1;
+    question.mask = mask;
+    question.ignored = ~0u;
+    for (int a = 0; a < D; a++) {
+      question.lo[a] = at_[a];
+      question.hi[a] = numbers >= width ? at_[D + a] : at_[a];
+      if (numbers > width) question.along[a] = at_[width + a];
+    }
+    at_ += numbers;
+  }
+  void query_box() {
+    u32 mask = whole(), from = 0;
+    ask(mask, width);
+    u32 count = space_.ask_area(from, ~0u);
+    hash_.add_all(space_.answers.data(), count);
+  }
+  void nearest() {
+    u32 most = whole();
+    ask(~0u, D);
+    space_.question.limit = __builtin_inf();
+    u32 count = space_.ask_order(false, most, nullptr);
+    hash_.add(count);
+    for (u32 k = 0; k < count; k++) hash_.add(space_.hits.data()[k].id);
+  }
+  void sweep() {
+    ask(~0u, 3 * D);
+    space_.question.limit = space_.question.length = 1;
+    bool met = space_.ask_order(true, 1, nullptr) > 0;
+    u64 time = bits<u64>(met ? space_.hits.data()[0].rank : -1.0);
+    u32 words[] = {met ? space_.hits.data()[0].id : ~0u, u32(time), u32(time >> 32)};
+    hash_.add_all(words, 3);
+  }
+  void partners() {
+    u32 count = space_.partners(whole());
+    hash_.add_all(space_.answers.data(), count);
+  }
+};
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  for (int k = 1; k + 1 < count; k += 2) {
+    std::ifstream file(arguments[k + 1], std::ios::binary);
+    std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    std::vector<f64> tape(bytes.size() / sizeof(f64));
+    if (tape.size() < 2) return 1;
+    __builtin_memcpy(tape.data(), bytes.data(), tape.size() * sizeof(f64));
+    u32 technique = u32(std::atoi(arguments[k]));
+    if (tape[0] == 2) std::make_unique<Player<2>>(tape, technique)->run();
+    else std::make_unique<Player<3>>(tape, technique)->run();
+  }
+  return 0;
+}

@@ -1,0 +1,532 @@
+// The lab: a scene, a technique, what it costs. This file ties the parts together; the work is done in workers.
+// What is shown stands in the address, so that it can be sent to someone.
+import { BroadPhase, type TechniqueName } from 'broadphase';
+import { formatCount, formatMilliseconds, formatRate } from '../shared/format.ts';
+import { numberPanel } from '../shared/numbers.ts';
+import type { RendererKind } from '../shared/renderer.ts';
+import { Timings } from '../shared/timings.ts';
+import { isTrace, mostBoxes, sceneGroups, traces } from './catalog.ts';
+import { createCellSize } from './cell-size.ts';
+import { createCharts } from './charts.ts';
+import { createCountSlider } from './count-slider.ts';
+import { save, takeFiles } from './files.ts';
+import { createInspector } from './inspector.ts';
+import type { Opened, Picture, Requests, Source, Wanted } from './messages.ts';
+import { Pilot, TooSlow } from './pilot.ts';
+import { Playback } from './playback.ts';
+import { createRace, type Race } from './race.ts';
+import { defaults, type LabState, type Layer, latestFrame, type Rate, readState, writeState } from './state.ts';
+import { type LabView, onClick } from './view.ts';
+import { createFlatView } from './view-2d.ts';
+
+/** Milliseconds that a worker may take for an answer. */
+const patience = 10_000;
+/** Brute force makes a test for every two boxes: from here on a frame would take seconds. */
+const mostByBruteForce = 20_000;
+/** Every racer has all boxes in its own memory. */
+const mostInRace = 100_000;
+const refresh = 200;
+const rememberAfter = 300;
+const playIcon = 'M4 2.2v11.6a.6.6 0 0 0 .9.5l9-5.8a.6.6 0 0 0 0-1l-9-5.8a.6.6 0 0 0-.9.5z';
+const pauseIcon = 'M3.5 2h3v12h-3zM9.5 2h3v12h-3z';
+const file = 'file';
+
+const find = <T extends Element = HTMLElement>(id: string) => document.getElementById(id) as unknown as T;
+const sceneMenu = find<HTMLSelectElement>('scene');
+const techniqueMenu = find<HTMLSelectElement>('technique');
+const rateMenu = find<HTMLSelectElement>('rate');
+const note = find('note');
+const write = numberPanel(document);
+const still = matchMedia('(prefers-reduced-motion: reduce)');
+
+const { state: given, faults } = readState(location.search);
+const state: LabState = given;
+let source: Source;
+let opened: Opened | undefined;
+/** The file that is shown, where it is one of the user's. */
+let ownFile: File | undefined;
+let view: LabView;
+let picture: Picture | undefined;
+let race: Race | undefined;
+let recording = false;
+
+const pilot = new Pilot(patience);
+const playback = new Playback(makeFrame);
+const timings = new Timings();
+const charts = createCharts(find('charts'));
+const inspect = createInspector(find('chosen'), choose);
+const slider = createCountSlider(find('count'), state.boxes, (count) => {
+  state.boxes = count;
+  openSoon();
+});
+const cellSize = createCellSize(find('cells'), setCell, (cell) => ask('cost', cell));
+/** How flat scenes are drawn can be chosen in the address, to compare: ?renderer=canvas-2d. */
+const kinds: readonly RendererKind[] = ['webgl2', 'canvas-2d'];
+const flat = createFlatView(
+  find('flat'),
+  () => remember(),
+  kinds.find((kind) => kind === new URLSearchParams(location.search).get('renderer')),
+);
+view = flat;
+let solid: Promise<LabView> | undefined;
+
+/** Says something; what went wrong is shown more strongly. */
+function say(text: string, bad = false): void {
+  note.textContent = text;
+  note.classList.toggle('bad', bad);
+}
+
+const reasonOf = (error: unknown) => (error instanceof Error ? error.message : String(error));
+
+/** Asks the worker; where it had to be ended, what was shown is opened again, with the technique that never fails. */
+async function ask<Name extends keyof Requests>(
+  name: Name,
+  ...args: Parameters<Requests[Name]>
+): Promise<ReturnType<Requests[Name]>> {
+  try {
+    return await pilot.ask(name, ...args);
+  } catch (error) {
+    if (error instanceof TooSlow && name !== 'open') void revive(error);
+    throw error;
+  }
+}
+
+let reviving = false;
+async function revive({ message }: TooSlow): Promise<void> {
+  if (reviving) return;
+  reviving = true;
+  const what = state.cell === undefined ? state.technique : `${state.technique} with cells of ${state.cell}`;
+  play(false);
+  state.technique = 'auto';
+  state.cell = undefined;
+  techniqueMenu.value = 'auto';
+  await open(0);
+  say(`${what} was stopped: ${message}. Here are the same boxes with auto.`, true);
+  reviving = false;
+}
+
+/** Makes and shows a frame: of the race, or of the scene. */
+async function makeFrame(steps: number): Promise<void> {
+  try {
+    if (race) {
+      await race.step();
+      if (race?.picture) take(race.picture);
+    } else if (opened) {
+      take(await ask('picture', wanted(steps)));
+      view.show(picture!);
+    }
+  } catch (error) {
+    if (error instanceof TooSlow) return; // said where it was noticed
+    play(false);
+    say(`This stopped: ${reasonOf(error)}`, true);
+  }
+}
+
+/** The picture before the last, whose arrays can be used again. */
+let spare: Wanted['spare'];
+
+function wanted(steps: number): Wanted {
+  const has = (layer: Layer) => state.show.includes(layer);
+  const given = spare;
+  spare = undefined;
+  return {
+    steps,
+    boxes: true,
+    structure: has('structure'),
+    heat: has('heat'),
+    pairs: has('pairs'),
+    chosen: state.box,
+    spare: given,
+  };
+}
+
+function take(next: Picture): void {
+  if (picture && !race && picture !== next) spare = { drawn: picture.drawn, slots: picture.slots };
+  picture = next;
+  if (Number.isNaN(next.ms)) return;
+  timings.add(performance.now(), next.ms);
+  charts.add(next);
+}
+
+// Opening: a scene, a trace, a file; the race opens its own.
+
+const boxesWanted = () => {
+  const most = race || state.race ? mostInRace : state.technique === 'brute-force' ? mostByBruteForce : mostBoxes;
+  return Math.min(most, state.boxes);
+};
+
+function sourceOf(): Source {
+  if (ownFile) return { kind: 'file', file: ownFile };
+  if (isTrace(state.scene)) {
+    return { kind: 'trace', url: new URL(`../traces/${traces[state.scene].file}`, location.href).href };
+  }
+  return { kind: 'scene', name: state.scene, boxes: boxesWanted() };
+}
+
+let openings = 0;
+/** Opens what is chosen, at a frame. */
+async function open(frame: number, look?: readonly number[]): Promise<void> {
+  const mine = ++openings;
+  source = sourceOf();
+  race?.end();
+  race = undefined;
+  recording = false;
+  const before = opened;
+  try {
+    if (source.kind !== 'scene') say('Loading the recording.');
+    const now = await pilot.ask('open', source, frame);
+    if (mine !== openings) return;
+    await pilot.ask('setup', { technique: state.technique, cellSize: state.cell });
+    if (mine !== openings) return;
+    opened = now;
+  } catch (error) {
+    if (mine !== openings) return;
+    opened = before;
+    throw error;
+  }
+  await useView(opened.dimensions);
+  view.fit(opened.world);
+  if (look) view.look = look;
+  picture = spare = undefined;
+  timings.clear();
+  charts.clear();
+  explain();
+  if (state.race) await startRace(frame);
+  await playback.show(0);
+  if (mine !== openings) return;
+  lookAtCells();
+  report();
+  caption();
+  remember();
+}
+
+/** Opens something else; where that fails, what was there stays. */
+async function change(next: { scene: string; own?: File }): Promise<void> {
+  const before = { scene: state.scene, own: ownFile };
+  state.scene = next.scene;
+  ownFile = next.own;
+  state.box = undefined;
+  const was = before.own ? file : before.scene;
+  const rate = state.rate;
+  if (isTrace(next.scene) || next.own) setRate('10');
+  else if (isTrace(before.scene) || before.own) setRate(defaults.rate);
+  try {
+    await open(0);
+    showFileInMenu();
+    sceneMenu.value = next.own ? file : next.scene;
+  } catch (error) {
+    state.scene = before.scene;
+    ownFile = before.own;
+    setRate(rate);
+    sceneMenu.value = was;
+    if (error instanceof TooSlow) await open(0); // its worker is gone
+    const name = next.own ? next.own.name : next.scene;
+    say(`${name} cannot be shown: ${reasonOf(error)}`, true);
+  }
+}
+
+async function useView(dimensions: 2 | 3): Promise<void> {
+  if (dimensions === 3) {
+    // The library for it is fetched only by those who look at a solid scene.
+    solid ??= import('./view-3d.ts').then(({ createSolidView }) => {
+      find('solid').hidden = false;
+      const made = createSolidView(find('solid'), () => remember());
+      listen(made);
+      return made;
+    });
+  }
+  view = dimensions === 3 ? await solid! : flat;
+  arrange();
+}
+
+/** Shows what belongs to watching or to racing, to flat or to solid scenes. */
+function arrange(): void {
+  const racing = state.race !== undefined;
+  for (const id of ['flat', 'solid']) find(id).hidden = racing || view.element.id !== id;
+  for (const id of ['race', 'racers', 'bars', 'race-note']) find(id).hidden = !racing;
+  for (const id of ['technique-field', 'layers', 'charts', 'numbers']) find(id).hidden = racing;
+  for (const button of document.querySelectorAll<HTMLElement>('.looking')) button.hidden = racing;
+  for (const id of ['record']) find<HTMLButtonElement>(id).disabled = racing;
+  if (racing) find('cells').hidden = find('chosen').hidden = true;
+  document.body.classList.toggle('racing', racing);
+  find('race-mode').setAttribute('aria-pressed', String(racing));
+}
+
+async function startRace(frame: number): Promise<void> {
+  const places = { tiles: find('race'), bars: find('bars'), note: find('race-note') };
+  const mine = openings;
+  if (state.race!.length === 0) return say('Choose who races.');
+  const made = await createRace(places, state.race!, source, frame);
+  if (mine !== openings) made.race.end();
+  else race = made.race;
+}
+
+async function lookAtCells(): Promise<void> {
+  if (state.race) return;
+  const mine = openings;
+  const sizes = await ask('cellSizes').catch(() => undefined);
+  if (sizes && mine === openings && !state.race) cellSize.begin(sizes, state.cell);
+}
+
+/** A word about what is shown, where it is not what was asked for. */
+function explain(): void {
+  const asked = isTrace(state.scene) || ownFile ? 0 : state.boxes;
+  const fewer = opened!.boxes < asked;
+  slider.show(opened!.boxes, asked > 0);
+  write('boxes', formatCount(opened!.boxes));
+  if (fewer && state.race)
+    say(`A race stops at ${formatCount(opened!.boxes)} boxes: every racer has all of them in its memory.`);
+  else if (fewer) say(`Brute force stops here at ${formatCount(opened!.boxes)} boxes.`);
+  else if (opened!.frames)
+    say(`${ownFile?.name ?? traces[state.scene].label}: ${formatCount(opened!.frames)} frames, again and again.`);
+  else say('');
+}
+
+// Controls.
+
+function setRate(rate: Rate): void {
+  state.rate = rate;
+  playback.rate = Number(rate);
+  rateMenu.value = rate;
+}
+
+function setCell(cell: number | undefined): void {
+  state.cell = cell;
+  void setUp();
+}
+
+/** Another technique or cell size for the same scene. */
+async function setUp(): Promise<void> {
+  if (opened && boxesWanted() !== opened.boxes && source.kind === 'scene') return open(0);
+  await ask('setup', { technique: state.technique, cellSize: state.cell }).catch(() => {});
+  timings.clear();
+  charts.clear();
+  await playback.show(0);
+  report();
+  remember();
+}
+
+function choose(id: number | undefined): void {
+  state.box = id;
+  void playback.show(0).then(report);
+  remember();
+}
+
+function showFileInMenu(): void {
+  sceneMenu.querySelector(`option[value=${file}]`)?.remove();
+  if (ownFile) sceneMenu.add(new Option(ownFile.name, file), 0);
+}
+
+let pendingMemory: ReturnType<typeof setTimeout> | undefined;
+/** Writes the state into the address, a little later: browsers allow that only so often. */
+function remember(): void {
+  clearTimeout(pendingMemory);
+  pendingMemory = setTimeout(() => {
+    const shown = {
+      ...state,
+      scene: ownFile ? file : state.scene,
+      frame: playback.playing ? undefined : picture?.index,
+    };
+    const renderer = new URLSearchParams(location.search).get('renderer');
+    const kept = kinds.find((kind) => kind === renderer);
+    history.replaceState(
+      null,
+      '',
+      `?${writeState({ ...shown, view: state.race ? undefined : view.look })}${kept ? `&renderer=${kept}` : ''}`,
+    );
+  }, rememberAfter);
+}
+
+/** Writes the live numbers. */
+function report(): void {
+  if (!picture) return;
+  const { stats, touching, boxes, recorded } = picture;
+  write('boxes', formatCount(boxes));
+  write('frame', formatCount(picture.index) + (opened?.frames ? ` / ${formatCount(opened.frames - 1)}` : ''));
+  write('technique', stats.technique);
+  write('ran', !race && stats.technique !== state.technique ? stats.technique : '');
+  write('pairs', formatCount(stats.pairs));
+  write('touching', formatCount(touching));
+  write('tests', formatCount(stats.tests));
+  write('cells', formatCount(stats.cells));
+  if (timings.summarise()) {
+    write('median', formatMilliseconds(timings.median));
+    write('rate', playback.playing ? formatRate(timings.rate) : '–');
+  }
+  if (!race) {
+    inspect(picture, state.box);
+    charts.draw();
+  }
+  if (recording && recorded) {
+    find('recording').textContent =
+      `${formatCount(recorded.frames)} frames, ${(recorded.bytes / 1e6).toFixed(1)} MB${recorded.full ? ': full' : ''}`;
+  }
+}
+
+function play(playing: boolean): void {
+  playback.playing = playing;
+  find('play-icon').setAttribute('d', playing ? pauseIcon : playIcon);
+  find('play-label').textContent = playing ? 'Pause' : 'Play';
+  if (playing) timings.clear();
+  report();
+  caption();
+  remember();
+}
+
+/** What the picture shows, for those who cannot see it: brought up to date when it stops, not while it runs. */
+function caption(): void {
+  if (!picture) return;
+  view.element
+    .querySelector('canvas')!
+    .setAttribute(
+      'aria-label',
+      `${formatCount(picture.boxes)} boxes, ${playback.playing ? 'moving' : 'paused'}, with ${formatCount(picture.stats.pairs)} overlapping pairs. Boxes that touch share a colour.`,
+    );
+}
+
+async function toggleRecording(): Promise<void> {
+  const button = find('record');
+  try {
+    if (!recording) {
+      await ask('record');
+      recording = true;
+    } else {
+      recording = false;
+      save(await ask('recording'), `${ownFile ? 'recording' : state.scene}.trace`);
+      find('recording').textContent = 'Saved. Now: npx broadphase tune on that file.';
+    }
+  } catch (error) {
+    recording = false;
+    say(`The recording stopped: ${reasonOf(error)}`, true);
+  }
+  button.textContent = recording ? 'Stop and save' : 'Record';
+}
+
+async function share(): Promise<void> {
+  const held = ownFile ? ' It does not hold your file.' : '';
+  try {
+    await navigator.clipboard.writeText(location.href);
+    say(`Link copied.${held}`);
+  } catch {
+    say(`The address of this page is the link: copy it from there.${held}`);
+  }
+}
+
+function listen({ element }: LabView): void {
+  onClick(element, async (x, y) => {
+    const { place, reach } = view.place(x, y);
+    const id = await ask('pick', place, reach).catch(() => undefined);
+    choose(id);
+  });
+}
+
+function fillControls(): void {
+  for (const { title, scenes } of sceneGroups) {
+    const group = document.createElement('optgroup');
+    group.label = title;
+    for (const [name, label] of scenes) group.append(new Option(label, name));
+    sceneMenu.append(group);
+  }
+  const racers = state.race ?? BroadPhase.techniques;
+  for (const name of BroadPhase.techniques) {
+    techniqueMenu.add(new Option(name, name));
+    const label = document.createElement('label');
+    const box = Object.assign(document.createElement('input'), {
+      type: 'checkbox',
+      value: name,
+      checked: racers.includes(name),
+    });
+    label.append(box, ` ${name}`);
+    find('racer-list').append(label);
+  }
+  sceneMenu.value = state.scene;
+  techniqueMenu.value = state.technique;
+  setRate(state.rate);
+  for (const box of document.querySelectorAll<HTMLInputElement>('#layers input')) {
+    box.checked = state.show.includes(box.value as Layer);
+  }
+}
+
+let pending = 0;
+/** Opens before the next frame: a slider that is dragged makes at most one scene per frame. */
+const openSoon = () => {
+  cancelAnimationFrame(pending);
+  pending = requestAnimationFrame(() => void open(0).catch(failed));
+};
+const failed = (reason: unknown) => say(`This stopped: ${reasonOf(reason)}`, true);
+const racersChosen = () =>
+  Array.from(
+    document.querySelectorAll<HTMLInputElement>('#racer-list input:checked'),
+    ({ value }) => value as TechniqueName,
+  );
+
+sceneMenu.addEventListener('change', () => {
+  if (sceneMenu.value !== file) void change({ scene: sceneMenu.value });
+});
+techniqueMenu.addEventListener('change', () => {
+  state.technique = techniqueMenu.value as TechniqueName;
+  state.cell = undefined;
+  void setUp().then(() => {
+    explain();
+    lookAtCells();
+  });
+});
+rateMenu.addEventListener('change', () => {
+  setRate(rateMenu.value as Rate);
+  remember();
+});
+find('layers').addEventListener('change', () => {
+  state.show = Array.from(
+    document.querySelectorAll<HTMLInputElement>('#layers input:checked'),
+    ({ value }) => value as Layer,
+  );
+  void playback.show(0).then(report);
+  remember();
+});
+find('race-mode').addEventListener('click', () => {
+  state.race = state.race ? undefined : racersChosen();
+  openSoon();
+});
+find('racer-list').addEventListener('change', () => {
+  state.race = racersChosen();
+  openSoon();
+});
+find('play').addEventListener('click', () => play(!playback.playing));
+find('step').addEventListener('click', async () => {
+  if (playback.playing) play(false);
+  await playback.show(1);
+  report();
+  caption();
+  remember();
+});
+for (const [id, factor] of [
+  ['zoom-in', 1.5],
+  ['zoom-out', 1 / 1.5],
+] as const) {
+  find(id).addEventListener('click', () => view.zoom(factor));
+}
+find('fit').addEventListener('click', () => {
+  view.look = undefined;
+  remember();
+});
+find('record').addEventListener('click', () => void toggleRecording());
+find('share').addEventListener('click', () => void share());
+find('controls').addEventListener('submit', (event) => event.preventDefault());
+takeFiles(find('choose'), find<HTMLInputElement>('file'), (chosen) => void change({ scene: state.scene, own: chosen }));
+addEventListener('keydown', (event) => {
+  if (event.key !== ' ' || (event.target as Element).closest('button, select, input, label')) return;
+  event.preventDefault();
+  play(!playback.playing);
+});
+// Without an error it is a notice, as of elements that were resized twice in a frame.
+addEventListener('error', (event) => event.error && failed(event.error));
+addEventListener('unhandledrejection', (event) => failed(event.reason));
+still.addEventListener('change', () => play(!still.matches));
+
+listen(flat);
+fillControls();
+setInterval(report, refresh);
+const beginning = Math.min(state.frame ?? 0, latestFrame(state.boxes));
+await open(beginning, state.view).catch(failed);
+if (faults.length > 0) say(`In the address, ${faults.join('; ')}.`, true);
+if (!reviving) play(!still.matches && state.frame === undefined);

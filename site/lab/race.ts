@@ -1,0 +1,247 @@
+// The race: the same frames with several techniques, each in a worker of its own. In each frame they take turns, so
+// that no two measure at once, and one that takes far too long is given up without holding up the page. Each has a
+// tile that shows its cells over the boxes, and a bar for the median of its last frames.
+import type { TechniqueName } from 'broadphase';
+import { Camera, type World } from '../shared/camera.ts';
+import { formatCount, formatMilliseconds } from '../shared/format.ts';
+import { makePalette } from '../shared/palette.ts';
+import { createRenderer } from '../shared/renderer.ts';
+import type { Opened, Picture, Source } from './messages.ts';
+import { Pilot, TooSlow } from './pilot.ts';
+
+/** Milliseconds that a frame may take in a race. */
+const patience = 3000;
+/** The median is that of so many frames. */
+const kept = 60;
+/** More cells than this are a haze in a tile: then only some are drawn. */
+const mostCells = 3000;
+const clearCells = 300;
+const strongest = 0.6;
+const faintest = 0.05;
+/** Bars are logarithmic, from a thousandth of the longest on. */
+const reach = 1000;
+
+export interface Race {
+  /** One frame of all that are still in. */
+  step(): Promise<void>;
+  /** What the leader's picture is: its numbers are those of the frame. */
+  readonly picture: Picture | undefined;
+  end(): void;
+}
+
+interface Racer {
+  technique: TechniqueName;
+  pilot: Pilot;
+  tile: HTMLElement;
+  canvas: HTMLCanvasElement;
+  said: HTMLElement;
+  bar: HTMLElement;
+  barText: HTMLElement;
+  times: Float64Array;
+  frames: number;
+  median: number;
+  picture: Picture | undefined;
+  /** Why it is out. */
+  out: string | undefined;
+}
+
+/** Opens the scene for every racer, at a frame; `opened` tells what the first of them found. */
+export async function createRace(
+  places: { tiles: HTMLElement; bars: HTMLElement; note: HTMLElement },
+  techniques: readonly TechniqueName[],
+  source: Source,
+  frame: number,
+): Promise<{ race: Race; opened: Opened }> {
+  const { tiles, bars, note } = places;
+  tiles.replaceChildren();
+  bars.replaceChildren();
+  const racers = techniques.map((technique): Racer => {
+    const tile = document.createElement('figure');
+    tile.className = 'tile';
+    tile.innerHTML = '<canvas role="img"></canvas><figcaption><b class="racer"></b><span>–</span></figcaption>';
+    tile.querySelector('b')!.textContent = technique;
+    tiles.append(tile);
+    const item = document.createElement('li');
+    item.innerHTML = '<span></span><span>–</span><span class="bar"></span>';
+    const [name, barText, bar] = item.children as HTMLCollectionOf<HTMLElement>;
+    name.textContent = technique;
+    bars.append(item);
+    const [canvas, said] = [tile.querySelector('canvas')!, tile.querySelector('span')!];
+    canvas.setAttribute('aria-label', `The cells of ${technique}`);
+    const times = new Float64Array(kept);
+    const pilot = new Pilot(patience);
+    return {
+      technique,
+      pilot,
+      tile,
+      canvas,
+      said,
+      bar,
+      barText,
+      times,
+      frames: 0,
+      median: 0,
+      picture: undefined,
+      out: undefined,
+    };
+  });
+  const drop = (racer: Racer, error: unknown) => {
+    racer.out = error instanceof TooSlow ? 'given up: too slow' : String((error as Error).message);
+    racer.pilot.end();
+    racer.tile.classList.add('out');
+    racer.picture = undefined;
+  };
+  const end = () => {
+    for (const { pilot } of racers) pilot.end();
+  };
+
+  let opened: Opened | undefined;
+  for (const racer of racers) {
+    try {
+      const found = await racer.pilot.ask('open', source, frame);
+      await racer.pilot.ask('setup', { technique: racer.technique, cellSize: undefined });
+      opened ??= found;
+    } catch (error) {
+      drop(racer, error);
+      if (!opened && !(error instanceof TooSlow)) {
+        end();
+        throw error; // what one cannot open, none can
+      }
+    }
+  }
+  if (!opened) throw new TooSlow('no technique could open the scene in time');
+
+  const { dimensions, world } = opened;
+  const backdrop = document.createElement('canvas');
+  const camera = new Camera();
+  const renderer = createRenderer(backdrop, () => {}, 'canvas-2d');
+  camera.fit(dimensions === 2 ? (world as World) : [world[0], world[1], world[3], world[4]]);
+  const dark = matchMedia('(prefers-color-scheme: dark)');
+  let ended = false;
+  /** The first that is still in: the boxes are asked of it alone. */
+  let leader: Racer | undefined;
+
+  /** Boxes once for all, then each tile's cells over them. Solid scenes are seen from the front. */
+  const draw = () => {
+    const style = getComputedStyle(tiles);
+    renderer.setPalette(makePalette(dark.matches, style.getPropertyValue('--page').trim()));
+    const side = Math.round((tiles.firstElementChild?.clientWidth ?? 200) * Math.min(2, devicePixelRatio));
+    if (backdrop.width !== side || backdrop.height !== side) {
+      backdrop.width = backdrop.height = side;
+      camera.resize(side, side);
+    }
+    const shown = leader?.picture;
+    if (!shown) return;
+    const flat = dimensions === 2 ? shown.drawn : flattened(shown.drawn, shown.cells + shown.boxes);
+    renderer.draw(flat.subarray(4 * shown.cells), shown.slots.subarray(shown.cells), shown.boxes, camera);
+    const accent = style.getPropertyValue('--accent').trim();
+    for (const { canvas, picture } of racers) {
+      if (canvas.width !== side || canvas.height !== side) canvas.width = canvas.height = side;
+      const ctx = canvas.getContext('2d')!;
+      ctx.globalAlpha = 1;
+      ctx.drawImage(backdrop, 0, 0);
+      if (picture) drawCells(ctx, picture, dimensions, camera, accent);
+    }
+  };
+
+  const report = () => {
+    for (const racer of racers) {
+      const some = racer.times.subarray(0, Math.min(kept, racer.frames)).slice().sort();
+      racer.median = some[some.length >> 1] ?? 0;
+    }
+    const running = racers.filter(({ out, frames }) => out === undefined && frames > 0);
+    const fastest = Math.min(...running.map(({ median }) => median));
+    const slowest = Math.max(...running.map(({ median }) => median));
+    const order = [...racers].sort((a, b) => Number(!!a.out) - Number(!!b.out) || a.median - b.median);
+    for (const racer of racers) {
+      const { technique, picture, out, said, bar, barText, median } = racer;
+      const ran = picture && picture.stats.technique !== technique ? ` (${picture.stats.technique})` : '';
+      const text = out ?? `${formatMilliseconds(median)} ms`;
+      said.textContent = text + (out ? '' : ran);
+      barText.textContent = out ?? `${text}, ${fastest > 0 ? (median / fastest).toFixed(1) : '1.0'}×`;
+      const share = out || median <= 0 ? 0 : 1 + Math.log(median / slowest) / Math.log(reach);
+      bar.style.setProperty('--share', Math.max(0.02, share).toFixed(3));
+      const item = bar.parentElement!;
+      item.style.order = String(order.indexOf(racer));
+      item.classList.toggle('first', racer === order[0] && !out);
+    }
+    const digests = new Set(running.map(({ picture }) => picture?.digest));
+    const pairs = running[0]?.picture?.stats.pairs ?? 0;
+    note.textContent =
+      digests.size > 1
+        ? 'They do not agree on the pairs: that is a fault of the library. Please report it.'
+        : `Median of ${kept} frames, logarithmic. They take turns, and all find the same ${formatCount(pairs)} pairs.`;
+  };
+
+  return {
+    opened,
+    race: {
+      get picture() {
+        return leader?.picture;
+      },
+      async step() {
+        leader = racers.find(({ out }) => out === undefined);
+        for (const racer of racers) {
+          if (racer.out !== undefined || ended) continue;
+          const { picture } = racer;
+          try {
+            racer.picture = await racer.pilot.ask('picture', {
+              steps: racer.frames === 0 ? 0 : 1,
+              boxes: racer === leader,
+              structure: true,
+              heat: false,
+              pairs: false,
+              chosen: undefined,
+              spare: picture && { drawn: picture.drawn, slots: picture.slots },
+            });
+            racer.times[racer.frames++ % kept] = racer.picture.ms;
+          } catch (error) {
+            if (!ended) drop(racer, error);
+          }
+        }
+        if (ended) return;
+        draw();
+        report();
+      },
+      end() {
+        ended = true;
+        end();
+      },
+    },
+  };
+}
+
+function flattened(boxes: Float32Array, count: number): Float32Array {
+  const flat = new Float32Array(4 * count);
+  for (let k = 0; k < count; k++) {
+    flat[4 * k] = boxes[6 * k];
+    flat[4 * k + 1] = boxes[6 * k + 1];
+    flat[4 * k + 2] = boxes[6 * k + 3];
+    flat[4 * k + 3] = boxes[6 * k + 4];
+  }
+  return flat;
+}
+
+function drawCells(
+  ctx: CanvasRenderingContext2D,
+  { drawn, cells }: Picture,
+  dimensions: 2 | 3,
+  { x, y, scale, width, height }: Camera,
+  color: string,
+): void {
+  const stride = Math.ceil(cells / mostCells) * 2 * dimensions;
+  const clamp = (value: number, most: number) => Math.min(most + 9, Math.max(-9, value));
+  ctx.strokeStyle = color;
+  // Many cells are drawn faintly, so that the boxes show through.
+  ctx.globalAlpha = Math.min(strongest, Math.max(faintest, (strongest * clearCells) / cells));
+  ctx.lineWidth = Math.max(1, devicePixelRatio / 2);
+  ctx.beginPath();
+  for (let at = 0; at < cells * 2 * dimensions; at += stride) {
+    const left = clamp(width / 2 + (drawn[at] - x) * scale, width);
+    const right = clamp(width / 2 + (drawn[at + dimensions] - x) * scale, width);
+    const bottom = clamp(height / 2 - (drawn[at + 1] - y) * scale, height);
+    const top = clamp(height / 2 - (drawn[at + dimensions + 1] - y) * scale, height);
+    ctx.rect(left, top, right - left, bottom - top);
+  }
+  ctx.stroke();
+}

@@ -1,0 +1,29 @@
+// Why bytes are not a snapshot that can be restored, in words. What a snapshot holds: kernel/snapshot.hpp.
+import { badValue } from './errors.ts';
+
+/** Bytes in front of what stands in the space, and the version of them that this library writes. */
+export const headerBytes = 24;
+const newest = 1;
+
+/** Any view of bytes, or all of a buffer, as bytes. */
+export function bytesOf(value: unknown): Uint8Array {
+  if (value instanceof Uint8Array) return value;
+  if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
+  if (value instanceof ArrayBuffer) return new Uint8Array(value);
+  badValue('restore', value, 'the bytes that snapshot() gave, as a Uint8Array or an ArrayBuffer', true);
+}
+
+/** `fault` is kernel/snapshot.hpp's SnapshotFault. */
+export function badSnapshot(fault: number, bytes: Uint8Array, dimensions: 2 | 3, technique: string): never {
+  const reasons = [
+    '',
+    `got ${bytes.length} bytes that are no snapshot, expected what snapshot() gave`,
+    `got a snapshot of format ${bytes[4]}, expected at most ${newest}: it was made by a newer version of this library`,
+    `got ${bytes.length} bytes, expected another number of them: the snapshot was cut off, or something is behind it`,
+    'the snapshot is damaged: its checksum or its header is wrong',
+    `got a snapshot of a space with ${bytes[5]} dimensions, expected ${dimensions}`,
+    `got a snapshot of a space with the technique ${technique}, expected one that there is: import from 'broadphase/all'`,
+    'the snapshot holds what no space holds, so it was not made by snapshot()',
+  ];
+  throw new RangeError(`restore: ${reasons[fault]}`);
+}

@@ -1,0 +1,415 @@
+// Every method in any order, bad arguments mixed in, against a model: fast-check makes up the calls and makes those that
+// fail fewer. The model is a Map of what each box was given, and what the last update saw.
+// The seed stands in the name of the suite and in the report of a failure: SEED=… runs it again, RUNS=… runs more.
+import { BroadPhase } from 'broadphase';
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import { expectKeys } from './expect-pairs.ts';
+import { type Entry, pairsOf } from './model.ts';
+import { ahead, inBox, inCircle, near } from './query-reference.ts';
+import { keyOf } from './reference.ts';
+import { setBox } from './set-box.ts';
+
+const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 31));
+const numRuns = Number(process.env.RUNS ?? 150);
+const all = 0xffffffff;
+
+type Loose = Record<string, (...given: unknown[]) => unknown>;
+
+interface Model {
+  entries: Map<number, Entry>;
+  /** Deleted since the last update. */
+  gone: Set<number>;
+  /** The keys of the pairs of the last update: of this space, and of the one that was saved. */
+  shown: Set<number>;
+  before: Set<number>;
+  /** What questions see: as of the last update, from the first question on. */
+  seen: Map<number, Entry> | undefined;
+  updated: boolean;
+  saved?: { bytes: Uint8Array; entries: Map<number, Entry>; gone: Set<number>; before: Set<number> };
+}
+
+const copy = (entries: ReadonlyMap<number, Entry>) => new Map([...entries].map(([id, entry]) => [id, { ...entry }]));
+const ascending = (numbers: Iterable<number>) => [...numbers].sort((a, b) => a - b);
+
+class Call implements fc.Command<Model, BroadPhase> {
+  readonly #name: string;
+  readonly run: (model: Model, space: BroadPhase) => void;
+  constructor(name: string, run: (model: Model, space: BroadPhase) => void) {
+    this.#name = name;
+    this.run = run;
+  }
+  check = () => true;
+  toString = () => this.#name;
+}
+
+function put(model: Model, id: number, box: number[]): void {
+  const known = model.entries.get(id);
+  model.entries.set(id, { layer: all, mask: all, isStatic: false, ...known, box });
+}
+
+function replace(model: Model, boxes: readonly number[][]): void {
+  for (const id of [...model.entries.keys()]) {
+    if (id < boxes.length) continue;
+    model.entries.delete(id);
+    model.gone.add(id);
+  }
+  boxes.forEach((box, id) => {
+    put(model, id, box);
+  });
+}
+
+function update(model: Model, space: BroadPhase): void {
+  expect(space.update()).toBe(space);
+  const { dimensions } = space;
+  const keys = pairsOf(model.entries, dimensions);
+  expectKeys(space, keys);
+  const now = new Set(keys);
+  const isGone = (key: number) => model.gone.has(Math.floor(key / 2 ** 24)) || model.gone.has(key % 2 ** 24);
+  const keysIn = (pairs: Uint32Array) =>
+    ascending(Array.from({ length: pairs.length / 2 }, (_, k) => keyOf(pairs[2 * k], pairs[2 * k + 1])));
+  expect(keysIn(space.began)).toEqual(ascending([...now].filter((key) => !model.before.has(key) || isGone(key))));
+  expect(keysIn(space.ended)).toEqual(ascending([...model.before].filter((key) => !now.has(key) || isGone(key))));
+  model.shown = model.before = now;
+  model.gone = new Set();
+  model.updated = true;
+  if (model.seen) model.seen = copy(model.entries);
+  expect(space.stats.pairs).toBe(space.pairCount);
+  space.validate();
+}
+
+/** The first question sees what stands there, if there was an update. */
+function seen(model: Model): Map<number, Entry> {
+  model.seen ??= model.updated ? copy(model.entries) : new Map();
+  return model.seen;
+}
+
+const anId = fc.oneof(
+  { weight: 12, arbitrary: fc.nat(25) },
+  { weight: 1, arbitrary: fc.constantFrom(4095, 4096, 70_000, 2 ** 24 - 1) },
+);
+const aPlace = fc.oneof(
+  { weight: 10, arbitrary: fc.integer({ min: -8, max: 8 }) },
+  { weight: 2, arbitrary: fc.integer({ min: -80, max: 80 }).map((tenths) => tenths / 10) },
+  { weight: 1, arbitrary: fc.constantFrom(-0, 1e9, -1e9, 1e-30, 5e-324, 1e39, -1e300) },
+);
+const anEnd = fc.oneof(
+  { weight: 12, arbitrary: aPlace },
+  { weight: 1, arbitrary: fc.constantFrom(-Infinity, Infinity) },
+);
+const bits = fc.constantFrom(all, 1, 2, 3, 0, 0x80000000);
+const asked = fc.record({ mask: fc.constantFrom(all, 1, 2, 0x80000000), ignore: fc.nat(25) }, { requiredKeys: [] });
+
+/** No number, or none that a box or a place may have. */
+const noNumber = fc.constantFrom<unknown>(Number.NaN, undefined, null, '1', {}, [], true, 1n, Symbol('s'));
+const noId = fc.constantFrom<unknown>(-1, 2 ** 24, 0.5, Number.NaN, Infinity, '3', null, undefined, {}, 2n, true);
+const noBits = fc.constantFrom<unknown>(-1, 2 ** 32, 0.5, Number.NaN, '3', null, undefined, {}, 1n);
+const noBytes = fc.oneof(
+  fc.constantFrom<unknown>(undefined, null, 5, 'snapshot', {}, [1, 2, 3]),
+  fc.uint8Array({ maxLength: 200 }),
+);
+
+function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>>[] {
+  const tuple = <T>(arbitrary: fc.Arbitrary<T>, length: number) =>
+    fc.array(arbitrary, { minLength: length, maxLength: length });
+  const boxFrom = (ends: number[][]) => [
+    ...ends.map(([a, b]) => Math.min(a!, b!)),
+    ...ends.map(([a, b]) => Math.max(a!, b!)),
+  ];
+  const aBox = tuple(tuple(anEnd, 2), dimensions).map(boxFrom);
+  const aPoint = tuple(aPlace, dimensions);
+  const aWay = tuple(
+    fc.oneof(
+      fc.constantFrom(0, 1, -1),
+      fc.integer({ min: -40, max: 40 }).map((halves) => halves / 2),
+    ),
+    dimensions,
+  );
+  const call = (name: string, run: (model: Model, space: BroadPhase) => void) => new Call(name, run);
+  const on = (space: BroadPhase) => space as unknown as Loose;
+  const show = (values: readonly unknown[]) => values.map((value) => fc.stringify(value)).join(', ');
+  const round = dimensions === 2 ? 'queryCircle' : 'querySphere';
+
+  /** A call that must throw and change nothing. */
+  const bad = (method: string, given: fc.Arbitrary<unknown[]>) =>
+    given.map((values) =>
+      call(`${method}(${show(values)}) is refused`, (_, space) => {
+        const before = space.snapshot();
+        const { technique } = space;
+        let thrown: unknown;
+        try {
+          on(space)[method](...values);
+        } catch (error) {
+          thrown = error;
+        }
+        if (!(thrown instanceof RangeError || thrown instanceof TypeError)) expect.fail(`it threw ${String(thrown)}`);
+        // BigInts and symbols are refused by the language, before anything looks at them.
+        const foreign = values.flat().some((value) => typeof value === 'bigint' || typeof value === 'symbol');
+        if (!foreign) expect(thrown.message).toMatch(new RegExp(`^${method}: `));
+        expect(space.technique).toBe(technique);
+        expect(Buffer.compare(space.snapshot(), before)).toBe(0);
+      }),
+    );
+  /** Good values, one of which is replaced by a bad one. */
+  const spoilt = (good: fc.Arbitrary<unknown[]>, first: number, wrong: fc.Arbitrary<unknown>) =>
+    fc
+      .tuple(good, fc.nat(), wrong)
+      .map(([values, at, value]) => values.with(first + (at % (values.length - first)), value));
+  const withId = (values: fc.Arbitrary<unknown[]>) => fc.tuple(anId, values).map(([id, more]) => [id, ...more]);
+  const reversed = fc.tuple(anId, aPoint).map(([id, low]) => [id, ...low.map((x) => x + 1 + Math.abs(x)), ...low]);
+
+  return [
+    fc.tuple(anId, aBox).map(([id, box]) =>
+      call(`set(${id}, ${show(box)})`, (model, space) => {
+        expect(setBox(space, id, box)).toBe(space);
+        put(model, id, box);
+      }),
+    ),
+    fc.tuple(anId, aBox, aWay).map(([id, box, way]) =>
+      call(`setSwept(${show([id, ...box, ...way])})`, (model, space) => {
+        expect(on(space).setSwept(id, ...box, ...way)).toBe(space);
+        const bounds = box.map(
+          (x, k) => x + (k < dimensions ? Math.min(way[k]!, 0) : Math.max(way[k - dimensions]!, 0)),
+        );
+        put(model, id, bounds);
+      }),
+    ),
+    fc
+      .tuple(fc.array(aBox, { maxLength: 20 }), fc.constantFrom('array', 'doubles', 'floats', 'boxes'))
+      .map(([given, how]) =>
+        call(`setAll(${how} ${show(given.flat())})`, (model, space) => {
+          const floats = how === 'floats' || how === 'boxes';
+          const boxes = floats ? given.map((box) => box.map(Math.fround)) : given;
+          const flat = boxes.flat();
+          if (how === 'boxes') space.boxes(boxes.length).set(flat);
+          else
+            space.setAll(how === 'array' ? flat : how === 'floats' ? Float32Array.from(flat) : Float64Array.from(flat));
+          replace(model, boxes);
+          expect(space.size).toBe(boxes.length);
+        }),
+      ),
+    anId.map((id) =>
+      call(`delete(${id})`, (model, space) => {
+        const had = model.entries.delete(id);
+        if (had) model.gone.add(id);
+        expect(space.delete(id)).toBe(had);
+      }),
+    ),
+    anId.map((id) =>
+      call(`get(${id})`, (model, space) => {
+        expect(space.has(id)).toBe(model.entries.has(id));
+        expect(space.get(id, [])).toEqual(model.entries.get(id)?.box);
+        expect(space.size).toBe(model.entries.size);
+      }),
+    ),
+    fc.constant(
+      call('clear()', (model, space) => {
+        space.clear();
+        replace(model, []);
+      }),
+    ),
+    fc.tuple(anId, bits, bits).map(([id, layer, mask]) =>
+      call(`setFilter(${id}, ${layer}, ${mask})`, (model, space) => {
+        const known = model.entries.get(id);
+        if (known) Object.assign(known, { layer, mask });
+        if (known) expect(space.setFilter(id, layer, mask)).toBe(space);
+        else expect(() => space.setFilter(id, layer, mask)).toThrow(`setFilter: there is no box ${id}`);
+      }),
+    ),
+    fc.tuple(anId, fc.boolean()).map(([id, isStatic]) =>
+      call(`setStatic(${id}, ${isStatic})`, (model, space) => {
+        const known = model.entries.get(id);
+        if (known) known.isStatic = isStatic;
+        if (known) expect(space.setStatic(id, isStatic)).toBe(space);
+        else expect(() => space.setStatic(id, isStatic)).toThrow(`setStatic: there is no box ${id}`);
+      }),
+    ),
+    fc.constantFrom(...BroadPhase.techniques).map((technique) =>
+      call(`technique = ${technique}`, (_, space) => {
+        space.technique = technique;
+        expect(space.technique).toBe(technique);
+      }),
+    ),
+    ...[1, 2, 3].map(() => fc.constant(call('update()', update))),
+    fc.tuple(anId, anId).map(([a, b]) =>
+      call(`collisionsOf(${a}), isColliding(${a}, ${b})`, (model, space) => {
+        const partners = [...model.shown].flatMap((key) => {
+          const [low, high] = [Math.floor(key / 2 ** 24), key % 2 ** 24];
+          return low === a ? [high] : high === a ? [low] : [];
+        });
+        expect(ascending(space.collisionsOf(a))).toEqual(ascending(partners));
+        expect(space.isColliding(a, b)).toBe(partners.includes(b));
+      }),
+    ),
+    fc.tuple(aBox, asked).map(([box, options]) =>
+      call(`queryBox(${show([...box, options])})`, (model, space) => {
+        expect(ascending(on(space).queryBox(...box, options) as number[])).toEqual(inBox(seen(model), box, options));
+      }),
+    ),
+    fc.tuple(aPoint, fc.constantFrom(0, 1, 5, 100, Infinity), asked).map(([point, radius, options]) =>
+      call(`${round}(${show([...point, radius, options])})`, (model, space) => {
+        const found = on(space)[round](...point, radius, options) as number[];
+        expect(ascending(found)).toEqual(inCircle(seen(model), point, radius, options));
+        const at = ascending(on(space).queryPoint(...point, options) as number[]);
+        expect(at).toEqual(inBox(seen(model), [...point, ...point], options));
+      }),
+    ),
+    fc.tuple(aPoint, fc.constantFrom(1, 2, 7, 1000), asked).map(([point, k, options]) =>
+      call(`nearest(${show([...point, k, options])})`, (model, space) => {
+        const expected = near(seen(model), point, k, options).map(({ id }) => id);
+        expect(on(space).nearest(...point, k, options)).toEqual(expected);
+      }),
+    ),
+    fc.tuple(aBox, aWay, asked).map(([box, way, options]) =>
+      call(`sweep(${show([...box, ...way, options])})`, (model, space) => {
+        const [first] = ahead(seen(model), box, way, 1, options);
+        const hit = on(space).sweep(...box, ...way, options) as { id: number; time: number } | undefined;
+        expect(hit?.id).toBe(first?.id);
+        expect(hit?.time).toBe(first?.rank);
+      }),
+    ),
+    fc.tuple(aPoint, aWay, asked).map(([point, way, options]) =>
+      call(`rayCast(${show([...point, ...way, options])})`, (model, space) => {
+        const hits = on(space).rayCastAll(...point, ...way, options) as { id: number; distance: number }[];
+        const first = on(space).rayCast(...point, ...way, options) as { id: number; distance: number } | undefined;
+        expect(first).toEqual(hits[0]);
+        const met = ahead(seen(model), [...point, ...point], way, Infinity, options).map(({ id }) => id);
+        expect(ascending(hits.map(({ id }) => id))).toEqual(ascending(met));
+      }),
+    ),
+    fc.constant(
+      call('structure()', (_, space) => {
+        const cells = space.structure();
+        expect(cells.length % (2 * dimensions)).toBe(0);
+        space.validate();
+      }),
+    ),
+    fc.constant(
+      call('snapshot()', (model, space) => {
+        const { entries, gone, before } = model;
+        model.saved = { bytes: space.snapshot(), entries: copy(entries), gone: new Set(gone), before };
+      }),
+    ),
+    fc.constant(
+      call('restore(what was saved)', (model, space) => {
+        const { saved } = model;
+        if (!saved) return;
+        expect(space.restore(saved.bytes)).toBe(space);
+        model.entries = copy(saved.entries);
+        model.gone = new Set(saved.gone);
+        model.before = saved.before;
+        expect(Buffer.compare(space.snapshot(), saved.bytes)).toBe(0);
+      }),
+    ),
+    fc.tuple(fc.nat(), fc.nat(7)).map(([at, bit]) =>
+      call(`restore(what was saved, but for bit ${bit} of byte ${at})`, (model, space) => {
+        if (!model.saved) return;
+        const bytes = model.saved.bytes.slice();
+        bytes[at % bytes.length]! ^= 1 << bit;
+        expect(() => space.restore(bytes)).toThrow(/^restore: /);
+      }),
+    ),
+
+    bad('set', spoilt(withId(aBox), 1, noNumber)),
+    bad(
+      'set',
+      fc.tuple(noId, aBox).map(([id, box]) => [id, ...box]),
+    ),
+    bad('set', fc.oneof(reversed, withId(aPoint), withId(tuple(aPlace, 2 * dimensions + 1)))),
+    bad('setSwept', spoilt(withId(fc.tuple(aBox, aWay).map((parts) => parts.flat())), 1, noNumber)),
+    bad(
+      'setAll',
+      spoilt(aBox, 0, noNumber).map((box) => [box]),
+    ),
+    bad(
+      'setAll',
+      fc.oneof(
+        fc.constantFrom<unknown[]>([], [5], ['boxes'], [null], [[1, 2, 3]]),
+        aBox.map((box) => [box, 2]),
+      ),
+    ),
+    bad('boxes', fc.constantFrom<unknown[]>([], [-1], [0.5], [2 ** 24 + 1], ['3'], [Number.NaN], [{}])),
+    bad('delete', tuple(noId, 1)),
+    bad('has', tuple(noId, 1)),
+    bad('get', tuple(noId, 1)),
+    bad('setFilter', fc.tuple(noId, bits, bits)),
+    bad('setFilter', spoilt(fc.tuple(anId, bits, bits), 1, noBits)),
+    bad('setStatic', fc.oneof(tuple(noId, 1), fc.tuple(anId, fc.constantFrom<unknown>(1, 'yes', null, {})))),
+    bad('isColliding', fc.oneof(fc.tuple(noId, anId), fc.tuple(anId, noId))),
+    bad('collisionsOf', fc.oneof(tuple(noId, 1), fc.tuple(anId, fc.constantFrom<unknown>(5, 'out', null, {})))),
+    bad('queryBox', spoilt(aBox, 0, noNumber)),
+    bad('queryPoint', spoilt(aPoint, 0, noNumber)),
+    bad(
+      round,
+      spoilt(
+        fc.tuple(aPoint, fc.nat(9)).map((parts) => parts.flat()),
+        0,
+        noNumber,
+      ),
+    ),
+    bad(
+      'nearest',
+      spoilt(
+        fc.tuple(aPoint, fc.integer({ min: 1, max: 9 })).map((parts) => parts.flat()),
+        0,
+        noNumber,
+      ),
+    ),
+    bad(
+      'rayCast',
+      spoilt(
+        fc.tuple(aPoint, aWay).map((parts) => parts.flat()),
+        0,
+        noNumber,
+      ),
+    ),
+    bad(
+      'rayCastAll',
+      spoilt(
+        fc.tuple(aPoint, aWay).map((parts) => parts.flat()),
+        0,
+        noNumber,
+      ),
+    ),
+    bad(
+      'sweep',
+      spoilt(
+        fc.tuple(aBox, aWay).map((parts) => parts.flat()),
+        0,
+        noNumber,
+      ),
+    ),
+    bad('restore', tuple(noBytes, 1)),
+    fc.constantFrom<unknown>('', 'grid', 'Auto', null, undefined, 3, {}).map((name) =>
+      call(`technique = ${fc.stringify(name)} is refused`, (_, space) => {
+        const { technique } = space;
+        expect(() => {
+          space.technique = name as 'auto';
+        }).toThrow(/^technique: /);
+        expect(space.technique).toBe(technique);
+      }),
+    ),
+  ];
+}
+
+describe(`every method in any order (SEED=${seed})`, () => {
+  test.each([2, 3] as const)('keeps a space true to the model, in %d dimensions', (dimensions) => {
+    const technique = fc.constantFrom(...BroadPhase.techniques);
+    const calls = fc.commands(commands(dimensions), { maxCommands: 100, size: 'max' });
+    const property = fc.property(technique, calls, (technique, calls) => {
+      const setup = () => ({
+        model: {
+          entries: new Map(),
+          gone: new Set<number>(),
+          shown: new Set<number>(),
+          before: new Set<number>(),
+          seen: undefined,
+          updated: false,
+        } as Model,
+        real: new BroadPhase({ dimensions, technique, events: true }),
+      });
+      fc.modelRun(setup, calls);
+    });
+    fc.assert(property, { seed, numRuns });
+  });
+});

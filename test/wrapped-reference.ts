@@ -1,0 +1,36 @@
+// The exact answer in a world that wraps around, in whole numbers without a limit: two boxes are a pair where, along each
+// axis, one can be moved by a whole number of worlds so that they overlap or touch.
+import { keyOf } from './reference.ts';
+
+/** A double, in units of the smallest there is. */
+function exactly(value: number): bigint {
+  const bits = new BigUint64Array(Float64Array.of(value).buffer)[0];
+  const exponent = (bits >> 52n) & 0x7ffn;
+  const fraction = bits & 0xfffffffffffffn;
+  const size = exponent === 0n ? fraction : (fraction | 0x10000000000000n) << (exponent - 1n);
+  return value < 0 ? -size : size;
+}
+
+const floor = (a: bigint, b: bigint): bigint => (a >= 0n || a % b === 0n ? a / b : a / b - 1n);
+
+function meet(aMin: number, aMax: number, bMin: number, bMax: number, world: number): boolean {
+  if (![aMin, aMax, bMin, bMax].every(Number.isFinite)) return true; // what has no end reaches all around
+  const size = exactly(world);
+  const most = floor(exactly(bMax) - exactly(aMin), size);
+  const least = -floor(exactly(aMax) - exactly(bMin), size);
+  return least <= most;
+}
+
+export function wrappedOverlap(a: readonly number[], b: readonly number[], wrap: readonly number[]): boolean {
+  return wrap.every((world, k) => meet(a[k], a[k + wrap.length], b[k], b[k + wrap.length], world));
+}
+
+/** The sorted keys of the pairs of these boxes, by their ids. */
+export function wrappedPairs(boxes: ReadonlyMap<number, readonly number[]>, wrap: readonly number[]): Float64Array {
+  const entries = [...boxes];
+  const keys: number[] = [];
+  entries.forEach(([a, box], k) => {
+    for (const [b, other] of entries.slice(k + 1)) if (wrappedOverlap(box, other, wrap)) keys.push(keyOf(a, b));
+  });
+  return Float64Array.from(keys).sort();
+}
