@@ -338,6 +338,8 @@ template <int D> class Space {
   /// After memory has run out in the middle of an update: no pairs, and all that an update needs built anew.
   COLD void recover() {
     release_techniques();
+    changes_.note_all();
+    pairs.kept = 0;
     pairs.list.release();
     pairs.count = events.began.count = events.ended.count = 0;
     table_.made = neighbours_made_ = false;
@@ -399,6 +401,7 @@ template <int D> class Space {
     events.began.count = events.ended.count = 0;
     updates++;
     stats.tests = 0;
+    stats.bytes = f64(heap::used);
     return -1;
   }
 
