@@ -1,4 +1,4 @@
-// The recorder for Phaser, in a game that runs: every collision of arcade physics is among the pairs of the recording.
+// The recorder for Phaser, in a game that runs: all its bodies are in the recording, as large as they are, where they move.
 // Skipped where the packages of the examples are not installed.
 import { execFile } from 'node:child_process';
 import { existsSync } from 'node:fs';
@@ -37,11 +37,11 @@ test('a Phaser game is recorded as it runs', async ({ page }) => {
   for (const { index, count, boxes, rules, changed } of trace) {
     expect(count).toBe(206);
     expect(rules!.filter((number, k) => k % 3 === 2 && number === 1)).toHaveLength(6);
-    for (let at = 0; at < boxes.length; at += 4) {
-      expect([12, 70]).toContain(Math.round(boxes[at + 2] - boxes[at]));
-      expect(boxes[at]).toBeGreaterThan(-1);
-      expect(boxes[at + 2]).toBeLessThan(641);
-    }
+    // Balls and platforms, none further outside than a collision pushes it; one expectation a frame, since each takes its time.
+    const strange = Array.from({ length: count }, (_, k) => [...boxes.subarray(4 * k, 4 * k + 4)]).filter(
+      ([minX, , maxX]) => ![12, 70].includes(Math.round(maxX - minX)) || minX < -12 || maxX > 652,
+    );
+    expect(strange).toEqual([]);
     if (index > 0) moved += changed;
   }
   expect(moved).toBeGreaterThan(100 * 89);
