@@ -68,16 +68,20 @@ const keptBytes = 2 ** 27;
 const windows = 4;
 
 /** The first look is at so many frames and the one before them, from the middle: in as many passes as fit in so many milliseconds, within limits. */
-const screenFrames = 6;
+const screenFrames = 11;
 const screenTime = 40;
 const screenPasses = { least: 3, most: 20 };
 
 /** What is this many times slower than the best so far, or than its technique's best, is given up in the middle. */
 const hopeless = { atAll: 20, ofTechnique: 4 };
 
-/** Finalists are at most this much slower than the best at first sight, and no more than this many. */
+/**
+ * Finalists are at most this much slower than the best at first sight, no more than this many, and no more than this
+ * many of one technique: on a few frames a setting may look better than it is on all.
+ */
 const closeEnough = 1.5;
 const mostFinalists = 6;
+const mostOfTechnique = 2;
 const leastPasses = 3;
 const mostPasses = 25;
 
@@ -126,9 +130,12 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
   });
   screened.sort((a, b) => a.ms - b.ms);
 
-  const close: Candidate[] = screened
-    .filter(({ ms }, k) => k < mostFinalists && ms <= closeEnough * screened[0].ms)
-    .map(({ ms: _, ...candidate }) => candidate);
+  const close: Candidate[] = [];
+  for (const { ms, ...candidate } of screened) {
+    const ofTechnique = close.filter(({ technique }) => technique === candidate.technique).length;
+    if (close.length === mostFinalists || ms > closeEnough * screened[0].ms) break;
+    if (ofTechnique < mostOfTechnique) close.push(candidate);
+  }
   if (!close.some(isAuto)) close.push({ technique: 'auto' });
   const finalists = runFinal(close, dimensions, frames, seconds, (done) => progress?.('final', done, 1));
   const auto = finalists.find(isAuto)!;
@@ -182,29 +189,30 @@ function counted<T>(frames: readonly Frame[], values: readonly T[]): T[] {
   return following.length > 0 ? following : [...values];
 }
 
-/** Mean milliseconds a frame; given up where it is clear that it will be above `limit`. */
+/**
+ * Mean milliseconds a frame; given up where it is clear that it will be above `limit`, and was so twice, since once may
+ * have been the machine's doing. Frames differ, and a frame cannot be timed again alone: so only their sum decides.
+ */
 function measure(candidate: Candidate, dimensions: 2 | 3, frames: readonly Frame[], limit: number): number {
   const space = new BroadPhase({ ...candidate, dimensions });
   const times: number[] = [];
   const { least, most } = screenPasses;
+  const allowed = limit * counted(frames, [...frames.keys()]).length;
   const started = performance.now();
-  for (let pass = 0; pass < most && (pass < least || performance.now() - started < screenTime); pass++) {
-    let hopeless = false;
-    for (let k = 0; k < frames.length && !hopeless; k++) {
+  let strikes = 0;
+  for (let pass = 0; pass < most && (pass < least || performance.now() - started < screenTime) && strikes < 2; pass++) {
+    let spent = 0;
+    for (let k = 0; k < frames.length && spent <= allowed; k++) {
       if (k === 0) begin(space, frames[0], pass === 0);
-      let ms = timeUpdate(space, frames[k]);
-      if (ms > limit && !leads(frames, k)) {
-        // Once more, since it may have been the machine's doing.
-        timeUpdate(space, frames[k - 1]);
-        ms = Math.min(ms, timeUpdate(space, frames[k]));
-        hopeless = ms > limit;
-      }
+      const ms = timeUpdate(space, frames[k]);
+      if (!leads(frames, k)) spent += ms;
       times[k] = Math.min(ms, times[k] ?? Infinity);
     }
-    if (hopeless) break;
+    if (spent > allowed) strikes++;
   }
   space.dispose();
-  return meanOf(counted(frames, times));
+  const mean = meanOf(counted(frames, times));
+  return strikes < 2 ? mean : Math.max(limit, mean);
 }
 
 const meanOf = (times: readonly number[]) => times.reduce((sum, ms) => sum + ms, 0) / times.length;
