@@ -11,7 +11,7 @@ import { readFileSync } from 'node:fs';
 import { keysOf, referencePairs } from '../build/bench/library.mjs';
 import { fingerprint } from './fingerprint.mjs';
 import { allocatedBy } from './garbage.mjs';
-import { asking, naive } from './questions.mjs';
+import { asking, makeQuestions, naive } from './questions.mjs';
 import { openScene } from './scene.mjs';
 
 /** A contender whose frames took so long in all is checked in two of them only, in milliseconds. */
@@ -43,12 +43,13 @@ const actions = {
     const { dimensions, boxes, fixed } = scene;
     contender = await create({ dimensions, count: scene.count, boxes, fixed, variant });
     if (item.question) {
-      const exact = asking(naive(scene), item, scene, seed);
+      const questions = makeQuestions(item, scene, seed);
+      const exact = asking(naive(scene), item, questions, scene, true);
       exactPairs = () => {
         exact.update(scene.boxes);
         return keysOf(exact.pairs());
       };
-      contender = asking(contender, item, scene, seed);
+      contender = asking(contender, item, questions, scene, contender.untimed);
     } else {
       exactPairs = () => referencePairs(scene.boxes, dimensions);
     }

@@ -17,10 +17,14 @@ export const reach = 200;
 const numbers = { queryBox: (d) => 2 * d, nearest: (d) => d, rayCast: (d) => 2 * d };
 
 /** How far from all boxes rays begin: in the frames that are checked none begins in a box, and one box is met first. */
-const clearance = 4;
+const clear = 4;
+/** Of the grid by which such places are found. */
+const cell = 5;
 
 /** Seeded questions about a scene. */
-function makeQuestions({ kind, question }, { dimensions, boxes, count, world }, seed) {
+export function makeQuestions({ kind, question }, scene, seed) {
+  const { dimensions, world } = scene;
+  const isClear = question === 'rayCast' ? clearance(scene) : () => true;
   const random = createRandom(seed + 0x9e37);
   const stride = numbers[question](dimensions);
   const list = new Float32Array(stride * asked);
@@ -28,7 +32,7 @@ function makeQuestions({ kind, question }, { dimensions, boxes, count, world }, 
   for (let at = 0; at < list.length; at += stride) {
     do {
       for (let axis = 0; axis < dimensions; axis++) list[at + axis] = world * random();
-    } while (question === 'rayCast' && !isClear(boxes, count, dimensions, list, at));
+    } while (!isClear(list, at));
     for (let axis = 0; axis < dimensions; axis++) {
       if (question === 'queryBox') list[at + dimensions + axis] = list[at + axis] + side;
       if (question === 'rayCast') list[at + dimensions + axis] = random() - 0.5;
@@ -37,10 +41,8 @@ function makeQuestions({ kind, question }, { dimensions, boxes, count, world }, 
   return list;
 }
 
-/** Makes a contender of pairs of one that answers questions. */
-export function asking(asker, item, scene, seed) {
-  const { dimensions, count } = scene;
-  const questions = makeQuestions(item, scene, seed);
+/** Makes a contender of pairs of one that answers questions. `untimed`: it is asked for its answers only. */
+export function asking(asker, item, questions, { dimensions, count }, untimed = false) {
   const stride = numbers[item.question](dimensions);
   let known = false;
   return {
@@ -48,6 +50,7 @@ export function asking(asker, item, scene, seed) {
       if (!item.still || !known) asker.update(boxes);
       known = true;
       let answers = 0;
+      if (untimed) return answers;
       for (let at = 0; at < questions.length; at += stride) answers += asker[item.question](questions, at).length;
       return answers;
     },
@@ -76,6 +79,8 @@ export function naive({ dimensions, count }) {
     nearest(q, at) {
       const best = [];
       for (let id = 0; id < count; id++) {
+        const limit = best.length === most ? Math.sqrt(best[most - 1].rank) : Infinity;
+        if (isBeyond(boxes, 2 * dimensions * id, q[at], limit, dimensions)) continue;
         const rank = squaredDistance(boxes, 2 * dimensions * id, q, at, dimensions);
         if (best.length === most && !(rank < best[most - 1].rank)) continue;
         if (best.length === most) best.pop();
@@ -90,6 +95,7 @@ export function naive({ dimensions, count }) {
       let first = [];
       let limit = reach;
       for (let id = 0; id < count; id++) {
+        if (isBeyond(boxes, 2 * dimensions * id, q[at], limit, dimensions)) continue;
         const distance = rayEntry(boxes, 2 * dimensions * id, q, at, dimensions) * length;
         if (!(distance <= limit)) continue;
         limit = distance;
@@ -130,15 +136,35 @@ export function rayEntry(boxes, box, q, at, dimensions) {
   return enter >= 0 && enter <= leave ? enter : Number.NaN;
 }
 
+/** Whether a box is surely further away than that, by its first axis alone: most are, which saves most of the time. */
+function isBeyond(boxes, box, x, limit, dimensions) {
+  const reach = limit * (1 + 1e-9);
+  return boxes[box] - x > reach || x - boxes[box + dimensions] > reach;
+}
+
 export function lengthOf(q, at, dimensions) {
   let sum = 0;
   for (let k = at; k < at + dimensions; k++) sum += q[k] * q[k];
   return Math.sqrt(sum);
 }
 
-function isClear(boxes, count, dimensions, q, at) {
-  for (let id = 0; id < count; id++) {
-    if (squaredDistance(boxes, 2 * dimensions * id, q, at, dimensions) < clearance * clearance) return false;
-  }
-  return true;
+/** Says of a point in the world whether it is clear of all boxes: by cells, all that a box may be near are marked. */
+function clearance({ dimensions, boxes, count, world }) {
+  const side = Math.ceil(world / cell) + 1;
+  const taken = new Uint8Array(side ** dimensions);
+  const cellOf = (x) => Math.min(side - 1, Math.max(0, Math.floor(x / cell)));
+  const mark = (box, axis, before) => {
+    if (axis === dimensions) {
+      taken[before] = 1;
+      return;
+    }
+    const last = cellOf(boxes[box + axis + dimensions] + clear);
+    for (let at = cellOf(boxes[box + axis] - clear); at <= last; at++) mark(box, axis + 1, before * side + at);
+  };
+  for (let id = 0; id < count; id++) mark(2 * dimensions * id, 0, 0);
+  return (q, at) => {
+    let index = 0;
+    for (let axis = 0; axis < dimensions; axis++) index = index * side + cellOf(q[at + axis]);
+    return !taken[index];
+  };
 }

@@ -20,8 +20,10 @@ export default defineConfig({
       'broadphase/ro': path('../src/ro/index.ts'),
       'broadphase/trace': path('../src/trace/index.ts'),
       broadphase: path('../src/index.ts'),
+      buffer: path('bench/no-buffer.ts'),
     },
   },
+  define: { global: 'globalThis' }, // for box-intersect, which the page of the benchmark races
   worker: { format: 'es', plugins: () => [everyTechnique] },
   build: {
     target: 'es2022',
@@ -30,7 +32,12 @@ export default defineConfig({
     assetsInlineLimit: 0,
     chunkSizeWarningLimit: 600, // three.js, which only the lab's solid scenes fetch
     rolldownOptions: {
-      input: { index: path('index.html'), article: path('article/index.html'), lab: path('lab/index.html') },
+      input: {
+        index: path('index.html'),
+        article: path('article/index.html'),
+        lab: path('lab/index.html'),
+        bench: path('bench/index.html'),
+      },
     },
   },
   server: { headers, fs: { allow: [path('..')] } },

@@ -1,5 +1,6 @@
 // All tests of spaces in 3D. Each dimension is a source of its own, so that they compile side by side.
 #include "memory.hpp"
 #include "spaces.hpp"
+#include "wrap.hpp"
 
-static const bool listed = (list_space_tests<3>(), list_memory_tests<3>(), true);
+static const bool listed = (list_space_tests<3>(), list_memory_tests<3>(), list_wrap_tests<3>(), true);

@@ -6,7 +6,7 @@
 // is given up early. Whether a technique looks at a parameter at all is found by trying: its counters change.
 import { BroadPhase, type TechniqueName } from 'broadphase';
 import type { Frame, FrameSource } from './format.ts';
-import { applyFrame, timeUpdate } from './replay.ts';
+import { applyFrame, begin, timeUpdate } from './replay.ts';
 import { percentile, type Summary, summarize } from './statistics.ts';
 import { longestSides } from './survey.ts';
 
@@ -57,7 +57,7 @@ export interface Tuned {
   techniques: (Candidate & { ms: number })[];
   /** The same over each parameter, for techniques that heed it. */
   curves: { technique: TechniqueName; parameter: Parameter; points: { value: number; ms: number }[] }[];
-  /** The frames that were used: all of them, or windows out of a long trace. */
+  /** The frames that count: all that follow from one that was used too, of all frames or windows of a long trace. */
   frames: { index: number; boxes: number; changed: number; pairs: number }[];
   /** To paste. */
   code: string;
@@ -67,17 +67,21 @@ export interface Tuned {
 const keptBytes = 2 ** 27;
 const windows = 4;
 
-/** The first look is at so many frames, from the middle: in as many passes as fit in so many milliseconds, within limits. */
-const screenFrames = 5;
+/** The first look is at so many frames and the one before them, from the middle: in as many passes as fit in so many milliseconds, within limits. */
+const screenFrames = 11;
 const screenTime = 40;
 const screenPasses = { least: 3, most: 20 };
 
 /** What is this many times slower than the best so far, or than its technique's best, is given up in the middle. */
 const hopeless = { atAll: 20, ofTechnique: 4 };
 
-/** Finalists are at most this much slower than the best at first sight, and no more than this many. */
+/**
+ * Finalists are at most this much slower than the best at first sight, no more than this many, and no more than this
+ * many of one technique: on a few frames a setting may look better than it is on all.
+ */
 const closeEnough = 1.5;
 const mostFinalists = 6;
+const mostOfTechnique = 2;
 const leastPasses = 3;
 const mostPasses = 25;
 
@@ -126,9 +130,12 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
   });
   screened.sort((a, b) => a.ms - b.ms);
 
-  const close: Candidate[] = screened
-    .filter(({ ms }, k) => k < mostFinalists && ms <= closeEnough * screened[0].ms)
-    .map(({ ms: _, ...candidate }) => candidate);
+  const close: Candidate[] = [];
+  for (const { ms, ...candidate } of screened) {
+    const ofTechnique = close.filter(({ technique }) => technique === candidate.technique).length;
+    if (close.length === mostFinalists || ms > closeEnough * screened[0].ms) break;
+    if (ofTechnique < mostOfTechnique) close.push(candidate);
+  }
   if (!close.some(isAuto)) close.push({ technique: 'auto' });
   const finalists = runFinal(close, dimensions, frames, seconds, (done) => progress?.('final', done, 1));
   const auto = finalists.find(isAuto)!;
@@ -141,7 +148,7 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
     finalists,
     techniques: techniques.map((name) => screened.find(({ technique }) => technique === name)!).sort(byTime),
     curves,
-    frames: describeFrames(frames, dimensions),
+    frames: counted(frames, describeFrames(frames, dimensions)),
     code: codeOf(best, dimensions),
   };
 }
@@ -168,24 +175,44 @@ function keepFrames(source: FrameSource): Frame[] {
   return kept;
 }
 
-/** Mean milliseconds a frame; given up where it is clear that it will be above `limit`. */
+/**
+ * Whether a frame does not follow from the one before it in the list. It is played, so that those after it have what
+ * they follow from, but does not count, unless there are no others.
+ */
+function leads(frames: readonly Frame[], k: number): boolean {
+  return k === 0 || frames[k].index !== frames[k - 1].index + 1;
+}
+
+/** The values of the frames that count. */
+function counted<T>(frames: readonly Frame[], values: readonly T[]): T[] {
+  const following = values.filter((_, k) => !leads(frames, k));
+  return following.length > 0 ? following : [...values];
+}
+
+/**
+ * Mean milliseconds a frame; given up where it is clear that it will be above `limit`, and was so twice, since once may
+ * have been the machine's doing. Frames differ, and a frame cannot be timed again alone: so only their sum decides.
+ */
 function measure(candidate: Candidate, dimensions: 2 | 3, frames: readonly Frame[], limit: number): number {
   const space = new BroadPhase({ ...candidate, dimensions });
   const times: number[] = [];
   const { least, most } = screenPasses;
+  const allowed = limit * counted(frames, [...frames.keys()]).length;
   const started = performance.now();
-  for (let pass = 0; pass < most && (pass < least || performance.now() - started < screenTime); pass++) {
-    for (const [k, frame] of frames.entries()) {
-      let ms = timeUpdate(space, frame, pass === 0 && k === 0);
-      // Once more, since it may have been the machine's doing.
-      if (ms > limit) ms = Math.min(ms, timeUpdate(space, frame));
+  let strikes = 0;
+  for (let pass = 0; pass < most && (pass < least || performance.now() - started < screenTime) && strikes < 2; pass++) {
+    let spent = 0;
+    for (let k = 0; k < frames.length && spent <= allowed; k++) {
+      if (k === 0) begin(space, frames[0], pass === 0);
+      const ms = timeUpdate(space, frames[k]);
+      if (!leads(frames, k)) spent += ms;
       times[k] = Math.min(ms, times[k] ?? Infinity);
-      if (ms > limit) break;
     }
-    if (meanOf(times) > limit) break;
+    if (spent > allowed) strikes++;
   }
   space.dispose();
-  return meanOf(times);
+  const mean = meanOf(counted(frames, times));
+  return strikes < 2 ? mean : Math.max(limit, mean);
 }
 
 const meanOf = (times: readonly number[]) => times.reduce((sum, ms) => sum + ms, 0) / times.length;
@@ -267,7 +294,8 @@ function runFinal(
     if (pass >= leastPasses && spent > 1) break;
     for (const { space, times } of runs) {
       for (const [k, frame] of frames.entries()) {
-        const ms = timeUpdate(space, frame, pass === 0 && k === 0);
+        if (k === 0) begin(space, frame, pass === 0);
+        const ms = timeUpdate(space, frame);
         times[k] = pass === 0 ? ms : Math.min(ms, times[k]);
       }
     }
@@ -275,7 +303,8 @@ function runFinal(
   return runs
     .map(({ candidate, space, times }) => {
       space.dispose();
-      return { ...candidate, times, ms: summarize(times) };
+      const those = counted(frames, times);
+      return { ...candidate, times: those, ms: summarize(those) };
     })
     .sort((a, b) => a.ms.mean - b.ms.mean);
 }

@@ -1,0 +1,41 @@
+// Records a Matter.js engine: the boxes its own broad phase works on, body by body, in every step.
+// In your game: `const recorded = recordMatter(engine)`, play, then `await recorded.stop()` and `recorded.download()`.
+import { BroadPhase } from 'broadphase';
+import { record } from 'broadphase/trace';
+import Matter from 'matter-js';
+
+const { Composite, Events } = Matter;
+
+/**
+ * From now on every step of the engine is a frame.
+ * @param {Matter.Engine} engine
+ */
+export function recordMatter(engine) {
+  const space = new BroadPhase();
+  const recording = record(space);
+  let known = new Set();
+  const frame = () => {
+    const now = new Set();
+    for (const body of Composite.allBodies(engine.world)) {
+      const { id, bounds, collisionFilter, isStatic } = body;
+      space.set(id, bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y);
+      // Bodies of a group meet by other rules than bits, so all may meet there: a few pairs more than the engine has.
+      if (collisionFilter.group === 0) space.setFilter(id, collisionFilter.category >>> 0, collisionFilter.mask >>> 0);
+      space.setStatic(id, isStatic);
+      now.add(id);
+    }
+    for (const id of known) if (!now.has(id)) space.delete(id);
+    known = now;
+    space.update();
+  };
+  Events.on(engine, 'beforeSolve', frame); // bodies have moved, and their bounds are those that are searched
+  return {
+    space,
+    recording,
+    stop() {
+      Events.off(engine, 'beforeSolve', frame);
+      return recording.stop();
+    },
+    download: (name = 'matter.trace') => recording.download(name),
+  };
+}

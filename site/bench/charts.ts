@@ -1,0 +1,193 @@
+// The charts, drawn by Observable Plot: bars of one race, curves against the number of boxes, a heat map of techniques.
+// All on logarithmic scales, since contenders differ by factors.
+import * as Plot from '@observablehq/plot';
+import { formatCount, formatMilliseconds } from '../shared/format.ts';
+import { type Curve, isOurs, type Race, ratios, reference, timed } from './records.ts';
+
+const ours = 'var(--accent)';
+const others = 'var(--control-line)';
+const style = { fontSize: '12px', background: 'none', overflow: 'visible' };
+const rowHeight = 22;
+const lineHeight = 14;
+/** What names take on the left, and what stands behind the longest bar. */
+const [nameRoom, labelRoom] = [132, 62];
+
+/** Where a logarithmic axis has its marks: at powers of ten, and between them where they are few. */
+function marks(from: number, to: number): number[] {
+  const between = Math.log10(to / from) < 2.2 ? [1, 3] : [1];
+  const found: number[] = [];
+  for (let power = 10 ** Math.floor(Math.log10(from)); power <= to; power *= 10) {
+    found.push(...between.map((step) => step * power).filter((at) => at >= from && at <= to));
+  }
+  return found;
+}
+
+export type Chart = (SVGSVGElement | HTMLElement) & Plot.Plot;
+
+/** How many times as long. */
+export const times = (ratio: number) => `${ratio < 10 ? ratio.toPrecision(2) : formatCount(ratio)}×`;
+const shortName = (name: string) => (name.length > 19 ? `${name.slice(0, 18)}…` : name);
+
+/** One bar for each contender, the median of its rounds; behind it what it is of ours; a line reaches to its 95th percentile. */
+export function bars(race: Race, width: number): Chart {
+  const us = reference(race);
+  const rows = timed(race).map((result) => ({
+    name: shortName(result.name),
+    ours: isOurs(result),
+    ...result.figures,
+    reach: Math.max(result.figures.p95, result.figures.median),
+    note: `${us ? times(result.figures.median / us.figures.median) : ''}${result.wrong ? ' wrong' : ''}`,
+    title: `${result.name}: median ${formatMilliseconds(result.figures.median)} ms, p95 ${formatMilliseconds(result.figures.p95)} ms, worst ${formatMilliseconds(result.figures.worst)} ms${result.wrong ? `; misses ${formatCount(result.wrong.missed)} of ${formatCount(result.wrong.exact)} pairs, adds ${formatCount(result.wrong.extra)}` : ''}`,
+  }));
+  const least = Math.min(...rows.map(({ median }) => median));
+  const most = Math.max(...rows.map(({ reach }) => reach));
+  return Plot.plot({
+    width,
+    height: rows.length * rowHeight + 46,
+    marginLeft: nameRoom,
+    marginRight: labelRoom,
+    marginTop: 6,
+    marginBottom: 36,
+    style,
+    x: {
+      type: 'log',
+      label: 'ms a frame',
+      domain: [least / 2, most],
+      ticks: marks(least / 2, most),
+      tickFormat: ms,
+      grid: true,
+    },
+    y: { label: null, domain: rows.map(({ name }) => name), tickSize: 0 },
+    marks: [
+      Plot.barX(rows, {
+        y: 'name',
+        x1: least / 2,
+        x2: 'median',
+        fill: (row) => (row.ours ? ours : others),
+        insetTop: 3,
+        insetBottom: 3,
+        rx: 2,
+        title: 'title',
+      }),
+      Plot.ruleY(rows, { y: 'name', x1: 'median', x2: 'reach', stroke: 'currentColor', strokeOpacity: 0.65 }),
+      Plot.tickX(rows, {
+        y: 'name',
+        x: 'reach',
+        stroke: 'currentColor',
+        strokeOpacity: 0.65,
+        insetTop: 6,
+        insetBottom: 6,
+      }),
+      Plot.text(rows, { y: 'name', x: 'reach', text: 'note', dx: 6, textAnchor: 'start', fill: 'currentColor' }),
+    ],
+  });
+}
+
+/** A line for each contender, times against the number of boxes. */
+export function growth(lines: readonly Curve[], width: number): Chart {
+  const points = lines.flatMap(({ name, ours, points }) => points.map((point) => ({ name, ours, ...point })));
+  const lasts = lines.flatMap(({ name, ours, points }) =>
+    points.slice(-1).map((point) => ({ name: shortName(name), ours, ...point })),
+  );
+  const counts = [...new Set(points.map(({ count }) => count))];
+  const room = width < 560 ? 100 : 128;
+  const height = Math.max(Math.min(460, 0.62 * width + 120), 60 + lineHeight * lines.length);
+  const [least, most] = [Math.min, Math.max].map((of) => of(...points.map(({ ms }) => ms)));
+  const apart = (most / least) ** (lineHeight / (height - 60));
+  return Plot.plot({
+    width,
+    height,
+    marginLeft: 48,
+    marginRight: room,
+    marginBottom: 38,
+    style,
+    x: { type: 'log', axis: null },
+    y: { type: 'log', label: 'ms a frame', tickFormat: ms, ticks: 6, grid: true },
+    marks: [
+      // With a text of their own all marks are named: an axis on its own leaves out those between powers of ten.
+      Plot.axisX(counts, {
+        text: (count: number) => formatCount(count),
+        label: 'boxes',
+        labelAnchor: 'center',
+        labelArrow: 'none',
+      }),
+      Plot.gridX(counts),
+      Plot.line(points, {
+        x: 'count',
+        y: 'ms',
+        z: 'name',
+        stroke: (point) => (point.ours ? ours : others),
+        strokeWidth: (point) => (point.name === 'auto' ? 3 : 1.4),
+      }),
+      Plot.dot(points, {
+        x: 'count',
+        y: 'ms',
+        r: 2.5,
+        fill: (point) => (point.ours ? ours : others),
+        title: (point) => `${point.name}: ${formatMilliseconds(point.ms)} ms with ${formatCount(point.count)} boxes`,
+      }),
+      Plot.text(spread(lasts, apart), {
+        x: 'count',
+        y: 'at',
+        text: 'name',
+        dx: 8,
+        textAnchor: 'start',
+        fill: (point) => (point.ours ? ours : 'var(--muted)'),
+      }),
+    ],
+  });
+}
+
+/** Names at the ends of lines, moved up by factors where they would cover one another. */
+function spread<Point extends { ms: number }>(points: readonly Point[], apart: number): (Point & { at: number })[] {
+  const sorted = [...points].sort((a, b) => a.ms - b.ms);
+  let below = 0;
+  return sorted.map((point) => {
+    const at = Math.max(point.ms, below * apart);
+    below = at;
+    return { ...point, at };
+  });
+}
+
+/** A row for each race, a column for each technique: how many times as long as the best it took. */
+export function heat(races: readonly Race[], width: number): Chart {
+  const rowOf = ({ scene, count }: Race) => `${scene} ${short(count)}`;
+  const cells = races.flatMap((race) => ratios(race).map(({ name, ratio }) => ({ row: rowOf(race), name, ratio })));
+  const names = [...new Set(cells.map(({ name }) => name))];
+  const wide = Math.max(width, 130 + 46 * names.length);
+  return Plot.plot({
+    width: wide,
+    height: 96 + 24 * races.length,
+    marginLeft: 128,
+    marginTop: 96,
+    marginRight: 64,
+    marginBottom: 4,
+    style,
+    x: { label: null, domain: names, axis: 'top', tickRotate: -42, tickSize: 0 },
+    y: { label: null, domain: races.map(rowOf), tickSize: 0 },
+    color: { type: 'log', domain: [1, 8], clamp: true, interpolate: warmth },
+    marks: [
+      Plot.cell(cells, {
+        x: 'name',
+        y: 'row',
+        fill: 'ratio',
+        inset: 1,
+        rx: 3,
+        title: (cell) => `${cell.name} on ${cell.row}: ${times(cell.ratio)} the best`,
+      }),
+      Plot.text(cells, {
+        x: 'name',
+        y: 'row',
+        text: (cell) => (cell.ratio < 1.05 && cell.ratio > 0.95 ? '1' : times(cell.ratio).slice(0, -1)),
+        fill: 'var(--text)',
+      }),
+    ],
+  });
+}
+
+/** Between two colours of the page, whichever it shows. */
+const warmth = (share: number) => `color-mix(in oklab, var(--heat-best) ${100 * (1 - share)}%, var(--heat-worst))`;
+
+const short = (count: number) =>
+  count >= 1e6 ? `${count / 1e6}M` : count >= 1e3 ? `${Number((count / 1e3).toPrecision(3))}k` : `${count}`;
+const ms = (value: number) => Number(value.toPrecision(1)).toString();

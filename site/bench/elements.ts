@@ -1,0 +1,39 @@
+// Small pieces of the page, made by script.
+
+/** The element of that id, which the page has. */
+export const find = <E extends HTMLElement = HTMLElement>(id: string): E => document.querySelector<E>(`#${id}`)!;
+
+export function make<Name extends keyof HTMLElementTagNameMap>(
+  name: Name,
+  properties: Partial<HTMLElementTagNameMap[Name]> = {},
+  ...children: (Node | string)[]
+): HTMLElementTagNameMap[Name] {
+  const element = Object.assign(document.createElement(name), properties);
+  element.append(...children);
+  return element;
+}
+
+/** Cells that are no numbers are words, on the left. */
+export function table(header: readonly string[], rows: readonly (readonly string[])[]): HTMLTableElement {
+  const isWords = header.map((_, k) => rows.some((row) => row[k] !== '' && !/^[-+\d]/.test(row[k])));
+  const line = (name: 'th' | 'td', cells: readonly string[]) =>
+    make('tr', {}, ...cells.map((cell, k) => make(name, { className: isWords[k] ? 'words' : '' }, cell)));
+  return make(
+    'table',
+    {},
+    make('thead', {}, line('th', header)),
+    make('tbody', {}, ...rows.map((row) => line('td', row))),
+  );
+}
+
+/** Replaces the options of a menu and keeps what was chosen, if that is still there. */
+export function fillMenu(
+  menu: HTMLSelectElement,
+  options: readonly (readonly [value: string, text: string])[],
+  preferred: string,
+): void {
+  const before = menu.value || preferred;
+  menu.replaceChildren(...options.map(([value, text]) => new Option(text, value)));
+  const wanted = [before, preferred].find((value) => options.some(([each]) => each === value));
+  menu.value = wanted ?? options[0]?.[0] ?? '';
+}

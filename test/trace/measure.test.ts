@@ -1,0 +1,62 @@
+// Times are those of a game: each frame is measured after the one before it, never twice in a row, since techniques
+// that keep their structure have nothing to do where nothing has moved.
+import { BroadPhase } from 'broadphase';
+import { compare, type Frame, type FrameSource, replay, tune } from 'broadphase/trace';
+import { afterEach, beforeEach, expect, test } from 'vitest';
+
+const { update } = BroadPhase.prototype;
+/** What the updates of each space saw: the frame, which box 0 tells by where it is, or -1 where it was empty. */
+let seen: Map<BroadPhase, number[]>;
+
+beforeEach(() => {
+  seen = new Map();
+  BroadPhase.prototype.update = function (this: BroadPhase) {
+    const frames = seen.get(this) ?? [];
+    seen.set(this, [...frames, this.size === 0 ? -1 : this.get(0)![0]]);
+    return update.call(this);
+  };
+});
+afterEach(() => {
+  BroadPhase.prototype.update = update;
+});
+
+/** So many frames of 40 boxes that all move by 1. */
+function moving(frames: number): FrameSource {
+  return {
+    dimensions: 2,
+    frames,
+    *[Symbol.iterator](): Generator<Frame> {
+      for (let index = 0; index < frames; index++) {
+        const boxes = Float32Array.from({ length: 160 }, (_, k) => index + 3 * (k >> 2) + ((k % 4) >> 1) * 4);
+        yield { index, count: 40, ids: undefined, boxes, changed: 40 };
+      }
+    },
+  };
+}
+
+test.each([
+  ['replay', (source: FrameSource) => [...replay(source)]],
+  ['compare', (source: FrameSource) => compare(source)],
+  ['tune', (source: FrameSource) => tune(source, { seconds: 0 })],
+  ['tune, exhaustively', (source: FrameSource) => tune(source, { seconds: 0, exhaustive: true })],
+])('%s plays each frame after the one before it, or from nothing', (_, measure) => {
+  measure(moving(9));
+  expect(seen.size).toBeGreaterThan(0);
+  for (const frames of seen.values()) {
+    for (let k = 1; k < frames.length; k++) {
+      const [before, now] = [frames[k - 1], frames[k]];
+      if (before < 0 || now < 0) continue; // from nothing, or to it
+      expect(Math.abs(now - before), frames.join()).toBe(1);
+    }
+  }
+});
+
+test('the first frame, which starts from nothing, does not count where others do', () => {
+  const [result] = compare(moving(4), { techniques: ['auto'] });
+  expect(result.times).toHaveLength(4);
+  expect(result.ms.max).toBe(Math.max(...result.times.slice(1)));
+  const { frames, best } = tune(moving(4), { seconds: 0 });
+  expect(frames.map(({ index }) => index)).toEqual([1, 2, 3]);
+  expect(best.times).toHaveLength(3);
+  expect(tune(moving(1), { seconds: 0 }).frames).toHaveLength(1);
+});
