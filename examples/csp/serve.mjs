@@ -15,7 +15,7 @@ export const policy = [
   "require-trusted-types-for 'script'",
 ].join('; ');
 
-const library = fileURLToPath(new URL('.', import.meta.resolve('broadphase')));
+const library = fileURLToPath(new URL('../../dist/', import.meta.url)); // of a game: node_modules/broadphase/dist/
 const here = (name) => fileURLToPath(new URL(name, import.meta.url));
 const files = {
   '/': ['text/html', here('index.html')],
