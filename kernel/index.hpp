@@ -147,15 +147,14 @@ template <int D> class Index {
           rows[half][lane] = is_box ? load<f32x4>(box + 2 * half) : splat(nothing);
         }
       }
-      f32* to = blocks_[k / 8].lo[0] + k % 8;
+      f32* to = reinterpret_cast<f32*>(&blocks_[k / 8]) + k % 8;  // lo and hi as one array
       for (int half = 0; half < D - 1; half++) {
         transpose(rows[half]);
         for (u32 n = 0; n < 4; n++) store(to + 8 * (2 * half + n), rows[half][n]);
       }
     }
     if ((count_ - 1) % 8 < 4) {
-      f32* last = blocks_[(count_ - 1) / 8].lo[0];
-      for (u32 n = 0; n < width; n++) store(last + 8 * n + 4, splat(nothing));
+      for (u32 n = 0; n < width; n++) store(reinterpret_cast<f32*>(&blocks_[(count_ - 1) / 8]) + 8 * n + 4, splat(nothing));
     }
   }
 

@@ -37,6 +37,7 @@ export default defineConfig({
         article: path('article/index.html'),
         lab: path('lab/index.html'),
         bench: path('bench/index.html'),
+        questions: path('questions/index.html'),
       },
     },
   },

@@ -79,6 +79,26 @@ describe('with 64 MiB of memory', () => {
     expect(() => new BroadPhase({ capacity: 2 ** 24 })).toThrow(/^capacity: out of memory/);
   });
 
+  test('a snapshot that does not fit is refused, and what was there stays', () => {
+    const space = new BroadPhase({ events: true }).set(3, 0, 0, 1, 1).set(5, 1, 1, 2, 2.1).update();
+    const before = space.snapshot();
+    const forged = new Uint8Array(24 + 16 * 2 ** 22); // 64 MiB of boxes at the origin, behind a header that says so
+    forged.set(before.subarray(0, 24));
+    forged[6] = 0;
+    new DataView(forged.buffer).setUint32(16, 2 ** 22, true);
+    expect(() => space.restore(forged)).toThrow(/^restore: out of memory/);
+    expect(Buffer.compare(space.snapshot(), before)).toBe(0);
+    expect(Array.from(space.update().validate().pairs)).toEqual([3, 5]);
+
+    // Room for the bytes, but not for the boxes beside them.
+    const many = new BroadPhase().setAll(new Float32Array(4 * 1_000_000));
+    expect(() => many.snapshot()).not.toThrow();
+    expect(() => {
+      for (let k = 0; k < 3; k++) many.restore(many.snapshot()).setAll(new Float64Array(4 * 1_000_000));
+    }).toThrow(/out of memory/);
+    expect(many.validate().size).toBe(1_000_000);
+  });
+
   test.each([2, 3] as const)('boxes are added one by one until memory ends, in %d dimensions', (dimensions) => {
     const space = new BroadPhase({ dimensions });
     const add = (id: number) =>
@@ -105,6 +125,41 @@ describe('with 64 MiB of memory', () => {
 describe.runIf(process.env.LARGE_MEMORY)('with all memory that WebAssembly allows', () => {
   beforeAll(() => init(kernel));
 
+  test.each([2, 3] as const)('every id has a box, in %d dimensions', { timeout: 300_000 }, (dimensions) => {
+    const count = 2 ** 24;
+    const space = new BroadPhase({ dimensions });
+    const boxes = space.boxes(count);
+    for (let id = 0; id < count; id++) {
+      // Rows of 4,096 along the second axis; each touches the next in its row.
+      for (let a = 0; a < dimensions; a++) {
+        const at = a === 0 ? id % 4096 : a === 1 ? 2 * (id >> 12) : 0;
+        boxes[id * 2 * dimensions + a] = at;
+        boxes[id * 2 * dimensions + dimensions + a] = at + 1;
+      }
+    }
+    expect(space.update().pairCount).toBe(4096 * 4095);
+    expect(space.size).toBe(count);
+    expect(space.has(count - 1)).toBe(true);
+    expect(() => space.set(count, ...([0, 0, 0, 0] as const))).toThrow(RangeError);
+    space.delete(0);
+    expect(space.update().pairCount).toBe(4096 * 4095 - 1);
+    space.validate();
+  });
+
+  test('20,000,000 pairs begin, are found one by one, and end', { timeout: 300_000 }, () => {
+    const count = 6400;
+    const space = new BroadPhase({ technique: 'brute-force', events: true }).setAll(identical(count, 2)).update();
+    const pairs = (count * (count - 1)) / 2;
+    expect(pairs).toBeGreaterThan(20_000_000);
+    for (const view of [space.pairs, space.began]) expect(view.length).toBe(2 * pairs);
+    expect(Array.from(space.pairs.subarray(-2))).toEqual([count - 2, count - 1]);
+    expect(space.isColliding(17, 6000)).toBe(true);
+    expect(space.collisionsOf(5).length).toBe(count - 1);
+    space.setAll(identical(2, 2)).update().validate();
+    expect(Array.from(space.pairs)).toEqual([0, 1]);
+    expect(space.ended.length).toBe(2 * (pairs - 1));
+  });
+
   test('pairs and boxes are found beyond the first 2 GiB', { timeout: 300_000 }, () => {
     const count = 25_000;
     const space = new BroadPhase({ technique: 'brute-force' }).setAll(identical(count, 2)).update();
@@ -129,6 +184,16 @@ describe('views of memory', () => {
     space.boxes(count).set(identical(count, space.dimensions));
     space.update();
   }
+
+  test('of 20,000,000 pairs and more are views of all of them', () => {
+    const count = 6400;
+    const space = new BroadPhase({ technique: 'brute-force' }).setAll(identical(count, 2)).update();
+    expect(space.pairCount).toBeGreaterThan(20_000_000);
+    expect(space.pairs.length).toBe(count * (count - 1));
+    expect(Array.from(space.pairs.subarray(-2))).toEqual([count - 2, count - 1]);
+    space.setAll(identical(2, 2)).update().validate();
+    expect(Array.from(space.pairs)).toEqual([0, 1]);
+  });
 
   test('of boxes stay while memory does not grow', () => {
     const space = new BroadPhase();
@@ -160,6 +225,7 @@ describe('views of memory', () => {
     ['setAll', (space) => space.setAll(identical(3000, 2))],
     ['delete', (space) => space.delete(0)],
     ['clear', (space) => space.clear()],
+    ['restore', (space) => space.restore(new BroadPhase().set(1, 0, 0, 1, 1).snapshot())],
   ])('of boxes are over with %s, so an update after it goes through', (_, change) => {
     const space = new BroadPhase();
     crowd(space);

@@ -36,12 +36,14 @@ export class Modelled {
   /** Ids that were deleted, by whatever call, since this was last cleared. */
   readonly deleted = new Set<number>();
   readonly #world: number;
+  readonly #ids: number;
   readonly #place: (random: () => number) => number;
 
-  constructor(options: BroadPhaseOptions, seed: number, place = anyPlace, world = 60) {
+  constructor(options: BroadPhaseOptions, seed: number, place = anyPlace, world = 60, ids = 80) {
     this.space = new BroadPhase(options);
     this.random = createRandom(seed);
     this.#world = world;
+    this.#ids = ids;
     this.#place = place;
   }
 
@@ -59,7 +61,7 @@ export class Modelled {
   }
 
   id(): number {
-    return this.random() < 0.05 ? 2 ** 24 - 1 - 4096 * this.integer(5) : this.integer(80);
+    return this.random() < 0.05 ? 2 ** 24 - 1 - 4096 * this.integer(5) : this.integer(this.#ids);
   }
 
   set(id: number, box = this.box()): void {
@@ -116,7 +118,7 @@ export class Modelled {
     else if (chance < 0.78) this.filter(this.id(), this.#bits(), this.#bits());
     else if (chance < 0.9) this.setStatic(this.id(), this.random() < 0.6);
     else if (chance < 0.96) this.space.technique = BroadPhase.techniques[this.integer(BroadPhase.techniques.length)];
-    else if (chance < 0.99) this.replace(this.integer(60), this.random() < 0.5);
+    else if (chance < 0.99) this.replace(this.integer(0.75 * this.#ids), this.random() < 0.5);
     else this.clear();
   }
 

@@ -1,0 +1,320 @@
+// The page of questions: boxes that move, one question asked of them in each frame, and its answer shown among them.
+// Where it aims is dragged, or moved by the arrow keys; which question it is stands in the address.
+import { BroadPhase } from 'broadphase';
+import { Camera } from '../shared/camera.ts';
+import { formatCount } from '../shared/format.ts';
+import { FrameLoop } from '../shared/loop.ts';
+import { numberPanel } from '../shared/numbers.ts';
+import { makePalette } from '../shared/palette.ts';
+import { createRenderer, type RendererKind } from '../shared/renderer.ts';
+import { type LiveScene, seededScene } from '../shared/scenes.ts';
+import { Timings } from '../shared/timings.ts';
+import { type Ask, asks, type Desk, setLayers } from './asks.ts';
+import { Pen } from './pen.ts';
+
+const sharpest = 2;
+/** Milliseconds between two readings of text that changes all the time. */
+const refresh = 200;
+/** Answers before the first that is timed: the browser compiles what runs often. */
+const warmUp = 30;
+/** How far an arrow key moves, as a share of the world. */
+const keyStep = 0.02;
+/** A pointer that moves less, in pixels, does not drag. */
+const leastDrag = 6;
+const everyone = 7;
+const playIcon = 'M4 2.2v11.6a.6.6 0 0 0 .9.5l9-5.8a.6.6 0 0 0 0-1l-9-5.8a.6.6 0 0 0-.9.5z';
+const pauseIcon = 'M3.5 2h3v12h-3zM9.5 2h3v12h-3z';
+
+const find = <T extends Element = HTMLElement>(id: string) => document.getElementById(id) as unknown as T;
+const view = find('view');
+view.tabIndex = 0;
+const canvas = find<HTMLCanvasElement>('boxes');
+const upper = find<HTMLCanvasElement>('upper');
+const call = find('call');
+const countMenu = find<HTMLSelectElement>('count');
+const sliders = { k: find<HTMLInputElement>('k'), radius: find<HTMLInputElement>('radius') };
+const allBox = find<HTMLInputElement>('all');
+const write = numberPanel(document);
+const kinds: readonly RendererKind[] = ['webgl2', 'canvas-2d'];
+const wantedKind = new URLSearchParams(location.search).get('renderer');
+
+const space = new BroadPhase({ events: true });
+const camera = new Camera();
+const pen = new Pen(upper, camera);
+const renderer = createRenderer(
+  canvas,
+  () => draw(),
+  kinds.find((kind) => kind === wantedKind),
+);
+const desk: { -readonly [Name in keyof Desk]: Desk[Name] } = {
+  space,
+  boxes: new Float32Array(),
+  slots: new Uint8Array(),
+  world: 1,
+  aim: new Float64Array(4),
+  aimed: true,
+  k: 10,
+  radius: 0,
+  all: false,
+  mask: everyone,
+  pen,
+};
+let scene: LiveScene;
+let ask: Ask = asks[0];
+let found = 0;
+const timings = new Timings();
+let read = 0;
+
+/** Finds the pairs of the boxes as they stand. */
+function update(): void {
+  space.boxes(scene.count).set(scene.boxes);
+  space.update();
+}
+
+/** Asks the question and draws its answer. */
+function answer(): void {
+  desk.slots.fill(0);
+  const started = performance.now();
+  found = ask.ask(desk);
+  const ended = performance.now();
+  timings.add(ended, ended - started);
+  desk.aimed = false;
+  draw();
+  if (ended - read > refresh) report();
+}
+
+function draw(): void {
+  if (!scene) return;
+  renderer.draw(scene.boxes, desk.slots, scene.count, camera);
+  pen.begin(Math.min(sharpest, devicePixelRatio));
+  ask.draw(desk);
+}
+
+function report(): void {
+  read = performance.now();
+  call.textContent = ask.text(desk);
+  write('found', formatCount(found));
+  if (timings.summarise()) write('time', (1000 * timings.median).toFixed(timings.median < 0.01 ? 1 : 0));
+}
+
+let pending = 0;
+/** Answers once before the next frame, and brings the text up to date: something was moved or chosen. */
+function answerSoon(): void {
+  cancelAnimationFrame(pending);
+  pending = requestAnimationFrame(() => {
+    read = 0;
+    answer();
+  });
+}
+
+const loop = new FrameLoop(() => {
+  scene.step();
+  update();
+  answer();
+});
+
+/** Aims across the middle of the world, from a place with room around it where there is one. */
+function aimAnew(): void {
+  const { world, aim } = desk;
+  const room = world / 30;
+  for (let place = 0; place < 400; place++) {
+    const x = (0.25 + 0.01 * (place % 20)) * world;
+    const y = (0.3 + 0.01 * Math.floor(place / 20)) * world;
+    aim.set([x, y, x + 0.28 * world, y + 0.16 * world]);
+    if (space.queryBox(x - room, y - room, x + room, y + room).length === 0) break;
+  }
+  desk.aimed = true;
+}
+
+function showScene(): void {
+  const count = Number(countMenu.value);
+  scene = seededScene('uniform2d', count);
+  desk.boxes = scene.boxes;
+  desk.slots = new Uint8Array(count);
+  desk.world = scene.world[2];
+  space.clear();
+  camera.fit(scene.world);
+  readOptions();
+  layers();
+  update();
+  aimAnew();
+  update(); // once more: what stands there now has not just begun
+  answerSoon();
+}
+
+/** Everybody meets everybody, but where the question is about just that. */
+function layers(): void {
+  space.boxes(scene.count).set(scene.boxes);
+  const meets = [0, 0, 0];
+  for (const { value, checked } of document.querySelectorAll<HTMLInputElement>('[name=meet]')) {
+    const [one, other] = value.split(' ').map(Number);
+    if (!checked) continue;
+    meets[one] |= 1 << other;
+    meets[other] |= 1 << one;
+  }
+  setLayers(space, scene.count, ask.name === 'filters' ? meets : [everyone, everyone, everyone]);
+}
+
+function readOptions(): void {
+  desk.k = sliders.k.valueAsNumber;
+  desk.radius = (sliders.radius.valueAsNumber / 400) * desk.world;
+  desk.all = allBox.checked;
+  desk.mask = 0;
+  for (const { value, checked } of document.querySelectorAll<HTMLInputElement>('[name=mask]')) {
+    if (checked) desk.mask |= Number(value);
+  }
+  for (const [name, slider] of Object.entries(sliders)) {
+    const share = (slider.valueAsNumber - Number(slider.min)) / (Number(slider.max) - Number(slider.min));
+    slider.style.setProperty('--filled', `${100 * share}%`);
+    const text = name === 'k' ? slider.value : String(Math.round(desk.radius * 10) / 10);
+    document.querySelector(`output[for=${name}]`)!.textContent = text;
+  }
+}
+
+function choose(name: string): void {
+  ask = asks.find((one) => one.name === name) ?? asks[0];
+  for (const option of document.querySelectorAll<HTMLElement>('[data-option]')) {
+    option.hidden = !ask.options.some((wanted) => wanted === option.dataset.option);
+  }
+  find('options').hidden = ask.options.length === 0;
+  find('hint').textContent = ask.hint;
+  find('found-label').textContent = ask.counts;
+  canvas.setAttribute('aria-label', `${scene.count} boxes. ${ask.label}: ${ask.hint}`);
+  find<HTMLInputElement>(`ask-${ask.name}`).checked = true;
+  desk.aimed = true;
+  layers();
+  update();
+  for (let n = 0; n < warmUp; n++) ask.ask(desk);
+  timings.clear();
+  answerSoon();
+}
+
+function fillAsks(): void {
+  for (const { name, label } of asks) {
+    const input = document.createElement('input');
+    Object.assign(input, { type: 'radio', name: 'ask', id: `ask-${name}`, value: name });
+    const around = document.createElement('label');
+    around.append(input, label);
+    find('asks').append(around);
+    input.addEventListener('change', () => {
+      history.replaceState(null, '', `#${name}`);
+      choose(name);
+    });
+  }
+}
+
+// Aiming. A drag sets both points; a press without one moves both, so that what was aimed keeps its shape.
+
+const place = { x: 0, y: 0 };
+function toWorld(event: PointerEvent): void {
+  const density = camera.width / view.clientWidth;
+  const frame = view.getBoundingClientRect();
+  place.x = camera.x + ((event.clientX - frame.left) * density - camera.width / 2) / camera.scale;
+  place.y = camera.y - ((event.clientY - frame.top) * density - camera.height / 2) / camera.scale;
+}
+
+let pressed: { id: number; x: number; y: number } | undefined;
+view.addEventListener('pointerdown', (event) => {
+  if (!event.isPrimary || event.button !== 0) return;
+  view.setPointerCapture(event.pointerId);
+  toWorld(event);
+  const { aim } = desk;
+  pressed = { id: event.pointerId, x: event.clientX, y: event.clientY };
+  const [dx, dy] = [aim[2] - aim[0], aim[3] - aim[1]];
+  const alone = ['point', 'circle', 'nearest', 'partners'].includes(ask.name);
+  if (alone) aim.set([place.x - dx, place.y - dy, place.x, place.y]);
+  else aim.set([place.x, place.y, place.x + dx, place.y + dy]);
+  desk.aimed = true;
+  answerSoon();
+});
+view.addEventListener('pointermove', (event) => {
+  if (pressed?.id !== event.pointerId) return;
+  if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < leastDrag) return;
+  toWorld(event);
+  desk.aim[2] = place.x;
+  desk.aim[3] = place.y;
+  desk.aimed = true;
+  answerSoon();
+});
+const release = () => {
+  pressed = undefined;
+};
+view.addEventListener('pointerup', release);
+view.addEventListener('pointercancel', release);
+
+const arrows: Record<string, readonly [number, number]> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+};
+view.addEventListener('keydown', (event) => {
+  const way = arrows[event.key];
+  if (!way || event.altKey || event.ctrlKey || event.metaKey) return;
+  event.preventDefault();
+  const { aim, world } = desk;
+  desk.aimed = true;
+  for (let k = event.shiftKey ? 2 : 0; k < 4; k++) {
+    aim[k] = Math.min(world, Math.max(0, aim[k] + way[k % 2] * keyStep * world));
+  }
+  answerSoon();
+});
+
+function play(playing: boolean): void {
+  loop.playing = playing;
+  find('play-icon').setAttribute('d', playing ? pauseIcon : playIcon);
+  find('play-label').textContent = playing ? 'Pause' : 'Play';
+}
+find('play').addEventListener('click', () => play(!loop.playing));
+find('step').addEventListener('click', () => {
+  play(false);
+  scene.step();
+  update();
+  read = 0;
+  answer();
+});
+countMenu.addEventListener('change', () => {
+  showScene();
+  choose(ask.name);
+});
+find('options').addEventListener('input', () => {
+  readOptions();
+  if (ask.name === 'filters') {
+    layers();
+    update();
+  }
+  answerSoon();
+});
+addEventListener('hashchange', () => choose(location.hash.slice(1)));
+
+const dark = matchMedia('(prefers-color-scheme: dark)');
+function dress(): void {
+  const style = getComputedStyle(view);
+  renderer.setPalette(makePalette(dark.matches, style.getPropertyValue('--page').trim()));
+  pen.dress(style);
+  draw();
+}
+dark.addEventListener('change', dress);
+
+function fitCanvas(): void {
+  const density = Math.min(sharpest, devicePixelRatio);
+  const width = Math.round(canvas.clientWidth * density);
+  const height = Math.round(canvas.clientHeight * density);
+  for (const each of [canvas, upper]) {
+    each.width = width;
+    each.height = height;
+  }
+  camera.resize(width, height);
+  draw();
+}
+
+fillAsks();
+showScene();
+dress();
+new ResizeObserver(fitCanvas).observe(canvas);
+fitCanvas();
+choose(location.hash.slice(1));
+loop.watch(view);
+const still = matchMedia('(prefers-reduced-motion: reduce)');
+still.addEventListener('change', () => play(!still.matches));
+play(!still.matches);

@@ -1,0 +1,75 @@
+// Addresses and files made by strangers: the page neither runs what they say, nor hangs, nor breaks.
+import { gzipSync } from 'node:zlib';
+import { expect, type Page, test } from '@playwright/test';
+
+/** What must not happen on any page; call what it returns at the end. */
+function watch(page: Page): () => void {
+  const faults: string[] = [];
+  page.on('pageerror', (error) => faults.push(String(error)));
+  page.on('dialog', (dialog) => {
+    faults.push(`a dialog: ${dialog.message()}`);
+    void dialog.dismiss();
+  });
+  page.on('crash', () => faults.push('the page crashed'));
+  return () => expect(faults).toEqual([]);
+}
+
+const values = [
+  '999999999999999999',
+  '-1',
+  'NaN',
+  '1e308',
+  '<img src=x onerror=alert(1)>',
+  'javascript:alert(1)',
+  'constructor',
+  '__proto__',
+  '%00%ff',
+  'x'.repeat(450),
+];
+const names = ['boxes', 'scene', 'technique', 'cell', 'show', 'rate', 'frame', 'view', 'box', 'race', 'renderer'];
+
+for (const path of ['', 'article/', 'lab/']) {
+  test(`no address breaks /${path}`, async ({ page }) => {
+    test.setTimeout(240_000);
+    const done = watch(page);
+    await page.emulateMedia({ reducedMotion: 'reduce' });
+    for (const value of values) {
+      const query = names.map((name) => `${name}=${value.includes('%') ? value : encodeURIComponent(value)}`).join('&');
+      await page.goto(`/${path}?${query}`);
+      await expect(page.getByRole('heading', { level: 1 })).toBeVisible();
+      await expect.poll(() => page.evaluate(() => 6 * 7)).toBe(42);
+      expect(await page.locator('img[src=x]').count()).toBe(0);
+    }
+    done();
+  });
+}
+
+test('no file breaks the lab', async ({ page }) => {
+  test.setTimeout(240_000);
+  const done = watch(page);
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.goto('/lab/?boxes=100');
+  const zeros = Buffer.alloc(64 * 2 ** 20);
+  const recording = Buffer.alloc(16);
+  recording.writeInt32LE(0x424f5841, 0);
+  recording.writeInt32LE(2, 4);
+  recording.writeInt32LE(2 ** 30, 8); // boxes
+  recording.writeInt32LE(2 ** 30, 12); // frames
+  const files = {
+    'empty.trace': Buffer.alloc(0),
+    'text.trace': Buffer.from('<script>alert(1)</script>'.repeat(100)),
+    'deep.json': Buffer.from('['.repeat(200_000)),
+    'bomb.trace': gzipSync(gzipSync(zeros)),
+    'zeros.gz': gzipSync(zeros),
+    'huge.bin': recording,
+    '<img src=x onerror=alert(1)>.trace': Buffer.from([1, 2, 3]),
+  };
+  for (const [name, buffer] of Object.entries(files)) {
+    await page.locator('input[type=file]').setInputFiles({ name, mimeType: 'application/octet-stream', buffer });
+    await page.waitForTimeout(700);
+    await expect.poll(() => page.evaluate(() => 6 * 7)).toBe(42);
+    expect(await page.locator('img[src=x]').count(), name).toBe(0);
+  }
+  await expect(page.getByRole('heading', { level: 1 })).toBeVisible();
+  done();
+});

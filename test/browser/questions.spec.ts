@@ -1,0 +1,191 @@
+// The page of questions as a visitor meets it: every question is asked and answered by mouse, finger and keys.
+import { expect, type Page, test } from '@playwright/test';
+
+let faults: string[] = [];
+
+test.beforeEach(({ page, baseURL }) => {
+  faults = [];
+  page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
+  page.on('pageerror', (error) => faults.push(String(error)));
+  page.on('request', (request) => {
+    const url = request.url();
+    if (!/^(data|blob):/.test(url) && !url.startsWith(baseURL!)) faults.push(`a request to ${url}`);
+  });
+});
+
+test.afterEach(() => expect(faults).toEqual([]));
+
+/** Opens one question, standing still. */
+async function open(page: Page, question: string): Promise<void> {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.goto(`/questions/#${question}`);
+  await expect(page.locator('#call')).not.toBeEmpty();
+}
+
+const call = (page: Page) => page.locator('#call');
+const found = async (page: Page) =>
+  Number((await page.locator('[data-number=found]').textContent())!.replaceAll(',', ''));
+const expectFound = (page: Page) => expect.poll(() => found(page));
+
+/** Drags across the view, from one share of its size to another. */
+async function drag(page: Page, from: [number, number], to: [number, number]): Promise<void> {
+  const { x, y, width, height } = (await page.locator('#view').boundingBox())!;
+  await page.mouse.move(x + from[0] * width, y + from[1] * height);
+  await page.mouse.down();
+  await page.mouse.move(x + to[0] * width, y + to[1] * height, { steps: 4 });
+  await page.mouse.up();
+}
+
+/** The ids in the comment below the call. */
+const ids = async (page: Page) => [...(await call(page).textContent())!.matchAll(/\/\/ \[([^\]]*)/g)][0][1].split(', ');
+
+test('a box that is dragged across everything finds all, and a small one few', async ({ page }) => {
+  await open(page, 'box');
+  await drag(page, [0.001, 0.001], [0.999, 0.999]);
+  await expectFound(page).toBe(400);
+  await expect(call(page)).toContainText('space.queryBox(');
+  await drag(page, [0.4, 0.4], [0.55, 0.6]);
+  await expectFound(page).toBeLessThan(100);
+  expect(await found(page)).toBeGreaterThan(1);
+});
+
+test('a mask leaves layers out', async ({ page }) => {
+  await open(page, 'box');
+  await drag(page, [0.001, 0.001], [0.999, 0.999]);
+  await expectFound(page).toBe(400);
+  await page.getByRole('checkbox', { name: '1', exact: true }).uncheck();
+  await expectFound(page).toBe(400 - 134);
+  await expect(call(page)).toContainText('{ mask: 6 }');
+  await page.getByRole('checkbox', { name: '2', exact: true }).uncheck();
+  await page.getByRole('checkbox', { name: '4', exact: true }).uncheck();
+  await expectFound(page).toBe(0);
+});
+
+test('a point finds what holds it, a circle what it touches', async ({ page }) => {
+  await open(page, 'nearest');
+  const [nearest] = await ids(page);
+  await page.getByRole('radio', { name: 'Circle' }).check({ force: true });
+  await expect(page).toHaveURL(/#circle$/);
+  await page.getByRole('slider', { name: 'Radius' }).fill('30');
+  await expectFound(page).toBeGreaterThan(0);
+  expect(await ids(page)).toContain(nearest);
+  await page.getByRole('slider', { name: 'Radius' }).fill('0');
+  await expect(call(page)).toContainText(', 0);');
+  const touched = await found(page);
+  await page.getByRole('radio', { name: 'Point' }).check({ force: true });
+  await expectFound(page).toBe(touched);
+});
+
+test('a ray meets the first box, and all of them in order', async ({ page }) => {
+  await open(page, 'ray');
+  await drag(page, [0.5, 0.99], [0.5, 0.5]);
+  await expectFound(page).toBe(1);
+  const one = /id: (\d+), distance: ([\d.]+), normal: \[(-?\d), (-?\d)\]/;
+  const [, id, distance, , down] = one.exec((await call(page).textContent())!)!;
+  expect(Number(distance)).toBeGreaterThan(0);
+  expect(Number(down)).toBe(-1);
+  await page.getByRole('checkbox', { name: 'All that it meets' }).check();
+  await expectFound(page).toBeGreaterThan(2);
+  await expect(call(page)).toContainText('space.rayCastAll(');
+  expect(one.exec((await call(page).textContent())!)![1]).toBe(id);
+  const distances = [...(await call(page).textContent())!.matchAll(/distance: ([\d.]+)/g)].map(([, text]) =>
+    Number(text),
+  );
+  expect(distances).toEqual(distances.toSorted((a, b) => a - b));
+});
+
+test('a box that is swept stops at the first', async ({ page }) => {
+  await open(page, 'sweep');
+  await drag(page, [0.5, 1], [0.5, 0.02]);
+  await expectFound(page).toBe(1);
+  expect(Number(/time: ([\d.]+)/.exec((await call(page).textContent())!)![1])).toBeLessThan(0.9);
+  await drag(page, [0.001, 0.001], [0.002, 0.03]);
+  await expectFound(page).toBe(0);
+  await expect(call(page)).toContainText('undefined');
+});
+
+test('as many as are wanted are nearest, and more hold the fewer', async ({ page }) => {
+  await open(page, 'nearest');
+  await expectFound(page).toBe(10);
+  const ten = await ids(page);
+  const slider = page.getByRole('slider', { name: 'How many' });
+  await slider.press('ArrowRight');
+  await expectFound(page).toBe(11);
+  expect((await ids(page)).slice(0, 10)).toEqual(ten);
+});
+
+test('the partners of a chosen box are those that collide with it', async ({ page }) => {
+  await open(page, 'partners');
+  await expect(call(page)).toContainText('space.collisionsOf(');
+  const shares = Array.from({ length: 40 }, (_, k) => 0.3 + 0.01 * k);
+  for (const share of shares) {
+    await drag(page, [share, 0.5], [share, 0.5]);
+    await page.waitForTimeout(50);
+    if ((await found(page)) > 0) break;
+  }
+  expect(await found(page)).toBeGreaterThan(0);
+  await expect(call(page)).toContainText('// true');
+});
+
+test('pairs begin and end as boxes move', async ({ page }) => {
+  await open(page, 'events');
+  await expectFound(page).toBe(0);
+  let changes = 0;
+  for (let k = 0; k < 10; k++) {
+    await page.getByRole('button', { name: 'Step' }).click();
+    changes += await found(page);
+  }
+  expect(changes).toBeGreaterThan(5);
+  await expect(call(page)).toContainText('space.began');
+});
+
+test('filters say who meets whom', async ({ page }) => {
+  await open(page, 'filters');
+  const before = await found(page);
+  expect(before).toBeGreaterThan(10);
+  await page.getByRole('checkbox', { name: '1 and 2' }).check();
+  await expectFound(page).toBeGreaterThan(before);
+  await expect(call(page)).toContainText('space.setFilter(0, 1, 7)');
+  for (const box of await page.locator('[name=meet]').all()) await box.uncheck();
+  await expectFound(page).toBe(0);
+});
+
+test('keys move what is asked, and with shift its end', async ({ page }) => {
+  await open(page, 'box');
+  const corners = async () =>
+    /\((.*?)\)/
+      .exec((await call(page).textContent())!)![1]
+      .split(', ')
+      .map(Number);
+  const [minX, minY, maxX, maxY] = await corners();
+  await page.locator('#view').focus();
+  await page.keyboard.press('ArrowRight');
+  await expect.poll(corners).toEqual([minX + 8, minY, maxX + 8, maxY]);
+  await page.keyboard.press('Shift+ArrowUp');
+  await expect.poll(corners).toEqual([minX + 8, minY, maxX + 8, maxY + 8]);
+  await page.keyboard.press('Tab');
+  expect(await page.evaluate(() => document.activeElement?.id)).toBe('play');
+});
+
+test('it moves by itself, and stops where asked', async ({ page }) => {
+  await page.goto('/questions/#nearest');
+  const text = await call(page).textContent();
+  await expect.poll(() => call(page).textContent(), { timeout: 20_000 }).not.toBe(text);
+  await page.getByRole('button', { name: 'Pause' }).click();
+  await expect(page.getByRole('button', { name: 'Play' })).toBeVisible();
+});
+
+test.describe('on a phone', () => {
+  test.use({ viewport: { width: 375, height: 740 }, hasTouch: true });
+
+  test('a tap moves the point, and nothing is wider than the screen', async ({ page }) => {
+    await open(page, 'nearest');
+    const before = await ids(page);
+    await page.locator('#view').tap({ position: { x: 60, y: 80 } });
+    await expect.poll(() => ids(page)).not.toEqual(before);
+    for (const address of ['/questions/', '/', '/article/', '/lab/', '/bench/']) {
+      await page.goto(address);
+      expect(await page.evaluate(() => document.documentElement.scrollWidth), address).toBeLessThanOrEqual(375);
+    }
+  });
+});

@@ -1,0 +1,124 @@
+// A server that runs for months, in hours: spaces that live on while boxes come, go, move, jump and change their
+// filters, techniques are switched, states are saved and gone back to. After each update the pairs are the model's,
+// every invariant holds, and memory is what it was.
+import { BroadPhase } from 'broadphase';
+import { anyPlace, type Entry, Modelled, pairsOf } from '../model.ts';
+import { inBox } from '../query-reference.ts';
+import { keysOf } from '../reference.ts';
+
+export interface Totals {
+  updates: number;
+  calls: number;
+  pairs: number;
+  restores: number;
+  /** Bytes of the kernels' memories: the most so far. */
+  wasm: number;
+  /** Bytes the kernels have handed out: the most so far. */
+  used: number;
+}
+
+const warmUp = 1000; // updates of each space, after which its memory is to be flat
+const slack = 2; // times: memory grows in steps, and the rarest of crowds may take one more
+const callsPerUpdate = 120;
+const { techniques } = BroadPhase;
+
+function fail(what: string): never {
+  throw new Error(`soak: ${what}`);
+}
+
+class Subject {
+  readonly #modelled: Modelled;
+  readonly #options: ConstructorParameters<typeof BroadPhase>[0];
+  #saved: { bytes: Uint8Array; entries: Map<number, Entry> } | undefined;
+  updates = 0;
+  /** Memory at the end of the warm-up. */
+  #steady = 0;
+
+  constructor(dimensions: 2 | 3, events: boolean, seed: number) {
+    this.#options = { dimensions, events };
+    this.#modelled = new Modelled(this.#options, seed, anyPlace, dimensions === 2 ? 300 : 90, 1000);
+  }
+
+  get #wasm(): number {
+    return this.#modelled.space.pairs.buffer.byteLength;
+  }
+
+  round(totals: Totals): void {
+    const { space, entries } = this.#modelled;
+    for (let k = 0; k < callsPerUpdate; k++) this.#churn();
+    const chance = this.#modelled.random();
+    if (chance < 0.1) this.#save();
+    else if (chance < 0.2) this.#restore(totals);
+    space.update().validate();
+    this.updates++;
+    const found = keysOf(space.pairs);
+    const expected = pairsOf(entries, space.dimensions);
+    if (found.length !== expected.length || found.some((key, k) => key !== expected[k]))
+      fail("the pairs are not the model's");
+    if (space.size !== entries.size) fail("the size is not the model's");
+    const box = this.#modelled.box();
+    const [low, high] = [box.slice(0, space.dimensions), box.slice(space.dimensions)];
+    const ask = space.queryBox as (...numbers: number[]) => number[];
+    const answer = ask.call(space, ...low, ...high).sort((a, b) => a - b);
+    if (answer.join() !== inBox(entries, box, {}).join()) fail("the answer is not the model's");
+    totals.updates++;
+    totals.calls += callsPerUpdate;
+    totals.pairs += space.pairCount;
+    totals.wasm = Math.max(totals.wasm, this.#wasm);
+    totals.used = Math.max(totals.used, space.stats.bytes);
+    if (this.updates === warmUp) this.#steady = this.#wasm;
+    if (this.updates > warmUp && this.#wasm > slack * this.#steady) {
+      fail(`memory has grown from ${this.#steady} to ${this.#wasm} bytes in ${this.updates - warmUp} updates`);
+    }
+  }
+
+  /** One call: mostly boxes that come, jump or go, so that hundreds stand there at any time. */
+  #churn(): void {
+    const modelled = this.#modelled;
+    const chance = modelled.random();
+    const bits = () => [0xffffffff, 1, 2, 3, 0x80000000][modelled.integer(5)]!;
+    if (chance < 0.7) modelled.set(modelled.id());
+    else if (chance < 0.9) modelled.delete(modelled.id());
+    else if (chance < 0.94) modelled.filter(modelled.id(), bits(), bits());
+    else if (chance < 0.98) modelled.setStatic(modelled.id(), modelled.random() < 0.6);
+    else if (chance < 0.995) modelled.space.technique = techniques[modelled.integer(techniques.length)]!;
+    else if (chance < 0.9995) modelled.set(modelled.id(), [...modelled.entries.values()][0]?.box);
+    else if (chance < 0.9998) modelled.replace(modelled.integer(1000), modelled.random() < 0.5);
+    else modelled.clear();
+  }
+
+  #save(): void {
+    const entries = new Map([...this.#modelled.entries].map(([id, entry]) => [id, { ...entry }]));
+    this.#saved = { bytes: this.#modelled.space.snapshot(), entries };
+  }
+
+  /** Goes back, and sees that a space that is new gives the same pairs in the same order. */
+  #restore(totals: Totals): void {
+    if (!this.#saved) return;
+    const { entries, space } = this.#modelled;
+    space.restore(this.#saved.bytes).update();
+    const { pairs } = new BroadPhase(this.#options).restore(this.#saved.bytes).update();
+    if (Buffer.compare(bytesOf(pairs), bytesOf(space.pairs)) !== 0) fail('a restored space goes on otherwise');
+    entries.clear();
+    for (const [id, entry] of this.#saved.entries) entries.set(id, { ...entry });
+    totals.restores++;
+  }
+}
+
+const bytesOf = (words: Uint32Array) => new Uint8Array(words.buffer, words.byteOffset, words.byteLength);
+
+/** Runs until `now() >= until`; calls `report` every so many milliseconds. */
+export function soak(seed: number, until: number, every: number, report: (totals: Totals) => void): Totals {
+  const totals: Totals = { updates: 0, calls: 0, pairs: 0, restores: 0, wasm: 0, used: 0 };
+  const subjects = ([2, 3] as const).flatMap((dimensions) =>
+    [false, true].map((events, k) => new Subject(dimensions, events, seed + dimensions * 10 + k)),
+  );
+  let next = performance.now() + every;
+  while (performance.now() < until) {
+    for (const subject of subjects) subject.round(totals);
+    if (performance.now() < next) continue;
+    report(totals);
+    next = performance.now() + every;
+  }
+  return totals;
+}
