@@ -2,6 +2,11 @@
 // Numbers that do not fit in a return value are passed through `io`, an array of doubles.
 #include "space.hpp"
 
+// Next to one another, as the techniques are: see there.
+BOTH(Index)
+BOTH(Queries)
+BOTH(Space)
+
 namespace {
 
 // constinit: nothing runs when the module is instantiated.

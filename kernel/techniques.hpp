@@ -84,20 +84,21 @@ template <int D> class Techniques {
 };
 
 // Both dimensions of each next to one another in the module, where gzip finds what they share: an eighth less.
-#if TECHNIQUES == ~0u || defined(TWINS)
 #define BOTH(Kind)        \
   template class Kind<2>; \
   template class Kind<3>;
+BOTH(Incremental)
+BOTH(StripSweep)
+BOTH(SweptList)
+BOTH(BruteForce)
+#if TECHNIQUES == ~0u || defined(TWINS)
 BOTH(AabbTree)
 BOTH(BspTree)
 BOTH(HierarchicalGrid)
 BOTH(HomeCellGrid)
-BOTH(Incremental)
 BOTH(Quadtree)
 BOTH(RTree)
 BOTH(RetainedGrid)
 BOTH(SpatialGrid)
 BOTH(SweepAndPrune)
-BOTH(StripSweep)
-BOTH(BruteForce)
 #endif
