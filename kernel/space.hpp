@@ -201,6 +201,7 @@ template <int D> class Space {
   COLD i32 save() {
     i32 bad = bad_in_place();
     if (bad >= 0) return bad;
+    if (!ordered_) changes_.note_all();  // those pairs are in another order
     ordered_ = true;
     bool doubles = false;
     for (u32 s = 0; rounding_ && s < ids_.count(); s++) doubles |= rounded_[s];
