@@ -38,6 +38,7 @@ export default defineConfig({
         lab: path('lab/index.html'),
         bench: path('bench/index.html'),
         questions: path('questions/index.html'),
+        'narrow-phase': path('narrow-phase/index.html'),
       },
     },
   },

@@ -1,0 +1,238 @@
+// The page of what comes after the pairs: the worlds of examples/narrow-phase, drawn. Thin lines are the boxes of the
+// broad phase, dashed where two overlap; what is filled really touches.
+import {
+  type FastThing,
+  fastBoxes,
+  type MaskThing,
+  masks,
+  type ShapeThing,
+  shapes,
+  world,
+} from '../../examples/narrow-phase/scenes.mjs';
+import { formatCount } from '../shared/format.ts';
+import { FrameLoop } from '../shared/loop.ts';
+import { numberPanel } from '../shared/numbers.ts';
+import { Timings } from '../shared/timings.ts';
+
+const sharpest = 2;
+const refresh = 250;
+/** Frames before the first that is shown. */
+const settling = 60;
+const playIcon = 'M4 2.2v11.6a.6.6 0 0 0 .9.5l9-5.8a.6.6 0 0 0 0-1l-9-5.8a.6.6 0 0 0-.9.5z';
+const pauseIcon = 'M3.5 2h3v12h-3zM9.5 2h3v12h-3z';
+
+const find = <T extends Element = HTMLElement>(id: string) => document.getElementById(id) as unknown as T;
+const canvas = find<HTMLCanvasElement>('canvas');
+const countMenu = find<HTMLSelectElement>('count');
+const context = canvas.getContext('2d')!;
+const write = numberPanel(document);
+const broad = new Timings();
+const narrow = new Timings();
+const ink = { page: '', line: '', muted: '', accent: '', text: '' };
+
+interface Kind {
+  readonly make: (count: number) => ReturnType<typeof shapes> | ReturnType<typeof masks> | ReturnType<typeof fastBoxes>;
+  readonly hint: string;
+  readonly word: string;
+  readonly code: string;
+}
+
+const kinds: Record<string, Kind> = {
+  shapes: {
+    make: shapes,
+    hint: 'Filled: shapes that touch. Dashed: only their boxes do.',
+    word: 'Separating axes, by SAT.js: two convex shapes are apart exactly where some line parts them. The answer has the way out, so that what touches can be pushed apart.',
+    code: '// for each pair a, b:\nconst contact = contactOf(a, b);\nif (contact) pushApart(a, b, contact);',
+  },
+  masks: {
+    make: masks,
+    hint: 'Filled: pictures with a pixel in common. Dashed: only their boxes overlap.',
+    word: 'Pixel masks: two pictures touch where both have a solid pixel. Only what both boxes share is looked at.',
+    code: '// for each pair a, b:\nif (masksTouch(a.mask, a.x, a.y, b.mask, b.x, b.y)) {\n  hit(a, b);\n}',
+  },
+  fast: {
+    make: fastBoxes,
+    hint: 'Lines: the way of a bullet in this frame. Filled: what it meets first.',
+    word: 'Swept boxes: a bullet that flies 40 times its width in a frame is kept as the bounds of its way, so its pairs are all that it may meet; when it does is reckoned exactly.',
+    code: 'space.setSwept(id, ...box, dx, dy);\n// for each pair a, b:\nconst met = meeting(a.box, a.way, b.box, b.way);\nif (met) hit(a, b, met.time);',
+  },
+};
+
+let kind = kinds.shapes;
+let scene = kind.make(Number(countMenu.value));
+let read = 0;
+
+function step(): void {
+  scene.react();
+  solve();
+}
+
+/** Finds what touches as things have moved on. */
+function solve(): void {
+  const started = performance.now();
+  scene.move();
+  const between = performance.now();
+  scene.narrow();
+  const ended = performance.now();
+  broad.add(between, between - started);
+  narrow.add(ended, ended - between);
+}
+
+function report(): void {
+  read = performance.now();
+  write('pairs', formatCount(scene.space.pairCount));
+  write('hits', formatCount(scene.hits.length / 2));
+  if (broad.summarise()) write('broad', (1000 * broad.median).toFixed(0));
+  if (narrow.summarise()) write('narrow', (1000 * narrow.median).toFixed(0));
+}
+
+const touching = new Set<number>();
+const paired = new Set<number>();
+
+function draw(): void {
+  const { width, height } = canvas;
+  const scale = Math.min(width, height) / world;
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  context.fillStyle = ink.page;
+  context.fillRect(0, 0, width, height);
+  context.setTransform(scale, 0, 0, scale, (width - scale * world) / 2, (height - scale * world) / 2);
+  touching.clear();
+  paired.clear();
+  for (const id of scene.hits) touching.add(id);
+  for (const id of scene.space.pairs) paired.add(id);
+  const pixel = Math.min(sharpest, devicePixelRatio) / scale;
+  for (const [id, thing] of scene.things.entries()) {
+    const state = touching.has(id) ? 'touches' : paired.has(id) ? 'paired' : 'alone';
+    context.fillStyle = ink.accent;
+    context.globalAlpha = 1;
+    if ('shape' in thing) drawShape(thing, state, pixel);
+    else if ('mask' in thing) drawMask(thing, state);
+    else drawFast(thing, state, pixel);
+    context.globalAlpha = 1;
+    if ('isBullet' in thing) continue;
+    const box = scene.space.get(id)!;
+    context.lineWidth = pixel;
+    context.strokeStyle = state === 'alone' ? ink.line : ink.muted;
+    context.setLineDash(state === 'paired' ? [4 * pixel, 3 * pixel] : []);
+    const grown = 'mask' in thing ? 1 : 0;
+    context.strokeRect(box[0], box[1], box[2] - box[0] + grown, box[3] - box[1] + grown);
+  }
+}
+
+type State = 'touches' | 'paired' | 'alone';
+
+function drawShape({ shape: { pos, r, calcPoints } }: ShapeThing, state: State, pixel: number): void {
+  context.beginPath();
+  if (r !== undefined) context.arc(pos.x, pos.y, r, 0, 2 * Math.PI);
+  for (const { x, y } of calcPoints ?? []) context.lineTo(pos.x + x, pos.y + y);
+  context.closePath();
+  context.setLineDash([]);
+  context.lineWidth = 2 * pixel;
+  context.strokeStyle = state === 'touches' ? ink.accent : ink.muted;
+  if (state === 'touches') {
+    context.globalAlpha = 0.45;
+    context.fill();
+    context.globalAlpha = 1;
+  }
+  context.stroke();
+}
+
+function drawMask({ mask: { width, solid }, left, top }: MaskThing, state: State): void {
+  context.fillStyle = state === 'touches' ? ink.accent : ink.muted;
+  context.globalAlpha = state === 'touches' ? 0.75 : 0.4;
+  for (let k = 0; k < solid.length; k++) {
+    if (solid[k]) context.fillRect(left + (k % width), top + Math.floor(k / width), 1, 1);
+  }
+}
+
+function drawFast(thing: FastThing, state: State, pixel: number): void {
+  const [minX, minY, maxX, maxY] = thing.box;
+  context.setLineDash([]);
+  context.lineWidth = 2 * pixel;
+  if (!thing.isBullet) {
+    context.strokeStyle = state === 'touches' ? ink.accent : ink.muted;
+    context.strokeRect(minX, minY, maxX - minX, maxY - minY);
+    if (state !== 'touches') return;
+    context.globalAlpha = 0.45;
+    context.fillRect(minX, minY, maxX - minX, maxY - minY);
+    return;
+  }
+  const [x, y] = [(minX + maxX) / 2, (minY + maxY) / 2];
+  const line = (from: number, to: number, colour: string, dashed: boolean) => {
+    context.strokeStyle = colour;
+    context.setLineDash(dashed ? [5 * pixel, 4 * pixel] : []);
+    context.beginPath();
+    context.moveTo(x + from * thing.way[0], y + from * thing.way[1]);
+    context.lineTo(x + to * thing.way[0], y + to * thing.way[1]);
+    context.stroke();
+  };
+  line(0, thing.time, ink.accent, false);
+  if (thing.first >= 0) line(thing.time, 1, ink.line, true);
+  context.fillStyle = ink.text;
+  context.fillRect(minX, minY, maxX - minX, maxY - minY);
+}
+
+function show(name: string): void {
+  kind = kinds[name] ?? kinds.shapes;
+  const chosen = kinds[name] ? name : 'shapes';
+  find<HTMLInputElement>(`kind-${chosen}`).checked = true;
+  find('hint').textContent = kind.hint;
+  find('word').textContent = kind.word;
+  find('code').textContent = kind.code;
+  scene = kind.make(Number(countMenu.value));
+  // What lies over one another at first is pushed apart, and the browser has compiled what runs often.
+  for (let frame = 0; frame < settling; frame++) step();
+  broad.clear();
+  narrow.clear();
+  step();
+  draw();
+  report();
+}
+
+const loop = new FrameLoop(() => {
+  step();
+  draw();
+  if (performance.now() - read > refresh) report();
+});
+loop.watch(canvas);
+
+function play(playing: boolean): void {
+  loop.playing = playing;
+  find('play-icon').setAttribute('d', playing ? pauseIcon : playIcon);
+  find('play-label').textContent = playing ? 'Pause' : 'Play';
+}
+find('play').addEventListener('click', () => play(!loop.playing));
+find('step').addEventListener('click', () => {
+  play(false);
+  step();
+  draw();
+  report();
+});
+find('kinds').addEventListener('change', (event) => {
+  const { value } = event.target as HTMLInputElement;
+  history.replaceState(null, '', `#${value}`);
+  show(value);
+});
+countMenu.addEventListener('change', () => show(location.hash.slice(1)));
+addEventListener('hashchange', () => show(location.hash.slice(1)));
+
+function dress(): void {
+  const style = getComputedStyle(canvas);
+  for (const name of Object.keys(ink) as (keyof typeof ink)[]) ink[name] = style.getPropertyValue(`--${name}`).trim();
+  draw();
+}
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', dress);
+
+function fitCanvas(): void {
+  const density = Math.min(sharpest, devicePixelRatio);
+  canvas.width = Math.round(canvas.clientWidth * density);
+  canvas.height = Math.round(canvas.clientHeight * density);
+  draw();
+}
+
+show(location.hash.slice(1));
+dress();
+new ResizeObserver(fitCanvas).observe(canvas);
+const still = matchMedia('(prefers-reduced-motion: reduce)');
+still.addEventListener('change', () => play(!still.matches));
+play(!still.matches);
