@@ -278,7 +278,7 @@ template <int D> class Space {
     // Growing later would cut the views of the pairs off: what the ids take at the first gap is taken now.
     heap::reach(u64(ids_.count()) * 2 * sizeof(u32) + (1 << 16));
     stats.bytes = f64(heap::used);
-    stats.technique = f64(u32(ran_));
+    explain();
     return -1;
   }
 
@@ -395,6 +395,15 @@ template <int D> class Space {
     if (technique != Technique::automatic) return technique;
     if (ids_.count() <= handful) return Technique::brute_force;
     return ordered_ ? Technique::strip_sweep : Technique::incremental;
+  }
+
+  /// Says what ran, and where the choice was ours why.
+  void explain() {
+    stats.technique = f64(u32(ran_));
+    if (technique != Technique::automatic) stats.reason = f64(u32(Reason::asked_for));
+    else if (ran_ == Technique::brute_force) stats.reason = f64(u32(Reason::handful));
+    else if (ran_ == Technique::strip_sweep) stats.reason = f64(u32(Reason::ordered));
+    else if (stats.reason != f64(u32(Reason::kept))) stats.technique = f64(u32(Technique::strip_sweep));
   }
 
   /// An update in which nothing has changed.

@@ -2,6 +2,9 @@
 #pragma once
 #include "simd.hpp"
 
+/// Why a technique ran, in the order of `reasons` in src/broad-phase.ts.
+enum class Reason : u32 { asked_for, handful, kept, filling, moving, ordered };
+
 struct Stats {
   f64 tests = 0;       // boxes tested against boxes
   f64 candidates = 0;  // pairs found in float32, before the exact test in double
@@ -10,4 +13,5 @@ struct Stats {
   f64 entries = 0;     // places of boxes in them: more than boxes where a box stands in several
   f64 bytes = 0;       // of memory in use by the whole space
   f64 technique = 0;   // index of the technique that ran: tells what `auto` chose
+  f64 reason = 0;      // and why: a Reason
 };

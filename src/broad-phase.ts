@@ -52,10 +52,24 @@ const techniques = [
 /** The name of a technique. */
 export type TechniqueName = (typeof techniques)[number];
 
+const reasons = [
+  'asked for',
+  'a handful of boxes',
+  'what was found is kept: boxes rest or move little',
+  'what is found will be kept: boxes rest or move little',
+  'all is found anew: boxes move, or there are few',
+  'all is found anew: after a snapshot, no update before may show in the order of pairs',
+] as const;
+
+/** Why a technique ran. */
+export type Reason = (typeof reasons)[number];
+
 /** Counters of the last update. */
 export interface Stats {
   /** The technique that ran: what `auto` chose. */
   technique: TechniqueName;
+  /** Why it ran: where `auto` chose it, what it saw. */
+  reason: Reason;
   /** Boxes tested against boxes. */
   tests: number;
   /** Pairs found in float32, before the exact test in double precision and the last of the filters. */
@@ -110,7 +124,16 @@ export class BroadPhase extends Queries {
 
   #statsView = new Float64Array();
   readonly #stagedViews: (Float32Array | Float64Array)[] = [];
-  readonly #stats: Stats = { technique: 'auto', tests: 0, candidates: 0, pairs: 0, cells: 0, entries: 0, bytes: 0 };
+  readonly #stats: Stats = {
+    technique: 'auto',
+    reason: 'asked for',
+    tests: 0,
+    candidates: 0,
+    pairs: 0,
+    cells: 0,
+    entries: 0,
+    bytes: 0,
+  };
   readonly #pairViews: Uint32Array[] = [];
   readonly #beganViews: Uint32Array[] = [];
   readonly #endedViews: Uint32Array[] = [];
@@ -648,7 +671,7 @@ export class BroadPhase extends Queries {
 
   #readStats(): void {
     if (this.#statsView.length === 0) {
-      this.#statsView = new Float64Array(this.kernel.memory.buffer, this.kernel.stats_address(), 7);
+      this.#statsView = new Float64Array(this.kernel.memory.buffer, this.kernel.stats_address(), 8);
     }
     const from = this.#statsView;
     const stats = this.#stats;
@@ -659,6 +682,7 @@ export class BroadPhase extends Queries {
     stats.entries = from[4]!;
     stats.bytes = from[5]!;
     stats.technique = techniques[from[6]!]!;
+    stats.reason = reasons[from[7]!]!;
   }
 
   /** A box that was written through `boxes()` is bad. */

@@ -117,3 +117,27 @@ test('an update in which nothing has changed keeps the pairs and has no events',
   }
   expectKeys(space, referencePairs(boxes, 2));
 });
+
+test('auto says what it chose and why', () => {
+  const random = createRandom(9);
+  const space = new BroadPhase();
+  space.set(0, 0, 0, 1, 1).update();
+  expect([space.stats.technique, space.stats.reason]).toEqual(['brute-force', 'a handful of boxes']);
+  const seen = new Set<string>();
+  for (let id = 0; id < 1000; id++) {
+    const [x, y] = [random() * 1000, random() * 1000];
+    space.set(id, x, y, x + 5, y + 5);
+  }
+  for (let frame = 0; frame < 120; frame++) {
+    space.set(7, frame, 0, frame + 5, 5).update();
+    seen.add(`${space.stats.technique}: ${space.stats.reason}`);
+  }
+  expect([...seen]).toEqual([
+    'strip-sweep: all is found anew: boxes move, or there are few',
+    'strip-sweep: what is found will be kept: boxes rest or move little',
+    'incremental: what was found is kept: boxes rest or move little',
+  ]);
+  space.snapshot();
+  space.update();
+  expect(space.stats.reason).toMatch(/after a snapshot/);
+});

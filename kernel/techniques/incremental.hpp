@@ -227,12 +227,14 @@ template <int D> class Incremental {
       }
     }
     kept_ = leaves_ > 0 && queued_ == 0;
+    stats.reason = f64(u32(Reason::kept));
     if (kept_) return balance(f64(pairs.count - settled_.count));
     stats = Stats{};
     pairs.count = pairs.kept = 0;
     anew_.update(scene, options, pairs, stats);
     fresh_ = entry_cost * stats.entries + test_cost * stats.tests;
     if (leaves_ == 0 && n >= few && steady(scene)) plan(scene);
+    stats.reason = f64(u32(leaves_ > 0 ? Reason::filling : Reason::moving));
   }
 
   f32* last(u32 slot) const { return known_[slot].box; }
