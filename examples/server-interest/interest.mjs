@@ -1,0 +1,61 @@
+// Interest management: who sees whom, told only where it changes. A server that knows it sends each player the few
+// others in sight instead of everybody.
+// Every player has two boxes: a body, and the window of what it sees. Windows meet bodies only, so the pairs are
+// exactly "this window holds that body", and what began and ended since the last tick is what players are to be told.
+import { BroadPhase } from 'broadphase';
+
+const bodies = 1;
+const windows = 2;
+const body = (player) => 2 * player;
+const window = (player) => 2 * player + 1;
+
+export class Interest {
+  #space = new BroadPhase({ events: true });
+  #reach;
+
+  /** How far a player sees, to the left and right, and up and down. */
+  constructor(reachX, reachY = reachX) {
+    this.#reach = [reachX, reachY];
+  }
+
+  /** Players are whole numbers from 0 on; those of who left may be given again. */
+  add(player, x, y) {
+    this.move(player, x, y);
+    this.#space.setFilter(body(player), bodies, windows).setFilter(window(player), windows, bodies);
+  }
+
+  move(player, x, y) {
+    const [reachX, reachY] = this.#reach;
+    this.#space.set(body(player), x, y, x, y);
+    this.#space.set(window(player), x - reachX, y - reachY, x + reachX, y + reachY);
+  }
+
+  remove(player) {
+    this.#space.delete(body(player));
+    this.#space.delete(window(player));
+  }
+
+  /** Once a tick: `enter(viewer, seen)` and `leave(viewer, seen)` for what has changed since the last. */
+  update(enter, leave) {
+    const { began, ended } = this.#space.update();
+    Interest.#tell(ended, leave);
+    Interest.#tell(began, enter);
+  }
+
+  /** Whom a player sees, as of the last update. */
+  seenBy(player) {
+    return this.#space
+      .collisionsOf(window(player))
+      .map((id) => id >> 1)
+      .filter((seen) => seen !== player);
+  }
+
+  static #tell(pairs, tell) {
+    for (let k = 0; k < pairs.length; k += 2) {
+      const [a, b] = [pairs[k], pairs[k + 1]];
+      // One of the two is a window, which is odd. Everyone sees himself.
+      const [viewer, seen] = a & 1 ? [a >> 1, b >> 1] : [b >> 1, a >> 1];
+      if (viewer !== seen) tell(viewer, seen);
+    }
+  }
+}
