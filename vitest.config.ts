@@ -14,6 +14,7 @@ export default defineConfig({
     },
   },
   test: {
+    maxWorkers: '100%', // also where there are but two cores
     projects: [
       {
         extends: true,

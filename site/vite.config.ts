@@ -3,7 +3,7 @@
 // and SharedArrayBuffer exists.
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
-import { everyTechnique } from '../scripts/every-technique.mjs';
+import { kernelBeside } from './kernel-beside.ts';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 const headers = {
@@ -14,7 +14,7 @@ const headers = {
 export default defineConfig({
   root: path('.'),
   base: './',
-  plugins: [everyTechnique],
+  plugins: [kernelBeside],
   resolve: {
     alias: {
       'broadphase/ro': path('../src/ro/index.ts'),
@@ -24,7 +24,7 @@ export default defineConfig({
     },
   },
   define: { global: 'globalThis' }, // for box-intersect, which the page of the benchmark races
-  worker: { format: 'es', plugins: () => [everyTechnique] },
+  worker: { format: 'es', plugins: () => [kernelBeside] },
   build: {
     target: 'es2022',
     outDir: path('dist'),
