@@ -1,5 +1,6 @@
 // For the pages: the kernel with every technique, fetched as a file beside the scripts rather than inlined in them as
 // text, so that the browser compiles it as it comes. Whatever imports the library waits for it, by top-level await.
+// Not for workers: a message that comes while one of them waits is lost, since nobody listens yet.
 import { fileURLToPath } from 'node:url';
 import type { Plugin } from 'vite';
 

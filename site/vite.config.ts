@@ -3,6 +3,7 @@
 // and SharedArrayBuffer exists.
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
+import { everyTechnique } from '../scripts/every-technique.mjs';
 import { kernelBeside } from './kernel-beside.ts';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
@@ -24,7 +25,7 @@ export default defineConfig({
     },
   },
   define: { global: 'globalThis' }, // for box-intersect, which the page of the benchmark races
-  worker: { format: 'es', plugins: () => [kernelBeside] },
+  worker: { format: 'es', plugins: () => [everyTechnique] },
   build: {
     target: 'es2022',
     outDir: path('dist'),
