@@ -274,14 +274,19 @@ template <int D> class Incremental {
     u32 n = scene.count, many = smaller(n, watched), stride = n / many;
     f32* before = watched_.reserve(watched * width + padding);
     f64 moved = 0;
+    u32 movers = 0;
     bool known = watching_ == n;
     for (u32 k = 0; k < many; k++) {
       const f32* box = box_of(scene, k * stride);
-      if (known) moved += pace(box, before + k * width, 1);
+      f64 step = known ? pace(box, before + k * width, 1) : 0;
+      moved += step;
+      movers += step > 0;
       __builtin_memcpy(before + k * width, box, width * sizeof(f32));
     }
     watching_ = n;
-    return known && moved < quick * many;
+    // Where nearly all move and fill the caches there is nothing to be won, however slow they are.
+    bool crowded = n > cached_movers && movers * 2 > many;
+    return known && moved < quick * many && !crowded;
   }
 
   /// How far a box moved in an update, as a share of its size, at most 1.
