@@ -14,8 +14,8 @@ class Changes {
   /// Room for that many slots; nothing is lost where memory ends.
   void make_room(u64 slots) {
     if (slots <= u64(words_) * 32) return;
-    list_.grow(slots + 1, count_);  // one more: a slot that is known already is written and not counted
     u64 words = (slots + 31) / 32;
+    list_.grow(words * 32 + 1, count_);  // one more: a slot that is known already is written and not counted
     bits_.grow(words, words_);
     __builtin_memset(bits_.data() + words_, 0, (words - words_) * sizeof(u32));
     words_ = u32(words);
