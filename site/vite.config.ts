@@ -4,6 +4,7 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { everyTechnique } from '../scripts/every-technique.mjs';
+import { frame } from './frame.ts';
 import { kernelBeside } from './kernel-beside.ts';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
@@ -15,7 +16,7 @@ const headers = {
 export default defineConfig({
   root: path('.'),
   base: './',
-  plugins: [kernelBeside],
+  plugins: [frame, kernelBeside],
   resolve: {
     alias: {
       'broadphase/ro': path('../src/ro/index.ts'),
