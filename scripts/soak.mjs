@@ -30,7 +30,8 @@ const show = (totals) => {
   heaps.push(process.memoryUsage().heapUsed);
   const elapsed = ((performance.now() - started) / 3_600_000).toFixed(3);
   console.log(
-    `  ${elapsed} h: ${totals.updates} updates, ${totals.calls} calls, ${totals.restores} restores; ` +
+    `  ${elapsed} h: ${totals.updates} updates, ${totals.calls} calls, ${totals.restores} restores, ` +
+      `${totals.kept} answers from what was kept; ` +
       `wasm ${megabytes(totals.wasm)}, in use ${megabytes(totals.used)}, heap ${megabytes(heaps.at(-1))}`,
   );
 };

@@ -1,6 +1,7 @@
 // A server that runs for months, in hours: spaces that live on while boxes come, go, move, jump and change their
-// filters, techniques are switched, states are saved and gone back to. After each update the pairs are the model's,
-// every invariant holds, and memory is what it was.
+// filters, techniques are switched, states are saved and gone back to; then calm spells in which a few boxes creep, so
+// that techniques come to keep what they have found. After each update the pairs are the model's, every invariant holds,
+// and memory is what it was.
 import { BroadPhase } from 'broadphase';
 import { anyPlace, type Entry, Modelled, pairsOf } from '../model.ts';
 import { inBox } from '../query-reference.ts';
@@ -11,6 +12,8 @@ export interface Totals {
   calls: number;
   pairs: number;
   restores: number;
+  /** Updates that `auto` answered from what was kept. */
+  kept: number;
   /** Bytes of the kernels' memories: the most so far. */
   wasm: number;
   /** Bytes the kernels have handed out: the most so far. */
@@ -20,6 +23,9 @@ export interface Totals {
 const warmUp = 1000; // updates of each space, after which its memory is to be flat
 const slack = 2; // times: memory grows in steps, and the rarest of crowds may take one more
 const callsPerUpdate = 120;
+const spell = 250; // updates of a storm, and of the calm after it
+const callsPerCalmUpdate = 5;
+const keepers = ['auto', 'incremental', 'aabb-tree', 'retained-grid'] as const; // take turns in calm spells
 const { techniques } = BroadPhase;
 
 function fail(what: string): never {
@@ -29,14 +35,17 @@ function fail(what: string): never {
 class Subject {
   readonly #modelled: Modelled;
   readonly #options: ConstructorParameters<typeof BroadPhase>[0];
+  readonly #saves: boolean;
   #saved: { bytes: Uint8Array; entries: Map<number, Entry> } | undefined;
   updates = 0;
   /** Memory at the end of the warm-up. */
   #steady = 0;
 
+  /** One that saves has `auto` keep nothing, so the one without events does not. */
   constructor(dimensions: 2 | 3, events: boolean, seed: number) {
     this.#options = { dimensions, events };
-    this.#modelled = new Modelled(this.#options, seed, anyPlace, dimensions === 2 ? 300 : 90, 1000);
+    this.#saves = events;
+    this.#modelled = new Modelled(this.#options, seed, anyPlace, 300, 1000);
   }
 
   get #wasm(): number {
@@ -45,11 +54,19 @@ class Subject {
 
   round(totals: Totals): void {
     const { space, entries } = this.#modelled;
-    for (let k = 0; k < callsPerUpdate; k++) this.#churn();
-    const chance = this.#modelled.random();
-    if (chance < 0.1) this.#save();
-    else if (chance < 0.2) this.#restore(totals);
+    const calm = this.updates % (2 * spell) >= spell;
+    if (calm && this.updates % spell === 0)
+      space.technique = keepers[Math.floor(this.updates / (2 * spell)) % keepers.length]!;
+    const calls = calm ? callsPerCalmUpdate : callsPerUpdate;
+    for (let k = 0; k < calls; k++) {
+      if (calm) this.#creep();
+      else this.#churn();
+    }
+    const chance = this.#modelled.random() * (calm ? 20 : 1);
+    if (this.#saves && chance < 0.1) this.#save();
+    else if (this.#saves && chance < 0.2) this.#restore(totals);
     space.update().validate();
+    totals.kept += Number(space.technique === 'auto' && space.stats.technique === 'incremental');
     this.updates++;
     const found = keysOf(space.pairs);
     const expected = pairsOf(entries, space.dimensions);
@@ -62,7 +79,7 @@ class Subject {
     const answer = ask.call(space, ...low, ...high).sort((a, b) => a - b);
     if (answer.join() !== inBox(entries, box, {}).join()) fail("the answer is not the model's");
     totals.updates++;
-    totals.calls += callsPerUpdate;
+    totals.calls += calls;
     totals.pairs += space.pairCount;
     totals.wasm = Math.max(totals.wasm, this.#wasm);
     totals.used = Math.max(totals.used, space.stats.bytes);
@@ -87,6 +104,24 @@ class Subject {
     else modelled.clear();
   }
 
+  /** One call in calm spells: a box moves by a little of its size, now and then one comes, goes or jumps. */
+  #creep(): void {
+    const modelled = this.#modelled;
+    const id = modelled.id();
+    const known = modelled.entries.get(id);
+    const chance = modelled.random();
+    if (!known || chance < 0.02) modelled.set(id);
+    else if (chance < 0.03) modelled.delete(id);
+    else if (chance < 0.04) modelled.filter(id, 3, 0xffffffff);
+    else if (chance < 0.05) modelled.setStatic(id, modelled.random() < 0.6);
+    else {
+      const { dimensions } = modelled.space;
+      const steps = Array.from({ length: dimensions }, () => (modelled.integer(5) - 2) / 8);
+      const moved = known.box.map((x, k) => x + steps[k % dimensions]!);
+      modelled.set(id, moved);
+    }
+  }
+
   #save(): void {
     const entries = new Map([...this.#modelled.entries].map(([id, entry]) => [id, { ...entry }]));
     this.#saved = { bytes: this.#modelled.space.snapshot(), entries };
@@ -109,7 +144,7 @@ const bytesOf = (words: Uint32Array) => new Uint8Array(words.buffer, words.byteO
 
 /** Runs until `now() >= until`; calls `report` every so many milliseconds. */
 export function soak(seed: number, until: number, every: number, report: (totals: Totals) => void): Totals {
-  const totals: Totals = { updates: 0, calls: 0, pairs: 0, restores: 0, wasm: 0, used: 0 };
+  const totals: Totals = { updates: 0, calls: 0, pairs: 0, restores: 0, kept: 0, wasm: 0, used: 0 };
   const subjects = ([2, 3] as const).flatMap((dimensions) =>
     [false, true].map((events, k) => new Subject(dimensions, events, seed + dimensions * 10 + k)),
   );
