@@ -20,7 +20,7 @@ const stacked = (dimensions: 2 | 3, count: number) =>
 
 describe.each(combinations)('%s in %d dimensions', (technique, dimensions) => {
   test('finds the wanted pairs after any sequence of calls', () => {
-    for (let seed = 1; seed <= 4; seed++) {
+    for (let seed = 1; seed <= 2; seed++) {
       const model = new Modelled({ technique, dimensions }, seed);
       for (let call = 1; call <= 800; call++) {
         model.step();

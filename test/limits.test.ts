@@ -2,7 +2,7 @@
 // on with fewer boxes; a view that growing memory has cut off is never written to unnoticed.
 import { readFileSync } from 'node:fs';
 import { BroadPhase, init } from 'broadphase';
-import { beforeAll, describe, expect, test } from 'vitest';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
 const mebibyte = 2 ** 20;
 const kernel = readFileSync(new URL('../build/kernel.wasm', import.meta.url));
@@ -39,6 +39,9 @@ const identical = (count: number, dimensions: number) =>
 const combinations = BroadPhase.techniques.flatMap((technique) =>
   ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
 );
+
+// Files that run after this one in the same process get the kernel as it is.
+afterAll(() => init(kernel));
 
 describe('with 64 MiB of memory', () => {
   beforeAll(() => init(kernelWith(64 * mebibyte)));

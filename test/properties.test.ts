@@ -4,7 +4,7 @@
 import { BroadPhase } from 'broadphase';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { expectKeys } from './expect-pairs.ts';
+import { expectKeys, expectSameWords } from './expect-pairs.ts';
 import { referencePairs } from './reference.ts';
 import { setBox } from './set-box.ts';
 
@@ -126,6 +126,12 @@ function aCall(dimensions: 2 | 3): fc.Arbitrary<Call> {
   );
 }
 
+/** Whether a space gives a box back as it was given, minus zero included. */
+function holds(space: BroadPhase, id: number, box: readonly number[]): boolean {
+  const held = space.get(id);
+  return held !== undefined && box.every((value, k) => Object.is(held[k], value));
+}
+
 const combinations = BroadPhase.techniques.flatMap((technique) =>
   ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
 );
@@ -140,9 +146,9 @@ describe(`any sequence of calls (SEED=${seed})`, () => {
         const ids = [...model.keys()];
         const [space, twin] = spaces.map((each) => each.update());
         expect(space.size).toBe(model.size);
-        for (const id of ids) expect(Array.from(space.get(id)!)).toEqual(model.get(id));
+        expect(ids.filter((id) => !holds(space, id, model.get(id)!))).toEqual([]);
         expectKeys(space, referencePairs([...model.values()].flat(), dimensions, ids));
-        expect(twin.pairs).toEqual(space.pairs);
+        expectSameWords(twin.pairs, space.pairs, 'the twin');
         space.validate();
       };
       for (const each of calls) each.run(spaces, model, check);
