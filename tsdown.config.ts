@@ -2,6 +2,8 @@
 // Entries are built apart, so that who imports the library alone gets one file; to each other they are external.
 // There are two of the library, which differ in the kernel: the lean one, and `all`, with every technique. The others
 // use that one. Types are those of the lean one for both, so that a space of either can be passed on.
+// script/ is the lean one for a plain <script> tag, where it is the global `broadphase`, and for `require` where that
+// cannot load modules. CDNs send .cjs as something browsers do not run, so it is a .js file, in a folder of scripts.
 import { defineConfig, type UserConfig } from 'tsdown';
 import { everyTechnique } from './scripts/every-technique.mjs';
 
@@ -14,9 +16,28 @@ const beside = (library: string): UserConfig => {
   return { deps: { neverBundle: Object.keys(entries) }, outputOptions: { paths: entries } };
 };
 
+const folderOfScripts: UserConfig['plugins'] = {
+  name: 'folder-of-scripts',
+  generateBundle() {
+    const files = { 'package.json': '{ "type": "commonjs" }\n', 'broadphase.d.ts': "export * from '../index.js';\n" };
+    for (const [fileName, source] of Object.entries(files)) this.emitFile({ type: 'asset', fileName, source });
+  },
+};
+
 export default defineConfig([
   { ...common, dts: true, clean: true, entry: { index: 'src/index.ts' }, copy: ['build/kernel.wasm'] },
   { ...common, dts: false, entry: { all: 'src/index.ts' }, plugins: [everyTechnique] },
+  {
+    ...common,
+    dts: false,
+    entry: 'src/index.ts',
+    format: 'umd',
+    globalName: 'broadphase',
+    minify: true,
+    outDir: 'dist/script',
+    outputOptions: { entryFileNames: 'broadphase.js' },
+    plugins: [folderOfScripts],
+  },
   ...['trace', 'ro'].flatMap((name): UserConfig[] => [
     { ...common, ...beside('./all.js'), dts: false, entry: { [name]: `src/${name}/index.ts` } },
     { ...types, ...beside('./index.js'), entry: { [name]: `src/${name}/index.ts` } },

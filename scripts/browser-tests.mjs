@@ -1,18 +1,7 @@
 // Runs the browser tests in the Chromium of this machine. Where there is none, says so: that is a failure in CI only.
 import { spawnSync } from 'node:child_process';
-import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-
-const places = [
-  process.env.CHROMIUM,
-  '/usr/bin/chromium',
-  '/usr/bin/chromium-browser',
-  '/usr/bin/google-chrome',
-  '/Applications/Chromium.app/Contents/MacOS/Chromium',
-  '/Applications/Google Chrome.app/Contents/MacOS/Google Chrome',
-  'C:\\Program Files\\Google\\Chrome\\Application\\chrome.exe',
-];
-const chromium = places.find((place) => place && existsSync(place));
+import { chromium } from './chromium.mjs';
 
 if (chromium) {
   const playwright = fileURLToPath(import.meta.resolve('@playwright/test/cli'));
