@@ -317,12 +317,16 @@ function describeFrames(frames: readonly Frame[], dimensions: 2 | 3): Tuned['fra
   });
 }
 
-function codeOf({ technique, cellSize, margin }: Candidate, dimensions: 2 | 3): string {
+/** The techniques of `import 'broadphase'`; for the others the code to paste imports from 'broadphase/all'. */
+const lean: readonly TechniqueName[] = ['auto', 'brute-force', 'strip-sweep', 'incremental'];
+
+export function codeOf({ technique, cellSize, margin }: Candidate, dimensions: 2 | 3): string {
   const options = [
     dimensions === 3 ? 'dimensions: 3' : '',
     technique === 'auto' ? '' : `technique: '${technique}'`,
     cellSize === undefined ? '' : `cellSize: ${cellSize}`,
     margin === undefined ? '' : `margin: ${margin}`,
   ].filter(Boolean);
-  return `const space = new BroadPhase(${options.length > 0 ? `{ ${options.join(', ')} }` : ''});`;
+  const space = `const space = new BroadPhase(${options.length > 0 ? `{ ${options.join(', ')} }` : ''});`;
+  return `import { BroadPhase } from 'broadphase${lean.includes(technique) ? '' : '/all'}';\n\n${space}`;
 }

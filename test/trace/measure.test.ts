@@ -3,6 +3,8 @@
 import { BroadPhase } from 'broadphase';
 import { compare, type Frame, type FrameSource, replay, tune } from 'broadphase/trace';
 import { afterEach, beforeEach, expect, test } from 'vitest';
+import { lean } from '../../scripts/compile.mjs';
+import { codeOf } from '../../src/trace/tune.ts';
 
 const { update } = BroadPhase.prototype;
 /** What the updates of each space saw: the frame, which box 0 tells by where it is, or -1 where it was empty. */
@@ -59,4 +61,12 @@ test('the first frame, which starts from nothing, does not count where others do
   expect(frames.map(({ index }) => index)).toEqual([1, 2, 3]);
   expect(best.times).toHaveLength(3);
   expect(tune(moving(1), { seconds: 0 }).frames).toHaveLength(1);
+});
+
+test.each(BroadPhase.techniques)('code to paste for %s imports the build that has it', (technique) => {
+  const code = codeOf({ technique }, 2);
+  const library = lean.includes(technique) ? 'broadphase' : 'broadphase/all';
+  expect(code).toMatch(
+    new RegExp(`^import \\{ BroadPhase \\} from '${library}';\\n\\nconst space = new BroadPhase\\(`),
+  );
 });
