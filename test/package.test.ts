@@ -17,6 +17,6 @@ test('nothing runs when the package is installed', () => {
   }
 });
 
-test('only what was built is published', () => {
-  expect(manifest.files).toEqual(['dist']);
+test('only what was built is published, and what changed', () => {
+  expect(manifest.files).toEqual(['dist', 'CHANGELOG.md']);
 });
