@@ -32,6 +32,6 @@ export default defineConfig({
   webServer: {
     command: `npx vite build site --logLevel warn && npx vite preview site --port ${port} --strictPort`,
     url: `http://localhost:${port}/`,
-    timeout: 120_000,
+    timeout: 240_000,
   },
 });

@@ -4,10 +4,18 @@
 import type { Plugin } from 'vite';
 
 /** Where one can go, by folder, in this order. */
-const sections = { article: 'Article', lab: 'Lab', questions: 'Questions', bench: 'Benchmark' };
+const sections = {
+  article: 'Article',
+  lab: 'Lab',
+  questions: 'Questions',
+  bench: 'Benchmark',
+  guides: 'Guides',
+  api: 'API',
+  examples: 'Examples',
+};
 
 /** From a page, given by its path from the root of the site, back to that root. */
-const rootFrom = (path: string) => '../'.repeat(path.split('/').length - 1) || './';
+export const rootFrom = (path: string) => '../'.repeat(path.split('/').length - 1) || './';
 
 export function head(path: string): string {
   const root = rootFrom(path);

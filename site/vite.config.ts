@@ -4,6 +4,8 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { everyTechnique } from '../scripts/every-technique.mjs';
+import { api } from './api.ts';
+import { documents } from './documents.ts';
 import { frame } from './frame.ts';
 import { kernelBeside } from './kernel-beside.ts';
 
@@ -16,7 +18,7 @@ const headers = {
 export default defineConfig({
   root: path('.'),
   base: './',
-  plugins: [frame, kernelBeside],
+  plugins: [api, documents, frame, kernelBeside],
   resolve: {
     alias: {
       'broadphase/ro': path('../src/ro/index.ts'),

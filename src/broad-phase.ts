@@ -108,15 +108,26 @@ export let splitColours: (space: BroadPhase, red: number) => void;
  * Boxes are closed: touching boxes overlap. Boxes of zero size are points, infinite ones are half planes; both
  * are legal. The pairs are exactly those of the numbers given, doubles included, whatever the technique.
  *
+ * Questions (`queryBox` to `nearest`, `isColliding`, `collisionsOf`) are answered by what the last update saw: boxes
+ * that were set, moved or deleted since then make no difference until the next, and before the first update there is
+ * nothing. (A space that is never asked keeps no copy of its boxes; so the very first question, if boxes changed after
+ * the update before it, sees them as they are now.) All is decided in double precision. The options are read at each
+ * call; to make no garbage, keep and reuse them with an `out` in them, whose answers stay about as many. All questions
+ * throw RangeError for NaN, a minimum above its maximum, infinite points, ways and directions, negative distances, and
+ * masks and ids out of range; TypeError for other than numbers and for a wrong number of them.
+ *
  * @example
  * const space = new BroadPhase();
  * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
- * space.pairs; // Uint32Array [7, 9]
+ * space.pairs; // → Uint32Array [7, 9]
  */
 export class BroadPhase extends Queries {
   /**
    * The names of the techniques there are, in order: with `import 'broadphase'` the few that games need, with
    * `import 'broadphase/all'`, or after `init` with `broadphase/kernel.wasm`, every one.
+   *
+   * @example
+   * BroadPhase.techniques.includes('auto'); // → true
    */
   static get techniques(): readonly TechniqueName[] {
     return techniques.filter((_, k) => isBuilt(k));
@@ -144,8 +155,14 @@ export class BroadPhase extends Queries {
   #watcher: Watcher | undefined;
 
   /**
+   * An empty space. Ready at once: nothing has to be awaited.
+   *
    * @throws RangeError or TypeError that names the option
    * @throws Error where WebAssembly with SIMD is missing or forbidden
+   *
+   * @example
+   * new BroadPhase({ dimensions: 3, events: true }).dimensions; // → 3
+   * new BroadPhase({ capacity: -1 }); // throws RangeError: capacity: got -1, expected an integer from 0 to 16777216
    */
   constructor(options: BroadPhaseOptions = {}) {
     if (typeof options !== 'object' || options === null) {
@@ -198,12 +215,26 @@ export class BroadPhase extends Queries {
 
   /**
    * Adds box `id`, or moves it: 2D `set(id, minX, minY, maxX, maxY)`, 3D `set(id, minX, minY, minZ, maxX, maxY, maxZ)`.
+   * Chainable.
    *
    * @param id an integer from 0 to 2^24 - 1; ids near 0 without gaps are best
    * @throws RangeError for a bad id, for NaN, and for a minimum above its maximum; TypeError for other than
    *   numbers and for a wrong number of them. The space is as before.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 10, 10).set(7, 1, 0, 11, 10);
+   * space.size; // → 1
+   * space.set(7, Number.NaN, 0, 1, 1); // throws RangeError: set: minX of box 7 is NaN, expected a number
    */
   set(id: number, minX: number, minY: number, maxX: number, maxY: number): this;
+  /**
+   * Adds box `id`, or moves it, in 3D.
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 0, 1, 1, 1).get(7); // → Float64Array [0, 0, 0, 1, 1, 1]
+   */
   set(id: number, minX: number, minY: number, minZ: number, maxX: number, maxY: number, maxZ: number): this;
   set(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
     // Short enough for engines to inline, since a call boxes its doubles, and boxes are garbage.
@@ -246,9 +277,21 @@ export class BroadPhase extends Queries {
    * @throws as `set` does. The space is as before.
    *
    * @example
-   * space.setSwept(bullet, x, y, x + 1, y + 1, velocityX * dt, velocityY * dt).update();
+   * const space = new BroadPhase();
+   * const bullet = 1, wall = 7;
+   * space.set(wall, 21, -5, 22, 5);
+   * space.setSwept(bullet, 0, 0, 1, 1, 40, 0).update(); // it moves 40 to the right
+   * space.pairs; // → Uint32Array [1, 7]
+   * space.sweep(0, 0, 1, 1, 40, 0, { ignore: bullet })?.time; // → 0.5
    */
   setSwept(id: number, minX: number, minY: number, maxX: number, maxY: number, dx: number, dy: number): this;
+  /**
+   * Adds or moves box `id` for swept tests, in 3D.
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.setSwept(1, 0, 0, 0, 1, 1, 1, 0, 0, 40).get(1); // → Float64Array [0, 0, 0, 1, 1, 41]
+   */
   setSwept(
     id: number,
     minX: number,
@@ -312,6 +355,11 @@ export class BroadPhase extends Queries {
    * @param count how many boxes to take; default: all there are
    * @throws RangeError that names the first bad id and its value, or a length that does not fit; TypeError for
    *   other than an array of numbers. The space is as before.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.setAll([0, 0, 10, 10, 5, 5, 15, 15]).update();
+   * space.pairs; // → Uint32Array [0, 1]
    */
   setAll(boxes: Boxes, count?: number): this {
     const width = this.width;
@@ -350,6 +398,17 @@ export class BroadPhase extends Queries {
    *
    * @param count how many boxes, 0 … 2^24
    * @throws RangeError for a bad count
+   *
+   * @example
+   * const space = new BroadPhase();
+   * const boxes = space.boxes(1000);
+   * for (let id = 0; id < 1000; id++) {
+   *   boxes[4 * id] = id; // minX
+   *   boxes[4 * id + 1] = 0; // minY
+   *   boxes[4 * id + 2] = id + 1; // maxX: it touches the next one
+   *   boxes[4 * id + 3] = 1; // maxY
+   * }
+   * space.update().pairCount; // → 999
    */
   boxes(count: number): Float32Array {
     checkBoxCount('boxes: count', count);
@@ -372,6 +431,12 @@ export class BroadPhase extends Queries {
    * Takes box `id` away.
    * @returns whether there was one
    * @throws RangeError for a bad id
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 1, 1);
+   * space.delete(7); // → true
+   * space.delete(7); // → false
    */
   delete(id: number): boolean {
     if (id >>> 0 !== id || id > maxId) badId('delete', id);
@@ -386,6 +451,9 @@ export class BroadPhase extends Queries {
   /**
    * Whether there is a box `id`.
    * @throws RangeError for a bad id
+   *
+   * @example
+   * new BroadPhase().has(7); // → false
    */
   has(id: number): boolean {
     if (id >>> 0 !== id || id > maxId) badId('has', id);
@@ -394,10 +462,22 @@ export class BroadPhase extends Queries {
 
   /**
    * The numbers box `id` was given with, or `undefined` where there is none.
-   * @param out filled and returned, if given; else a new Float64Array
    * @throws RangeError for a bad id
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 10, 10).get(7); // → Float64Array [0, 0, 10, 10]
    */
   get(id: number): Float64Array | undefined;
+  /**
+   * The same without garbage.
+   * @param out filled and returned
+   *
+   * @example
+   * const space = new BroadPhase();
+   * const box = [0, 0, 0, 0];
+   * space.set(7, 0, 0, 10, 10).get(7, box); // → [0, 0, 10, 10]
+   */
   get<Out extends Float32Array | Float64Array | number[]>(id: number, out: Out): Out | undefined;
   get(id: number, out: Float32Array | Float64Array | number[] = new Float64Array(this.width)) {
     if (id >>> 0 !== id || id > maxId) badId('get', id);
@@ -418,8 +498,13 @@ export class BroadPhase extends Queries {
    * @throws RangeError for a bad id or one that has no box, and for other than 32 bits; TypeError for other than numbers
    *
    * @example
+   * const space = new BroadPhase();
    * const player = 1, enemy = 2, bullet = 4;
-   * space.setFilter(7, bullet, enemy); // bullets meet enemies, but neither players nor bullets
+   * for (const id of [0, 1, 2]) space.set(id, 0, 0, 1, 1);
+   * space.setFilter(0, player, enemy);
+   * space.setFilter(1, enemy, player | bullet);
+   * space.setFilter(2, bullet, enemy); // bullets meet enemies, but neither players nor bullets
+   * space.update().pairs; // → Uint32Array [0, 1, 1, 2]
    */
   setFilter(id: number, layer: number, mask: number): this {
     if (id >>> 0 !== id || id > maxId) badId('setFilter', id);
@@ -438,6 +523,12 @@ export class BroadPhase extends Queries {
    * to the id, as filters do.
    *
    * @throws RangeError for a bad id or one that has no box; TypeError for other than a boolean
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(0, 0, 0, 9, 1).setStatic(0).set(1, 8, 0, 9, 9).setStatic(1); // two walls
+   * space.set(2, 8, 0, 9, 1); // and a ball
+   * space.update().pairCount; // → 2
    */
   setStatic(id: number, isStatic = true): this {
     if (id >>> 0 !== id || id > maxId) badId('setStatic', id);
@@ -450,7 +541,14 @@ export class BroadPhase extends Queries {
     return this;
   }
 
-  /** Takes all boxes away. */
+  /**
+   * Takes all boxes away, with their filters.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 1, 1).clear();
+   * space.size; // → 0
+   */
   clear(): void {
     this.kernel.clear();
     this.#view = undefined;
@@ -461,6 +559,12 @@ export class BroadPhase extends Queries {
    * @throws RangeError that names the first bad box written through `boxes()`; the pairs stay as they were
    * @throws Error where the array that `boxes()` gave has been cut off by growing memory and not been asked for again
    * @throws RangeError where memory ends: the pairs are empty, and the space works again once there are fewer
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15);
+   * space.pairCount; // → 0
+   * space.update().pairCount; // → 1
    */
   update(): this {
     if (this.#view !== undefined && this.#view.buffer !== this.kernel.memory.buffer) {
@@ -489,12 +593,23 @@ export class BroadPhase extends Queries {
    * Each overlapping pair of ids once, `[a0, b0, a1, b1, …]` with a < b, as of the last update. The order
    * depends only on the calls made. A view of the kernel's memory: valid until the next `update()`, or until adding
    * boxes makes memory grow.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * const { pairs } = space.setAll([0, 0, 10, 10, 5, 5, 15, 15]).update();
+   * for (let k = 0; k < pairs.length; k += 2) console.assert(pairs[k] < pairs[k + 1]);
+   * pairs; // → Uint32Array [0, 1]
    */
   get pairs(): Uint32Array {
     return this.pairView(this.#pairViews, this.kernel.pairs_address(), this.kernel.pair_count());
   }
 
-  /** The number of pairs as of the last update. */
+  /**
+   * The number of pairs as of the last update: half the length of `pairs`.
+   *
+   * @example
+   * new BroadPhase().setAll([0, 0, 10, 10, 5, 5, 15, 15]).update().pairCount; // → 1
+   */
   get pairCount(): number {
     return this.kernel.pair_count();
   }
@@ -507,6 +622,12 @@ export class BroadPhase extends Queries {
    * and overlaps again: it is another box. Boxes that `setAll`, `boxes` and `clear` take away were deleted.
    *
    * @throws Error without `events: true`
+   *
+   * @example
+   * const space = new BroadPhase({ events: true });
+   * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15);
+   * space.update().began; // → Uint32Array [7, 9]
+   * space.update().began; // → Uint32Array []
    */
   get began(): Uint32Array {
     if (!this.#events) noEvents('began');
@@ -518,21 +639,44 @@ export class BroadPhase extends Queries {
    * {@link BroadPhase.began}. In the order that they had in `pairs`.
    *
    * @throws Error without `events: true`
+   *
+   * @example
+   * const space = new BroadPhase({ events: true });
+   * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
+   * space.delete(9);
+   * space.update().ended; // → Uint32Array [7, 9]
    */
   get ended(): Uint32Array {
     if (!this.#events) noEvents('ended');
     return this.pairView(this.#endedViews, this.kernel.ended_address(), this.kernel.ended_count());
   }
 
-  /** Counters of the last update: the same object every time. */
+  /**
+   * Counters of the last update: the same object every time.
+   *
+   * @example
+   * const { stats } = new BroadPhase().setAll([0, 0, 10, 10, 5, 5, 15, 15]).update();
+   * stats.technique; // → 'brute-force'
+   * stats.reason; // → 'a handful of boxes'
+   */
   get stats(): Readonly<Stats> {
     return this.#stats;
   }
 
-  /** The technique, which may be changed at any time: the pairs stay the same. */
+  /**
+   * The technique, which may be changed at any time: the pairs stay the same.
+   *
+   * @throws RangeError or TypeError for what is not the name of one that this build has
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.technique = 'strip-sweep';
+   * space.update().stats.technique; // → 'strip-sweep'
+   */
   get technique(): TechniqueName {
     return this.#technique;
   }
+  /** Takes effect with the next update. */
   set technique(name: TechniqueName) {
     checkTechnique(name);
     this.#technique = name;
@@ -542,6 +686,11 @@ export class BroadPhase extends Queries {
   /**
    * The boxes of the cells, strips or nodes that the last update used, to draw: interleaved like `setAll`'s. A
    * view of the kernel's memory: valid until the next call.
+   *
+   * @example
+   * const space = new BroadPhase({ technique: 'strip-sweep' });
+   * const cells = space.setAll([0, 0, 10, 10, 5, 5, 15, 15]).update().structure();
+   * cells.length % 4; // → 0
    */
   structure(): Float32Array {
     try {
@@ -565,9 +714,12 @@ export class BroadPhase extends Queries {
    * @throws RangeError that names the first bad box written through `boxes()`
    *
    * @example
-   * const saved = space.snapshot();
-   * // … some frames later the network says that one of them was wrong:
-   * space.restore(saved); // and play them again
+   * const space = new BroadPhase();
+   * const saved = space.set(7, 0, 0, 10, 10).update().snapshot();
+   * space.set(7, 3, 0, 13, 10).update();
+   * // the network says that this frame was wrong:
+   * space.restore(saved); // and play it again
+   * space.get(7); // → Float64Array [0, 0, 10, 10]
    */
   snapshot(): Uint8Array<ArrayBuffer> {
     let bad = -1;
@@ -595,6 +747,10 @@ export class BroadPhase extends Queries {
    * @param bytes what `snapshot` gave, in this version of the library or an older one
    * @throws RangeError that says why for bytes that are damaged, cut off, of other dimensions, or no snapshot at all;
    *   TypeError for other than bytes. The space is as before.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.restore(new Uint8Array(100)); // throws RangeError: restore:
    */
   restore(bytes: Uint8Array | ArrayBuffer): this {
     const source = bytesOf(bytes);
@@ -623,6 +779,9 @@ export class BroadPhase extends Queries {
   /**
    * Checks every invariant of the space, in time proportional to boxes and pairs.
    * @throws Error that says what is broken, which would be a fault of this library
+   *
+   * @example
+   * new BroadPhase().set(7, 0, 0, 1, 1).validate().size; // → 1
    */
   validate(): this {
     const code = this.kernel.validate();
@@ -630,7 +789,14 @@ export class BroadPhase extends Queries {
     return this;
   }
 
-  /** Lets go of the memory at once; it also goes with the object. Any call after this throws. */
+  /**
+   * Lets go of the memory at once; it also goes with the object. Any call after this throws.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.dispose();
+   * space.update(); // throws Error: this BroadPhase was disposed
+   */
   override dispose(): void {
     super.dispose();
     this.#pairViews.length = this.#beganViews.length = this.#endedViews.length = 0;

@@ -6,10 +6,12 @@ import { type Boxes, BroadPhase, type BroadPhaseOptions, checkBoxes, countBoxes,
  * For boxes that move, a {@link BroadPhase} that is kept is faster.
  *
  * @param boxes interleaved: minX, minY, maxX, maxY (3D: minX, minY, minZ, maxX, maxY, maxZ), box after box
+ * @param options those of {@link BroadPhase}: `dimensions: 3` for boxes of six numbers
+ * @returns an array of its own, which stays
  * @throws RangeError or TypeError that names the first bad box or option
  *
  * @example
- * findPairs([0, 0, 10, 10, 5, 5, 15, 15]); // Uint32Array [0, 1]
+ * findPairs([0, 0, 10, 10, 5, 5, 15, 15]); // → Uint32Array [0, 1]
  */
 export function findPairs(boxes: Boxes, options?: BroadPhaseOptions): Uint32Array {
   return new BroadPhase(options).setAll(boxes).update().pairs.slice();
@@ -20,10 +22,14 @@ export function findPairs(boxes: Boxes, options?: BroadPhaseOptions): Uint32Arra
  *
  * @param red interleaved boxes, as for {@link findPairs}
  * @param blue the same; the two together at most 2^24 boxes
+ * @param options those of {@link BroadPhase}: `dimensions: 3` for boxes of six numbers
+ * @returns an array of its own, which stays
  * @throws RangeError or TypeError that names the first bad box (blue ones are counted on from the red) or option
  *
  * @example
- * findPairsBetween([0, 0, 10, 10], [5, 5, 15, 15, 20, 20, 30, 30]); // Uint32Array [0, 0]
+ * const players = [0, 0, 10, 10];
+ * const coins = [5, 5, 15, 15, 20, 20, 30, 30];
+ * findPairsBetween(players, coins); // → Uint32Array [0, 0]
  */
 export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOptions): Uint32Array {
   const space = new BroadPhase(options);

@@ -1,4 +1,9 @@
-// What `import 'broadphase'` gives.
+/**
+ * The library: boxes in, overlapping pairs out, and questions between. `broadphase/all` has the same API and every
+ * technique. Numbers are in whatever units the boxes are given in; ids are integers from 0 to 2^24 - 1.
+ *
+ * @module broadphase
+ */
 export {
   type Boxes,
   BroadPhase,

@@ -65,8 +65,13 @@ let techniques = 0;
  * compiled synchronously from inlined bytes, which is nearly everywhere; meant for pages with a strict content
  * security policy and for hosts that load modules their own way. `broadphase/kernel.wasm` has every technique.
  *
+ * In a page: `init(await WebAssembly.compileStreaming(fetch(address)))`.
+ *
  * @param source the bytes of `broadphase/kernel.wasm`, or a module compiled from them
- * @throws TypeError where it is neither
+ * @throws TypeError where it is neither; Error where the bytes cannot be compiled
+ *
+ * @example
+ * init('kernel.wasm' as never); // throws TypeError: init: got kernel.wasm, expected a WebAssembly.Module
  */
 export function init(source: WebAssembly.Module | BufferSource): void {
   if (source instanceof WebAssembly.Module) module = source;

@@ -75,6 +75,12 @@ export abstract class Queries extends Space {
   /**
    * Whether boxes `a` and `b` are a pair of the last update: constant time after the first question.
    * @throws RangeError for a bad id
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
+   * space.isColliding(9, 7); // → true
+   * space.isColliding(7, 8); // → false
    */
   isColliding(a: number, b: number): boolean {
     if (a >>> 0 !== a || a > maxId) badId('isColliding', a);
@@ -92,6 +98,11 @@ export abstract class Queries extends Space {
    *
    * @param out filled and returned, if given; else a new array
    * @throws RangeError for a bad id; TypeError where `out` is no array
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(1, 0, 0, 10, 10).set(2, 5, 5, 15, 15).set(3, 9, 0, 12, 4).update();
+   * space.collisionsOf(1).sort(); // → [2, 3]
    */
   collisionsOf(id: number, out: number[] = []): number[] {
     if (id >>> 0 !== id || id > maxId) badId('collisionsOf', id);
@@ -105,13 +116,29 @@ export abstract class Queries extends Space {
 
   /**
    * The ids of the boxes that overlap or touch a box, which may be infinite: in no particular order, but the same one
-   * for the same boxes.
+   * for the same boxes. 2D: `queryBox(minX, minY, maxX, maxY, options?)`.
+   *
+   * @throws as all questions do: see {@link BroadPhase}
    *
    * @example
-   * space.queryBox(0, 0, 10, 10); // [7, 9]
-   * space.queryBox(0, 0, 10, 10, { mask: enemies, visit: (id) => damage(id) });
+   * const space = new BroadPhase();
+   * const enemy = 2;
+   * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).setFilter(7, 1, 3).setFilter(9, enemy, 3).update();
+   * space.queryBox(8, 8, 12, 12).sort(); // → [7, 9]
+   * space.queryBox(8, 8, 12, 12, { mask: enemy }); // → [9]
+   * let hurt = 0;
+   * space.queryBox(8, 8, 12, 12, { visit: () => hurt++ }); // → []
+   * hurt; // → 2
    */
   queryBox(minX: number, minY: number, maxX: number, maxY: number, options?: IdsOptions): number[];
+  /**
+   * The ids of the boxes that overlap or touch a box. 3D: `queryBox(minX, minY, minZ, maxX, maxY, maxZ, options?)`.
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 0, 1, 1, 1).update();
+   * space.queryBox(1, 1, 1, 2, 2, 2); // → [7]
+   */
   queryBox(
     minX: number,
     minY: number,
@@ -144,8 +171,23 @@ export abstract class Queries extends Space {
     return this.#area('queryBox', options);
   }
 
-  /** The ids of the boxes that hold a point or touch it: as {@link Queries.queryBox}. */
+  /**
+   * The ids of the boxes that hold a point or touch it: as {@link BroadPhase.queryBox}. 2D: `queryPoint(x, y, options?)`.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 10, 10).update();
+   * space.queryPoint(10, 3); // → [7]
+   */
   queryPoint(x: number, y: number, options?: IdsOptions): number[];
+  /**
+   * The ids of the boxes that hold a point or touch it. 3D: `queryPoint(x, y, z, options?)`.
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 0, 1, 1, 1).update();
+   * space.queryPoint(0.5, 0.5, 2); // → []
+   */
   queryPoint(x: number, y: number, z: number, options?: IdsOptions): number[];
   queryPoint(x: number, y: number, z?: unknown, options?: IdsOptions): number[] {
     options = this.#point('queryPoint', x, y, z, options);
@@ -154,8 +196,14 @@ export abstract class Queries extends Space {
   }
 
   /**
-   * 2D: the ids of the boxes that a circle overlaps or touches: as {@link Queries.queryBox}.
+   * 2D: the ids of the boxes that a circle overlaps or touches: as {@link BroadPhase.queryBox}.
    * @param radius at least 0
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 10, 10).update();
+   * space.queryCircle(13, 14, 5); // → [7]
+   * space.queryCircle(14, 14, 5); // → []
    */
   queryCircle(x: number, y: number, radius: number, options?: IdsOptions): number[] {
     if (this.width !== 4) wrongShape('queryCircle', this.dimensions, 'querySphere');
@@ -165,8 +213,13 @@ export abstract class Queries extends Space {
   }
 
   /**
-   * 3D: the ids of the boxes that a sphere overlaps or touches: as {@link Queries.queryBox}.
+   * 3D: the ids of the boxes that a sphere overlaps or touches: as {@link BroadPhase.queryBox}.
    * @param radius at least 0
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 0, 1, 1, 1).update();
+   * space.querySphere(2, 0.5, 0.5, 1); // → [7]
    */
   querySphere(x: number, y: number, z: number, radius: number, options?: IdsOptions): number[] {
     if (this.width !== 6) wrongShape('querySphere', this.dimensions, 'queryCircle');
@@ -177,13 +230,25 @@ export abstract class Queries extends Space {
 
   /**
    * The first box that a ray meets, or `undefined`: of several at the same distance the one of the smallest id.
-   * The direction may have any length; where it has none the ray is a point.
+   * The direction may have any length; where it has none the ray is a point. 2D: `rayCast(x, y, directionX,
+   * directionY, options?)`.
    *
    * @example
-   * const hit = space.rayCast(0, 0, 1, 0, { maxDistance: 100, ignore: me });
-   * if (hit) console.log(hit.id, hit.distance, hit.normal);
+   * const space = new BroadPhase();
+   * const me = 1;
+   * space.set(me, -1, -1, 1, 1).set(7, 10, -5, 20, 5).update();
+   * space.rayCast(0, 0, 1, 0, { ignore: me }); // → { id: 7, distance: 10, normal: [-1, 0] }
+   * space.rayCast(0, 0, 1, 0, { ignore: me, maxDistance: 9 }); // → undefined
    */
   rayCast(x: number, y: number, directionX: number, directionY: number, options?: RayOptions): RayHit | undefined;
+  /**
+   * The first box that a ray meets, or `undefined`. 3D: `rayCast(x, y, z, directionX, directionY, directionZ, options?)`.
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 10, 1, 1, 11).update();
+   * space.rayCast(0.5, 0.5, 0, 0, 0, 1)?.distance; // → 10
+   */
   rayCast(
     x: number,
     y: number,
@@ -201,8 +266,24 @@ export abstract class Queries extends Space {
     return hit;
   }
 
-  /** All boxes that a ray meets, by distance and then by id: as {@link Queries.rayCast}. */
+  /**
+   * All boxes that a ray meets, by distance and then by id: as {@link BroadPhase.rayCast}.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 10, -5, 20, 5).set(9, 30, -5, 40, 5).update();
+   * space.rayCastAll(0, 0, 1, 0).map((hit) => hit.id); // → [7, 9]
+   */
   rayCastAll(x: number, y: number, directionX: number, directionY: number, options?: RayAllOptions): RayHit[];
+  /**
+   * All boxes that a ray meets, by distance and then by id. 3D: `rayCastAll(x, y, z, directionX, directionY,
+   * directionZ, options?)`.
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 10, 1, 1, 11).update();
+   * space.rayCastAll(0.5, 0.5, 0, 0, 0, 1, { maxDistance: 5 }); // → []
+   */
   rayCastAll(
     x: number,
     y: number,
@@ -233,13 +314,15 @@ export abstract class Queries extends Space {
   /**
    * The first box that a moving box meets, or `undefined`: the swept test for what is too fast to be looked at from
    * frame to frame. Of several met at the same time the one of the smallest id. A box that is in the space meets
-   * itself: name it in `ignore`.
+   * itself: name it in `ignore`. 2D: `sweep(minX, minY, maxX, maxY, dx, dy, options?)`.
    *
    * @param dx how far it moves along the first axis, and so on
    *
    * @example
-   * const hit = space.sweep(0, 0, 1, 1, 40, 0, { ignore: bullet });
-   * if (hit) bullet.x += 40 * hit.time;
+   * const space = new BroadPhase();
+   * const bullet = 1;
+   * space.set(bullet, 0, 0, 1, 1).set(7, 21, -5, 22, 5).update();
+   * const hit = space.sweep(0, 0, 1, 1, 40, 0, { ignore: bullet }); // → { id: 7, time: 0.5, normal: [-1, 0] }
    */
   sweep(
     minX: number,
@@ -250,6 +333,15 @@ export abstract class Queries extends Space {
     dy: number,
     options?: SweepOptions,
   ): SweepHit | undefined;
+  /**
+   * The first box that a moving box meets, or `undefined`. 3D: `sweep(minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz,
+   * options?)`.
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 5, 1, 1, 6).update();
+   * space.sweep(0, 0, 0, 1, 1, 1, 0, 0, 8)?.time; // → 0.5
+   */
   sweep(
     minX: number,
     minY: number,
@@ -309,10 +401,25 @@ export abstract class Queries extends Space {
   }
 
   /**
-   * The ids of the `k` boxes nearest to a point, by the distance to the box, which is 0 inside, and then by id.
+   * The ids of the `k` boxes nearest to a point, by the distance to the box, which is 0 inside, and then by id. 2D:
+   * `nearest(x, y, k, options?)`.
    * @param k how many: an integer from 1 on
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 10, 10).set(9, 15, 0, 20, 5).update();
+   * space.nearest(13, 2, 2); // → [9, 7]
+   * space.nearest(13, 2, 2, { maxDistance: 2 }); // → [9]
    */
   nearest(x: number, y: number, k: number, options?: NearestOptions): number[];
+  /**
+   * The ids of the `k` boxes nearest to a point. 3D: `nearest(x, y, z, k, options?)`.
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 0, 1, 1, 1).set(9, 0, 0, 5, 1, 1, 6).update();
+   * space.nearest(0, 0, 4, 1); // → [9]
+   */
   nearest(x: number, y: number, z: number, k: number, options?: NearestOptions): number[];
   nearest(x: number, y: number, z: number, k?: unknown, options?: NearestOptions): number[] {
     const flat = this.width === 4;

@@ -29,6 +29,7 @@ export interface NearestOptions extends QueryOptions {
 
 /** What a ray meets. */
 export interface RayHit {
+  /** Of the box. */
   id: number;
   /** From the origin to the box, in units of the world; 0 where the ray begins inside. */
   distance: number;
@@ -56,6 +57,7 @@ export interface RayAllOptions extends QueryOptions {
 
 /** What a moving box meets. */
 export interface SweepHit {
+  /** Of the box. */
   id: number;
   /** The share of the way, 0 … 1, that is done when they touch; 0 where they overlap from the start. */
   time: number;

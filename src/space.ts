@@ -7,7 +7,7 @@ const viewsKept = 256;
 
 /** One instance of the kernel. Users meet it as BroadPhase. */
 export abstract class Space {
-  /** 2 or 3. */
+  /** How many axes the boxes have, as the constructor was told. */
   readonly dimensions: 2 | 3;
 
   /** @internal */
@@ -28,7 +28,14 @@ export abstract class Space {
     this.kernel.open_space(dimensions);
   }
 
-  /** The number of boxes. */
+  /**
+   * The number of boxes.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 1, 1);
+   * space.size; // → 1
+   */
   get size(): number {
     return this.kernel.size();
   }

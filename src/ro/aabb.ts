@@ -2,7 +2,9 @@
 
 /** The two opposite corners of a box, in absolute world coordinates: x grows to the right, y grows downwards. */
 export interface AABB {
+  /** The upper left corner. */
   min: [x: number, y: number];
+  /** The lower right corner. */
   max: [x: number, y: number];
 }
 
@@ -10,6 +12,7 @@ export interface AABB {
 export interface Collidable {
   /** A number of its own, 0 or more, given by `World.addEntity`. */
   _roId: number;
+  /** Its box, in absolute world units. */
   getAABB(): AABB;
 }
 

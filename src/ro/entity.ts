@@ -11,6 +11,16 @@ import type { World } from './world.ts';
 /** What an entity is drawn in unless told otherwise: a blue that is seen on white and on black. */
 const DEFAULT_COLOR = '#7f9cc0';
 
+/**
+ * One thing in the world: a box that moves by Verlet integration. Its velocity is the way it came in the step before,
+ * `pos - ppos`.
+ *
+ * @example
+ * const entity = new Entity(10, 20, 4, 4);
+ * entity.ppos.x = 9; // so it moves by 1 a step
+ * entity.inertia(16);
+ * entity.pos; // → { x: 11, y: 20 }
+ */
 export class Entity {
   /** The number the world knows this entity by; -1 before it is in one. */
   _roId = -1;
@@ -22,6 +32,7 @@ export class Entity {
   ppos: Vector;
   /** Width and height. May change at any time: halfSize and the AABB follow at the next `updateAABB`. */
   size: Vector;
+  /** Half of the size, as of the last `updateAABB`. */
   readonly halfSize: Vector;
   /** Acceleration in units per millisecond squared. Used up, and reset to zero, by every `accelerate`. */
   accel: Vector = { x: 0, y: 0 };
@@ -33,6 +44,9 @@ export class Entity {
    * @param width 0 or more, finite
    * @param height 0 or more, finite
    * @throws RangeError for a value out of range, naming it.
+   *
+   * @example
+   * new Entity(0, 0, -1, 4); // throws RangeError: size is { x: -1, y: 4 }
    */
   constructor(x: number, y: number, width: number, height: number) {
     this.pos = { x, y };
@@ -42,12 +56,25 @@ export class Entity {
     this.updateAABB();
   }
 
-  /** The box in absolute coordinates, as of the last `updateAABB`. The same object every time: copy it to keep it. */
+  /**
+   * The box in absolute coordinates, as of the last `updateAABB`. The same object every time: copy it to keep it.
+   *
+   * @example
+   * new Entity(10, 20, 4, 4).getAABB(); // → { min: [10, 20], max: [14, 24] }
+   */
   getAABB(): AABB {
     return this.#aabb;
   }
 
-  /** Turns the acceleration into a change of position over `dt` milliseconds. */
+  /**
+   * Turns the acceleration into a change of position over `dt` milliseconds.
+   *
+   * @example
+   * const entity = new Entity(0, 0, 4, 4);
+   * entity.accel.y = 0.5;
+   * entity.accelerate(2);
+   * entity.pos.y; // → 2
+   */
   accelerate(dt: number): void {
     this.pos.x += this.accel.x * dt * dt;
     this.pos.y += this.accel.y * dt * dt;
@@ -55,7 +82,15 @@ export class Entity {
     this.accel.y = 0;
   }
 
-  /** Moves on as far as in the step before: pos + (pos - ppos). A `dt` of 0 moves nothing, since no time has passed. */
+  /**
+   * Moves on as far as in the step before: pos + (pos - ppos). A `dt` of 0 moves nothing, since no time has passed.
+   *
+   * @example
+   * const entity = new Entity(0, 0, 4, 4);
+   * entity.pos.x = 3;
+   * entity.inertia(16);
+   * entity.pos.x; // → 6
+   */
   inertia(dt: number): void {
     if (dt === 0) return;
     const { x, y } = this.pos;
@@ -68,6 +103,12 @@ export class Entity {
   /**
    * Makes the AABB (and halfSize) those of the present pos and size. The world does this twice in every step.
    * @throws RangeError when pos or size is not finite or a size is negative; the AABB stays as it was.
+   *
+   * @example
+   * const entity = new Entity(0, 0, 4, 4);
+   * entity.pos.x = 3;
+   * entity.updateAABB();
+   * entity.getAABB().max; // → [7, 4]
    */
   updateAABB(): void {
     const { pos, size, halfSize } = this;
@@ -86,7 +127,13 @@ export class Entity {
     halfSize.y = size.y / 2;
   }
 
-  /** Fills the box on the world's screen. Without a screen it does nothing. */
+  /**
+   * Fills the box on the world's screen. Without a screen it does nothing.
+   * @param color any CSS colour
+   *
+   * @example
+   * new Entity(0, 0, 4, 4).draw('tomato'); // → undefined
+   */
   draw(color: string = DEFAULT_COLOR): void {
     const ctx = this.world?.screen?.ctx;
     if (!ctx) return;

@@ -10,7 +10,15 @@ export interface Pointer extends Vector {
   isDown: boolean;
 }
 
+/**
+ * The pointer (mouse, pen or finger) and the keys, as they are now: state to read in `update`, not events to handle. A
+ * world with a canvas has one.
+ *
+ * @example
+ * new World(null).input; // → null
+ */
 export class Input {
+  /** Where the pointer is, and what it does. */
   readonly pointer: Readonly<Pointer>;
   /** The keys now held while the canvas has the focus, by `KeyboardEvent.code`: 'ArrowLeft', 'KeyA', 'Space'. */
   readonly keys: ReadonlySet<string>;
@@ -48,12 +56,27 @@ export class Input {
     canvas.addEventListener('blur', () => keys.clear(), { signal });
   }
 
-  /** Whether a key is held, by its `KeyboardEvent.code`. */
+  /**
+   * Whether a key is held, by its `KeyboardEvent.code`.
+   *
+   * @example
+   * const world = new World(null, {
+   *   update() {
+   *     if (this.input?.isDown('ArrowLeft')) this.entities[0].accel.x = -0.001;
+   *   },
+   * });
+   * world.step(); // → undefined
+   */
   isDown(code: string): boolean {
     return this.keys.has(code);
   }
 
-  /** Stops listening. */
+  /**
+   * Stops listening.
+   *
+   * @example
+   * new World(null).input?.dispose(); // → undefined
+   */
   dispose(): void {
     this.#listening.abort();
   }

@@ -4,6 +4,10 @@ import type { Vector } from './vector.ts';
 /**
  * The multiple of `multiple` that is nearest to `value`; halfway between two, the greater one.
  * @param multiple above 0, finite
+ * @throws RangeError for another multiple
+ *
+ * @example
+ * math.toNearest(37, 10); // → 40
  */
 export function toNearest(value: number, multiple: number): number {
   if (!(multiple > 0 && multiple < Infinity)) {
@@ -17,6 +21,10 @@ export function toNearest(value: number, multiple: number): number {
  * the shorter way: how a thing that came in at an angle is put back on the edge of a tile.
  * @param direction of any length but 0
  * @param multiple the size of a tile: above 0, finite
+ * @throws RangeError for another multiple, and for a direction that is zero or not finite
+ *
+ * @example
+ * math.toNearestAlong({ x: 12, y: 5 }, { x: 1, y: 1 }, 10); // → { x: 10, y: 3 }
  */
 export function toNearestAlong(point: Vector, direction: Vector, multiple: number): Vector {
   const alongX = (toNearest(point.x, multiple) - point.x) / direction.x;
@@ -36,6 +44,9 @@ export function toNearestAlong(point: Vector, direction: Vector, multiple: numbe
 /**
  * The turn in radians, -PI to PI, that takes the vector (x1, y1) to where (x2, y2) points; above 0 is from the x axis
  * towards the y axis. With one vector: the turn from the x axis to it.
+ *
+ * @example
+ * math.angleTo(1, 0, 0, 2); // → Math.PI / 2
  */
 export function angleTo(x1: number, y1: number, x2?: number, y2?: number): number {
   if (x2 === undefined || y2 === undefined) return Math.atan2(y1, x1);
@@ -44,7 +55,11 @@ export function angleTo(x1: number, y1: number, x2?: number, y2?: number): numbe
 
 /**
  * Where the endless line through points 1 and 2 meets the one through points 3 and 4.
- * @returns the point, in `target` when there is one, or null when the lines are parallel
+ * @param target filled and returned, if given
+ * @returns the point, or null when the lines are parallel
+ *
+ * @example
+ * math.intersectLineLine(0, 0, 4, 4, 0, 4, 4, 0); // → { x: 2, y: 2 }
  */
 export function intersectLineLine(
   x1: number,

@@ -5,7 +5,15 @@
 // and the display's density, so lines stay sharp on any display, at any size, at any zoom.
 import type { Vector } from './vector.ts';
 
+/**
+ * A canvas to draw on in world units. The width and height attributes of the canvas, as they are when the screen is
+ * made, say how much of the world is seen; how large it is shown is CSS's business. A world with a canvas has one.
+ *
+ * @example
+ * new World(null).screen; // → null
+ */
 export class Screen {
+  /** What is drawn on. */
   readonly canvas: HTMLCanvasElement;
   /** Draws in world units. */
   readonly ctx: CanvasRenderingContext2D;
@@ -15,7 +23,7 @@ export class Screen {
   readonly size: Readonly<Vector>;
 
   /**
-   * @param scale above 0, finite
+   * @param scale pixels of the canvas for each world unit: above 0, finite
    * @throws RangeError for another scale, Error when the canvas has no 2D context to give.
    */
   constructor(canvas: HTMLCanvasElement, scale = 1) {
@@ -34,7 +42,12 @@ export class Screen {
     this.clear();
   }
 
-  /** Empties the canvas, and fits it first to the size and density it is now shown at. */
+  /**
+   * Empties the canvas, and fits it first to the size and density it is now shown at. The world does so in each step.
+   *
+   * @example
+   * new World(null).screen?.clear(); // → undefined
+   */
   clear(): void {
     const { canvas, ctx, size } = this;
     this.#fit();
@@ -43,7 +56,13 @@ export class Screen {
     ctx.setTransform(canvas.width / size.x, 0, 0, canvas.height / size.y, 0, 0);
   }
 
-  /** The world position of a place on the canvas, given in CSS pixels from its upper left corner. */
+  /**
+   * The world position of a place on the canvas, given in CSS pixels from its upper left corner.
+   * @param target filled and returned, if given
+   *
+   * @example
+   * new World(null).screen?.toWorld(10, 10); // → undefined
+   */
   toWorld(offsetX: number, offsetY: number, target: Vector = { x: 0, y: 0 }): Vector {
     const { canvas, scale, size } = this;
     target.x = (offsetX * size.x) / (canvas.clientWidth || size.x * scale);

@@ -38,6 +38,26 @@ export interface WorldOptions<E extends Entity = Entity> {
   update?(this: World<E>, dt: number): void;
 }
 
+/**
+ * Holds the entities, moves them on step by step, and ties technique, screen and input together. One step: clear the
+ * screen, draw, accelerate all, find the pairs and hand them to `handleCollisions`, move all on by their inertia, and
+ * call `update`.
+ *
+ * @example
+ * let collisions = 0;
+ * const world = new World(null, {
+ *   coltech: new coltech.BroadPhase(),
+ *   init() {
+ *     this.addEntity(new Entity(0, 0, 10, 10));
+ *     this.addEntity(new Entity(5, 5, 10, 10));
+ *   },
+ *   handleCollisions(dt, pairs) {
+ *     collisions += pairs.length;
+ *   },
+ * });
+ * world.step();
+ * collisions; // → 1
+ */
 export class World<E extends Entity = Entity> {
   /** The canvas and its context; null when the world has none. */
   readonly screen: Screen | null;
@@ -88,6 +108,7 @@ export class World<E extends Entity = Entity> {
     return this.#broadPhase;
   }
 
+  /** @throws Error for a technique that has entities already */
   set broadPhase(technique: Technique<E>) {
     if (technique === this.#broadPhase) return;
     expectEmpty(technique);
@@ -96,6 +117,7 @@ export class World<E extends Entity = Entity> {
     this.#broadPhase = technique;
   }
 
+  /** Whether `start` was called, and `stop` not since. */
   get isRunning(): boolean {
     return this.#running;
   }
@@ -104,6 +126,13 @@ export class World<E extends Entity = Entity> {
    * Adds an entity, and gives it its _roId.
    * @throws Error for an entity that is in a world already, RangeError for one whose pos or size is not finite; the
    * world stays as it was.
+   *
+   * @example
+   * const world = new World(null);
+   * const entity = new Entity(0, 0, 1, 1);
+   * world.addEntity(entity);
+   * world.entities.length; // → 1
+   * world.addEntity(entity); // throws Error: addEntity: entity 0 is in this world already
    */
   addEntity(entity: E): void {
     if (entity.world !== null) {
@@ -121,6 +150,9 @@ export class World<E extends Entity = Entity> {
   /**
    * Takes an entity out. Allowed at any time, also within a step.
    * @throws Error for an entity that is not in this world; the world stays as it was.
+   *
+   * @example
+   * new World(null).removeEntity(new Entity(0, 0, 1, 1)); // throws Error: is not in this world
    */
   removeEntity(entity: E): void {
     if (!this.#has(entity)) {
@@ -131,7 +163,12 @@ export class World<E extends Entity = Entity> {
     this.#entities = this.#entities.toSpliced(this.#entities.lastIndexOf(entity), 1);
   }
 
-  /** Draws the frame: what the option `draw` does, or else every entity. Without a screen it does nothing. */
+  /**
+   * Draws the frame: what the option `draw` does, or else every entity. Without a screen it does nothing.
+   *
+   * @example
+   * new World(null).draw(); // → undefined
+   */
   draw(): void {
     if (!this.screen) return;
     if (this.#options.draw) this.#options.draw.call(this, this.screen.ctx);
@@ -142,6 +179,11 @@ export class World<E extends Entity = Entity> {
    * Moves the world on by one step.
    * @param dt the length of the step in milliseconds, 0 or more, finite; 0 draws and collides but moves nothing
    * @throws RangeError for another dt, before anything is done.
+   *
+   * @example
+   * const world = new World(null);
+   * world.step(16);
+   * world.step(-1); // throws RangeError: ro.World: dt is -1
    */
   step(dt: number = this.timeStep): void {
     if (!(dt >= 0 && dt < Infinity)) {
@@ -169,7 +211,16 @@ export class World<E extends Entity = Entity> {
     this.#options.update?.call(this, dt);
   }
 
-  /** Steps in real time, from the next frame on, until `stop`. */
+  /**
+   * Steps in real time, from the next frame on, until `stop`.
+   *
+   * @example
+   * const world = new World(null);
+   * world.start();
+   * world.isRunning; // → true
+   * world.stop();
+   * world.isRunning; // → false
+   */
   start(): void {
     if (this.#running) return;
     this.#running = true;
@@ -177,6 +228,14 @@ export class World<E extends Entity = Entity> {
     this.#cancelFrame = nextFrame(this.#frame);
   }
 
+  /**
+   * Stops stepping. Allowed at any time, also within a step.
+   *
+   * @example
+   * const world = new World(null);
+   * world.stop();
+   * world.isRunning; // → false
+   */
   stop(): void {
     this.#running = false;
     this.#cancelFrame?.();

@@ -4,19 +4,23 @@ import type { FrameSource } from './format.ts';
 import { begin, type ReplayOptions, timeUpdate } from './replay.ts';
 import { type Summary, summarize } from './statistics.ts';
 
+/** Options of {@link compare}: those of the spaces that are compared, too. */
 export interface CompareOptions extends Omit<ReplayOptions, 'technique'> {
   /** Which techniques; left out: all of {@link BroadPhase.techniques}. */
   techniques?: readonly TechniqueName[];
   /** How often the frames are gone through; each frame counts with its fastest time (3). */
   passes?: number;
+  /** Called after each frame of each pass. */
   progress?: (done: number, total: number) => void;
 }
 
 /** How one technique did. */
 export interface Compared {
+  /** Its name. */
   technique: TechniqueName;
-  /** Milliseconds of `update()` per frame, and their summary without the first, which starts from nothing. */
+  /** Milliseconds of `update()` of each frame; the first, which starts from nothing, is not in the summary. */
   times: number[];
+  /** The summary of the times. */
   ms: Summary;
   /** Boxes tested against boxes, on average. */
   tests: number;
@@ -28,7 +32,19 @@ export interface Compared {
   disagrees: number | null;
 }
 
-/** Plays the frames with every technique, taking turns in each frame, so that what else the machine does hits all. */
+/**
+ * Plays the frames with every technique, taking turns in each frame, so that what else the machine does hits all.
+ *
+ * @returns one result for each technique, in the order in which they were named
+ *
+ * @example
+ * const space = new BroadPhase();
+ * const recording = record(space);
+ * for (let x = 0; x < 3; x++) space.set(7, x, 0, x + 4, 4).set(9, 5, 0, 9, 4).update();
+ * const results = compare(openTrace(recording.bytes()), { techniques: ['brute-force', 'strip-sweep'], passes: 1 });
+ * results.map(({ technique }) => technique); // → ['brute-force', 'strip-sweep']
+ * results[1].disagrees; // → null
+ */
 export function compare(source: FrameSource, options: CompareOptions = {}): Compared[] {
   const { techniques = BroadPhase.techniques, passes = 3, progress, ...settings } = options;
   const contenders = techniques.map((technique) => ({

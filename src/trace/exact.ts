@@ -6,6 +6,12 @@ const idLimit = 2 ** 24;
 /**
  * The pairs of closed boxes that overlap and may meet. Box k has the id `ids[k]`, or k; `rules` are those of
  * {@link Frame.rules}.
+ *
+ * @param boxes minima then maxima, box after box
+ * @returns the sorted set of pairs, one number for each: the smaller id times 2^24, plus the larger
+ *
+ * @example
+ * exactPairs([0, 0, 10, 10, 5, 5, 15, 15], 2); // → Float64Array [1]
  */
 export function exactPairs(
   boxes: ArrayLike<number>,
@@ -48,8 +54,9 @@ export function pairKeys(pairs: ArrayLike<number>): Float64Array {
 
 /** How two sets of pairs differ. */
 export interface Difference {
-  /** How many pairs were expected and not found, and found but not expected (or twice). */
+  /** How many pairs were expected and not found. */
   missing: number;
+  /** How many were found but not expected, or twice. */
   extra: number;
   /** The first pair of either kind. */
   pair: [number, number];

@@ -30,14 +30,25 @@ export const maxBoxes = 2 ** 24;
 /** No body is longer: every box new, in 3D, all numbers doubles of 8 bytes, its id and its rule. */
 export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10 + 16) + 64;
 
-/** A trace that cannot be read: what is wrong, and where. */
+/**
+ * A trace that cannot be read: what is wrong, and where.
+ *
+ * @example
+ * openTrace(new Uint8Array(4)); // throws TraceError: trace: header, byte 0: not a trace
+ */
 export class TraceError extends Error {
+  /** Always `'TraceError'`. */
   override readonly name = 'TraceError';
   /** The frame it is in, counted from 0; -1 for the header. */
   readonly frame: number;
   /** The byte of the (uncompressed) file. */
   readonly offset: number;
 
+  /**
+   * @param what is wrong
+   * @param frame counted from 0; -1 for the header
+   * @param offset of the byte
+   */
   constructor(what: string, frame: number, offset: number) {
     super(`trace: ${frame < 0 ? 'header' : `frame ${frame}`}, byte ${offset}: ${what}`);
     this.frame = frame;
@@ -63,6 +74,7 @@ export interface Frame {
 
 /** Frames to go through, as often as wanted: a trace or an imported recording. */
 export interface FrameSource extends Iterable<Frame> {
+  /** How many axes its boxes have. */
   readonly dimensions: 2 | 3;
   /** How many frames there are. */
   readonly frames: number;

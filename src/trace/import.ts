@@ -13,7 +13,13 @@ const maxEmptyFrames = 1e6;
 
 /**
  * Unpacks gzip, in browsers and in Node.
+ * @param most how many bytes it may become: 1 GiB unless told
  * @throws TraceError where it is not sound, and as soon as it gives more than `most` bytes
+ *
+ * @example
+ * const packed = new Blob(['boxes']).stream().pipeThrough(new CompressionStream('gzip'));
+ * const bytes = await gunzip(new Uint8Array(await new Response(packed).arrayBuffer()));
+ * new TextDecoder().decode(bytes); // → 'boxes'
  */
 export async function gunzip(bytes: Uint8Array, most = maxUnpackedBytes): Promise<Uint8Array> {
   const unpacked = new Blob([bytes as Uint8Array<ArrayBuffer>]).stream().pipeThrough(new DecompressionStream('gzip'));
@@ -50,6 +56,9 @@ export function isRecording(bytes: Uint8Array): boolean {
 /**
  * The frames of a raw or packed recording, unpacked from gzip.
  * @throws TraceError where it is none, or holds what is no box
+ *
+ * @example
+ * importRecording(new Uint8Array(2)); // throws TraceError
  */
 export function importRecording(bytes: Uint8Array): FrameSource {
   let recording: Recording;
@@ -78,6 +87,13 @@ export function importRecording(bytes: Uint8Array): FrameSource {
 /**
  * Opens a trace or a recording, gzipped or not.
  * @throws TraceError where it is broken
+ *
+ * @example
+ * const space = new BroadPhase();
+ * const recording = record(space);
+ * for (let x = 0; x < 3; x++) space.set(7, x, 0, x + 4, 4).set(9, 5, 0, 9, 4).update();
+ * const source = await openAny(recording.bytes());
+ * source.frames; // → 3
  */
 export async function openAny(bytes: Uint8Array, options?: OpenOptions): Promise<FrameSource> {
   const plain = bytes[0] === 0x1f && bytes[1] === 0x8b ? await gunzip(bytes) : bytes;
@@ -87,6 +103,13 @@ export async function openAny(bytes: Uint8Array, options?: OpenOptions): Promise
 /**
  * A raw recording of the same frames.
  * @throws RangeError where that layout cannot hold them: ids, rules, doubles, or a number of boxes that changes
+ *
+ * @example
+ * const space = new BroadPhase();
+ * const recording = record(space);
+ * for (let x = 0; x < 3; x++) space.setAll(Float32Array.of(x, 0, x + 4, 4)).update();
+ * const raw = exportRecording(openTrace(recording.bytes()));
+ * importRecording(raw).frames; // → 3
  */
 export function exportRecording(source: FrameSource): Uint8Array<ArrayBuffer> {
   let count = -1;

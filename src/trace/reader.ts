@@ -22,9 +22,20 @@ export interface OpenOptions {
   salvage?: boolean;
 }
 
-/** A trace held as bytes. Its lengths and checksums were right when it was opened; go through it with `for … of`. */
+/**
+ * A trace held as bytes. Its lengths and checksums were right when it was opened; go through it with `for … of`.
+ *
+ * @example
+ * const space = new BroadPhase();
+ * const recording = record(space);
+ * for (let x = 0; x < 3; x++) space.set(7, x, 0, x + 4, 4).set(9, 5, 0, 9, 4).update();
+ * const trace = new Trace(recording.bytes());
+ * Array.from(trace, (frame) => frame.changed); // → [2, 1, 1]
+ */
 export class Trace implements FrameSource {
+  /** How many axes its boxes have. */
   readonly dimensions: 2 | 3;
+  /** How many frames there are. */
   readonly frames: number;
   /** With `salvage`: what is wrong with the file behind its last good frame. */
   readonly fault: TraceError | undefined;
@@ -50,6 +61,7 @@ export class Trace implements FrameSource {
     this.frames = frames;
   }
 
+  /** The frames, one after the other: each is valid until the next. */
   *[Symbol.iterator](): Generator<Frame> {
     const decoder = new FrameDecoder(this.dimensions, this.#version);
     let at = headerBytes;
@@ -64,18 +76,40 @@ export class Trace implements FrameSource {
 /**
  * Opens a trace: checks the file, and gives its frames as often as wanted.
  * @throws TraceError where it is truncated, corrupted, newer than this reader, or no trace
+ *
+ * @example
+ * const space = new BroadPhase();
+ * const recording = record(space);
+ * for (let x = 0; x < 3; x++) space.set(7, x, 0, x + 4, 4).set(9, 5, 0, 9, 4).update();
+ * const trace = openTrace(recording.bytes());
+ * trace.frames; // → 3
+ * for (const { index, boxes } of trace) console.assert(boxes[0] === index);
  */
 export function openTrace(bytes: Uint8Array | ArrayBuffer, options?: OpenOptions): Trace {
   return new Trace(bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes), options);
 }
 
+/** A frame of a stream, which says how many axes its boxes have. */
+export interface StreamedFrame extends Frame {
+  /** 2 or 3. */
+  readonly dimensions: 2 | 3;
+}
+
 /**
  * The frames of a trace while it arrives, each as soon as its bytes are there; no more than one frame is kept.
  * @throws TraceError as {@link openTrace}, after the frames that are good
+ *
+ * @example
+ * const space = new BroadPhase();
+ * const recording = record(space);
+ * for (let x = 0; x < 3; x++) space.set(7, x, 0, x + 4, 4).set(9, 5, 0, 9, 4).update();
+ * let frames = 0;
+ * for await (const frame of readTrace(new Blob([recording.bytes()]).stream())) frames += frame.dimensions === 2 ? 1 : 0;
+ * frames; // → 3
  */
 export async function* readTrace(
   chunks: AsyncIterable<Uint8Array> | ReadableStream<Uint8Array>,
-): AsyncGenerator<Frame & { readonly dimensions: 2 | 3 }> {
+): AsyncGenerator<StreamedFrame> {
   const queue = new ChunkQueue('getReader' in chunks ? chunksOf(chunks) : chunks);
   const head = await queue.take(headerBytes);
   if (!head) throw truncatedHeader(queue.bytesLeft);

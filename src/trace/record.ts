@@ -7,17 +7,30 @@ import { TraceWriter } from './writer.ts';
 
 /** What a recording asks of a stream of Node. */
 export interface NodeSink {
+  /** Takes some bytes. */
   write(bytes: Uint8Array): unknown;
+  /** Ends the stream, and calls back when all is written. */
   end(done: () => void): unknown;
+  /** Listens for errors. */
   on(event: 'error', listener: (error: Error) => void): unknown;
 }
 
+/** Options of {@link record}. */
 export interface RecordOptions {
   /** Where the bytes go, frame by frame: a WritableStream or a stream of Node. Left out: they are kept in memory. */
   to?: WritableStream<Uint8Array> | NodeSink;
 }
 
-/** A recording that is going on, or was stopped. */
+/**
+ * A recording that is going on, or was stopped: what {@link record} gives.
+ *
+ * @example
+ * const space = new BroadPhase();
+ * const recording = record(space);
+ * for (let x = 0; x < 3; x++) space.set(7, x, 0, x + 4, 4).set(9, 5, 0, 9, 4).update();
+ * await recording.stop();
+ * recording.frames; // → 3
+ */
 export class Recording {
   /** What has stopped the recording before `stop()` was called: an error of the stream. */
   fault: unknown;
@@ -27,6 +40,7 @@ export class Recording {
   #byteLength = 0;
   #stopped: Promise<void> | undefined;
 
+  /** Begins at once: see {@link record}. */
   constructor(space: BroadPhase, options: RecordOptions = {}) {
     this.#writer = new TraceWriter(space.dimensions);
     space[watch]((...frame) => this.#write(this.#writer.frame(...frame)));
@@ -38,12 +52,22 @@ export class Recording {
     this.#write(this.#writer.header());
   }
 
-  /** How many updates have been recorded. */
+  /**
+   * How many updates have been recorded.
+   *
+   * @example
+   * record(new BroadPhase()).frames; // → 0
+   */
   get frames(): number {
     return this.#writer.frames;
   }
 
-  /** How many bytes that made. */
+  /**
+   * How many bytes that made.
+   *
+   * @example
+   * record(new BroadPhase()).byteLength; // → 16
+   */
   get byteLength(): number {
     return this.#byteLength;
   }
@@ -51,6 +75,12 @@ export class Recording {
   /**
    * The trace so far, complete with its end; the recording goes on.
    * @throws Error where the bytes went to a stream
+   *
+   * @example
+   * const space = new BroadPhase();
+   * const recording = record(space);
+   * space.update();
+   * openTrace(recording.bytes()).frames; // → 1
    */
   bytes(): Uint8Array<ArrayBuffer> {
     const { kept } = this.#sink;
@@ -68,13 +98,22 @@ export class Recording {
   /**
    * Ends the recording, and its stream.
    * @throws what the stream failed with: the frames before that may have been written
+   *
+   * @example
+   * const recording = record(new BroadPhase());
+   * await recording.stop(); // → undefined
    */
   stop(): Promise<void> {
     this.#stopped ??= this.#end();
     return this.#stopped;
   }
 
-  /** In a browser: offers the trace so far as a file to save. */
+  /**
+   * In a browser: offers the trace so far as a file to save. Elsewhere there is no page to do so in.
+   *
+   * @example
+   * record(new BroadPhase()).download(); // throws ReferenceError
+   */
   download(name = 'broadphase.trace'): void {
     const link = document.createElement('a');
     link.href = URL.createObjectURL(new Blob([this.bytes()], { type: 'application/octet-stream' }));
@@ -107,10 +146,11 @@ export class Recording {
  * @throws Error where the space is being recorded already
  *
  * @example
+ * const space = new BroadPhase();
  * const recording = record(space);
- * // … the game runs …
+ * for (let x = 0; x < 60; x++) space.set(7, x, 0, x + 4, 4).update(); // the game runs
  * await recording.stop();
- * recording.download();
+ * openTrace(recording.bytes()).frames; // → 60
  */
 export function record(space: BroadPhase, options?: RecordOptions): Recording {
   return new Recording(space, options);

@@ -17,6 +17,17 @@ const applied = new WeakMap<BroadPhase, Applied>();
  * Puts the boxes of a frame into a space in place of all others, in the order they had when they were recorded, so
  * that the pairs come in the same order too; and who may meet whom. `update()` is the caller's. Between one frame and
  * the next nobody else changes the space: it is told only what is new, as a game would tell it.
+ *
+ * @example
+ * const space = new BroadPhase();
+ * const recording = record(space);
+ * for (let x = 0; x < 3; x++) space.set(7, x, 0, x + 4, 4).set(9, 5, 0, 9, 4).update();
+ * const copy = new BroadPhase();
+ * for (const frame of openTrace(recording.bytes())) {
+ *   applyFrame(copy, frame);
+ *   copy.update();
+ * }
+ * copy.pairs; // → Uint32Array [7, 9]
  */
 export function applyFrame(space: BroadPhase, frame: Frame): void {
   const { ids, boxes, count } = frame;
@@ -71,18 +82,27 @@ export type ReplayOptions = Omit<BroadPhaseOptions, 'dimensions'>;
 
 /** What one update of a replay took and gave. */
 export interface ReplayedFrame {
+  /** From 0. */
   index: number;
+  /** How many boxes there were. */
   boxes: number;
+  /** How many of them were new or moved. */
   changed: number;
   /** Milliseconds of `update()` alone. */
   ms: number;
   /** The technique that ran. */
   technique: TechniqueName;
+  /** As in `stats` of a space, as are those that follow: boxes tested against boxes. */
   tests: number;
+  /** Pairs found in float32. */
   candidates: number;
+  /** Pairs reported. */
   pairs: number;
+  /** Cells, strips or nodes in use. */
   cells: number;
+  /** Places of boxes in them. */
   entries: number;
+  /** Bytes of memory in use. */
   bytes: number;
   /** Where it was checked: how the pairs differ from the exact answer, `null` if they do not. */
   difference?: Difference | null;
@@ -91,6 +111,14 @@ export interface ReplayedFrame {
 /**
  * Plays all frames, one result each. The first starts from nothing, all others from the frame before.
  * @param verify compare the pairs of each frame with an exact sweep that is written apart from the kernel
+ *
+ * @example
+ * const space = new BroadPhase();
+ * const recording = record(space);
+ * for (let x = 0; x < 3; x++) space.set(7, x, 0, x + 4, 4).set(9, 5, 0, 9, 4).update();
+ * const played = [...replay(openTrace(recording.bytes()), { technique: 'strip-sweep' }, true)];
+ * played.map(({ pairs }) => pairs); // → [0, 1, 1]
+ * played[2].difference; // → null
  */
 export function* replay(source: FrameSource, options: ReplayOptions = {}, verify = false): Generator<ReplayedFrame> {
   const space = new BroadPhase({ ...options, dimensions: source.dimensions });

@@ -6,11 +6,17 @@ export function percentile(sorted: ArrayLike<number>, share: number): number {
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
 }
 
+/** What numbers are like, in five; all are 0 where there are none. */
 export interface Summary {
+  /** The least. */
   min: number;
+  /** Their sum over how many there are. */
   mean: number;
+  /** Half of them are not above it. */
   median: number;
+  /** 95 of 100 are not above it. */
   p95: number;
+  /** The largest. */
   max: number;
 }
 
@@ -23,8 +29,11 @@ export function summarize(values: Iterable<number>): Summary {
 
 /** How many values lie from `from` to below `to`. */
 export interface Bin {
+  /** The least value in it. */
   from: number;
+  /** What its values are below. */
   to: number;
+  /** How many there are. */
   count: number;
 }
 

@@ -4,14 +4,21 @@ import type { Frame, FrameSource } from './format.ts';
 import { applyFrame } from './replay.ts';
 import { type Bin, doublingHistogram, type Summary, summarize } from './statistics.ts';
 
+/** What is in a trace: see {@link survey}. Sizes are in the units of the boxes. */
 export interface Survey {
+  /** How many axes the boxes have. */
   dimensions: 2 | 3;
+  /** How many frames there are. */
   frames: number;
-  /** Whether any box has an id other than its place or a rule of its own, and whether any number is no float32. */
+  /** Whether any box has an id other than its place. */
   ids: boolean;
+  /** Whether any box is static or has a filter. */
   rules: boolean;
+  /** Whether any number is no float32. */
   doubles: boolean;
+  /** How many boxes a frame has. */
   boxes: Summary;
+  /** How many pairs a frame has. */
   pairs: Summary;
   /** The share of boxes that are new or moved, per frame after the first. */
   moving: Summary;
@@ -21,11 +28,27 @@ export interface Survey {
   world: number[];
   /** The area (3D: volume) of its boxes over that of the world. */
   density: number;
-  /** Of that frame: the longest side of each box; how many others each overlaps. */
-  histograms: { side: Bin[]; overlaps: Bin[] };
+  /** Of that frame. */
+  histograms: {
+    /** The longest side of each box. */
+    side: Bin[];
+    /** How many others each box overlaps. */
+    overlaps: Bin[];
+  };
 }
 
-/** Looks at all frames of a source. */
+/**
+ * Looks at all frames of a source.
+ * @param progress called after each frame
+ *
+ * @example
+ * const space = new BroadPhase();
+ * const recording = record(space);
+ * for (let x = 0; x < 3; x++) space.set(7, x, 0, x + 4, 4).set(9, 5, 0, 9, 4).update();
+ * const { boxes, moving } = survey(openTrace(recording.bytes()));
+ * boxes.max; // → 2
+ * moving.mean; // → 0.5
+ */
 export function survey(source: FrameSource, progress?: (done: number, total: number) => void): Survey {
   const { dimensions } = source;
   const middle = source.frames >> 1;

@@ -10,6 +10,7 @@ import { applyFrame, begin, timeUpdate } from './replay.ts';
 import { percentile, type Summary, summarize } from './statistics.ts';
 import { longestSides } from './survey.ts';
 
+/** Options of {@link tune}. */
 export interface TuneOptions {
   /** Which techniques are tried; left out: all of {@link BroadPhase.techniques}. `auto` is always measured too. */
   techniques?: readonly TechniqueName[];
@@ -17,13 +18,17 @@ export interface TuneOptions {
   seconds?: number;
   /** Try every technique with every value of each parameter on all frames: slow, and what the search is checked against. */
   exhaustive?: boolean;
+  /** Called now and then: what is done, and how much of how much. */
   progress?: (what: string, done: number, total: number) => void;
 }
 
 /** What can be given to `new BroadPhase`. */
 export interface Candidate {
+  /** Its name. */
   technique: TechniqueName;
+  /** As in `BroadPhaseOptions`; left out: chosen from the boxes. */
   cellSize?: number;
+  /** The same. */
   margin?: number;
 }
 
@@ -39,26 +44,66 @@ const searched: readonly { parameter: Parameter; least: number; most: number }[]
   { parameter: 'margin', least: -24, most: 8 },
 ];
 
+/** A candidate, and how it did. */
 export interface Measured extends Candidate {
   /** Milliseconds of `update()` per frame: the fastest of all passes. */
   times: number[];
+  /** The summary of the times. */
   ms: Summary;
 }
 
+/** How a candidate did on a few frames. */
+export interface Screened extends Candidate {
+  /** Mean milliseconds of `update()`. */
+  ms: number;
+}
+
+/** How the time of a technique depends on a parameter. */
+export interface Curve {
+  /** Whose time. */
+  technique: TechniqueName;
+  /** On what. */
+  parameter: Parameter;
+  /** Values of the parameter, ascending, each with mean milliseconds of `update()`. */
+  points: CurvePoint[];
+}
+
+/** One point of a {@link Curve}. */
+export interface CurvePoint {
+  /** Of the parameter. */
+  value: number;
+  /** Mean milliseconds of `update()`. */
+  ms: number;
+}
+
+/** What is in a frame that counts. */
+export interface TunedFrame {
+  /** Its place in the trace, from 0. */
+  index: number;
+  /** How many boxes there are. */
+  boxes: number;
+  /** How many of them are new or moved. */
+  changed: number;
+  /** How many pairs there are. */
+  pairs: number;
+}
+
+/** What suits the frames best: see {@link tune}. */
 export interface Tuned {
   /** Recommended; `auto` itself where nothing is faster by more than the noise. */
   best: Measured;
+  /** How `auto` did. */
   auto: Measured;
   /** How many times faster than `auto` that is. */
   margin: number;
   /** All that ran on all frames, fastest first. */
   finalists: Measured[];
   /** Mean milliseconds of each technique on a few frames, in its best setting, fastest first. */
-  techniques: (Candidate & { ms: number })[];
+  techniques: Screened[];
   /** The same over each parameter, for techniques that heed it. */
-  curves: { technique: TechniqueName; parameter: Parameter; points: { value: number; ms: number }[] }[];
+  curves: Curve[];
   /** The frames that count: all that follow from one that was used too, of all frames or windows of a long trace. */
-  frames: { index: number; boxes: number; changed: number; pairs: number }[];
+  frames: TunedFrame[];
   /** To paste. */
   code: string;
 }
@@ -88,6 +133,20 @@ const mostPasses = 25;
 /** Below this, being faster than `auto` is noise, and not worth an option that may not suit the next level. */
 const worthwhile = 1.03;
 
+/**
+ * Finds the technique, cell size and margin that suit these frames best: tries all techniques on a few frames, searches
+ * the parameters of those that have any, and lets the best run against each other and against `auto` on all frames.
+ *
+ * @throws RangeError where there are no frames
+ *
+ * @example
+ * const space = new BroadPhase();
+ * const recording = record(space);
+ * for (let x = 0; x < 3; x++) space.set(7, x, 0, x + 4, 4).set(9, 5, 0, 9, 4).update();
+ * const { code, frames } = tune(openTrace(recording.bytes()), { techniques: ['brute-force'], seconds: 0.01 });
+ * code.startsWith('const space = new BroadPhase('); // → true
+ * frames.length; // → 2
+ */
 export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
   const { techniques = BroadPhase.techniques, seconds = 8, exhaustive = false, progress } = options;
   const { dimensions } = source;

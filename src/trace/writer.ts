@@ -18,8 +18,15 @@ import { all, IdSet, TraceState } from './state.ts';
 /**
  * Turns frames into the bytes of a trace. A file is `header()`, then `frame()` for each frame, then `end()`; the
  * bytes of each are the caller's to keep.
+ *
+ * @example
+ * const writer = new TraceWriter(2);
+ * const pieces = [writer.header(), writer.frame(Float32Array.of(0, 0, 10, 10)), writer.end()];
+ * const bytes = new Uint8Array(await new Blob(pieces).arrayBuffer());
+ * openTrace(bytes).frames; // → 1
  */
 export class TraceWriter {
+  /** How many axes the boxes have. */
   readonly dimensions: 2 | 3;
   /** How many frames have been written. */
   frames = 0;
@@ -39,7 +46,12 @@ export class TraceWriter {
     this.#state = new TraceState(dimensions);
   }
 
-  /** The start of the file. */
+  /**
+   * The start of the file.
+   *
+   * @example
+   * new TraceWriter(3).header().length; // → 16
+   */
   header(): Uint8Array<ArrayBuffer> {
     const out = new ByteWriter();
     out.bytes.set(magic);
@@ -57,6 +69,11 @@ export class TraceWriter {
    * @param rules layer, mask, and other than 0 where it is static, of each box; left out: none has a rule of its own
    * @throws RangeError for a box that is none, for an id twice or out of range, and where lengths do not fit: nothing
    *   is written then
+   *
+   * @example
+   * const writer = new TraceWriter(2);
+   * writer.header();
+   * writer.frame(Float32Array.of(9, 0, 1, 1)); // throws RangeError
    */
   frame(boxes: Float32Array | Float64Array, ids?: ArrayLike<number>, rules?: Uint32Array): Uint8Array<ArrayBuffer> {
     const state = this.#state;
@@ -97,7 +114,13 @@ export class TraceWriter {
     return this.#seal();
   }
 
-  /** The end of the file: says that nothing is missing. More frames may follow all the same, in place of it. */
+  /**
+   * The end of the file: says that nothing is missing. More frames may follow all the same, in place of it.
+   *
+   * @example
+   * const writer = new TraceWriter(2);
+   * openTrace(Uint8Array.of(...writer.header(), ...writer.end())).frames; // → 0
+   */
   end(): Uint8Array<ArrayBuffer> {
     const before = this.#checksum;
     this.#begin(frameKind.end).varint(this.frames);

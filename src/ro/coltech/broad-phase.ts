@@ -8,6 +8,15 @@ import type { Collidable } from '../aabb.ts';
 import type { Entity } from '../entity.ts';
 import { EntityList, type Pair } from './technique.ts';
 
+/**
+ * The library as a collision technique: entities in, pairs of entities out, any of its techniques in between.
+ *
+ * @example
+ * const world = new World(null, { coltech: new coltech.BroadPhase({ technique: 'strip-sweep' }) });
+ * for (const x of [0, 5]) world.addEntity(new Entity(x, 0, 10, 10));
+ * world.step();
+ * world.broadPhase.queryForCollisionPairs().length; // → 1
+ */
 export class BroadPhase<E extends Collidable = Entity> extends EntityList<E> {
   /** The library's own object, for what the engine's interface does not say: queries, filters, statistics. */
   readonly space: Space;
@@ -23,7 +32,16 @@ export class BroadPhase<E extends Collidable = Entity> extends EntityList<E> {
     this.space = new Space({ ...options, dimensions: 2 });
   }
 
-  /** The id of an entity in `space`, its own until it is removed. Throws for an entity that is not here. */
+  /**
+   * The id of an entity in `space`, its own until it is removed.
+   * @throws Error for an entity that is not here
+   *
+   * @example
+   * const technique = new coltech.BroadPhase();
+   * const entity = new Entity(0, 0, 1, 1);
+   * new World(null, { coltech: technique }).addEntity(entity);
+   * technique.idOf(entity); // → 0
+   */
   idOf(entity: E): number {
     const slot = this.#slotOf.get(entity);
     if (slot === undefined) throw new Error(`idOf: entity ${entity._roId} is not here, expected one that was added`);
@@ -72,7 +90,14 @@ export class BroadPhase<E extends Collidable = Entity> extends EntityList<E> {
     return pairs;
   }
 
-  /** Strokes the cells, strips or nodes that the library's technique now uses. */
+  /**
+   * Strokes the cells, strips or nodes that the library's technique now uses.
+   *
+   * @example
+   * // In a world with a canvas, `debug: true` does so in each step.
+   * const world = new World(null, { coltech: new coltech.BroadPhase(), debug: true });
+   * world.step(); // → undefined
+   */
   draw(ctx: CanvasRenderingContext2D): void {
     const boxes = this.space.structure();
     for (let i = 0; i < boxes.length; i += 4) {

@@ -6,6 +6,16 @@ import type { Collidable } from '../aabb.ts';
 import type { Entity } from '../entity.ts';
 import { EntityList, type Pair } from './technique.ts';
 
+/**
+ * Brute force: every entity is tested against every other, n * (n - 1) / 2 tests for n of them.
+ *
+ * @example
+ * const technique = new coltech.BruteForce();
+ * const world = new World(null, { coltech: technique });
+ * for (let k = 0; k < 100; k++) world.addEntity(new Entity(20 * k, 0, 10, 10));
+ * world.step();
+ * technique.collisionTests; // → 4950
+ */
 export class BruteForce<E extends Collidable = Entity> extends EntityList<E> {
   queryForCollisionPairs(): Pair<E>[] {
     const { entities } = this;

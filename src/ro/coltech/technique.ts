@@ -22,7 +22,18 @@ export interface Technique<E extends Collidable = Entity> {
   draw?(ctx: CanvasRenderingContext2D): void;
 }
 
-/** The part of a technique that is the same for all of them. */
+/**
+ * The part of a technique that is the same for all of them: to write one, add `queryForCollisionPairs`.
+ *
+ * @example
+ * class Nothing extends coltech.EntityList {
+ *   queryForCollisionPairs() {
+ *     return [];
+ *   }
+ * }
+ * const world = new World(null, { coltech: new Nothing() });
+ * world.step(); // → undefined
+ */
 export abstract class EntityList<E extends Collidable = Entity> implements Technique<E> {
   /** Tests of one box against another in the last query. */
   collisionTests = 0;
@@ -78,7 +89,12 @@ export abstract class EntityList<E extends Collidable = Entity> implements Techn
 
   abstract queryForCollisionPairs(): Pair<E>[];
 
-  /** Whether two boxes have a point in common; touching is enough. */
+  /**
+   * Whether two boxes have a point in common; touching is enough.
+   *
+   * @example
+   * new coltech.BruteForce().aabb2DIntersection(new Entity(0, 0, 1, 1), new Entity(1, 1, 1, 1)); // → true
+   */
   aabb2DIntersection(entityA: Collidable, entityB: Collidable): boolean {
     const a = entityA.getAABB();
     const b = entityB.getAABB();

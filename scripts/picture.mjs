@@ -1,0 +1,62 @@
+// Makes docs/picture-light.gif and docs/picture-dark.gif, the moving picture of the README, from the first page as it
+// is: stepped frame by frame in Chromium, forth and back so that it has no seam. npm run build:site first.
+import { writeFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { chromium } from '@playwright/test';
+import gifenc from 'gifenc';
+import { preview } from 'vite';
+
+const { applyPalette, GIFEncoder, quantize } = gifenc;
+const path = (file) => fileURLToPath(new URL(`../${file}`, import.meta.url));
+const [width, height] = [720, 400];
+const frames = 40;
+const delay = 50; // milliseconds
+const address = '?boxes=400&scene=mixed2d&renderer=canvas-2d';
+
+const server = await preview({ root: path('site'), configFile: path('site/vite.config.ts'), logLevel: 'error' });
+const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium' });
+
+for (const colorScheme of ['light', 'dark']) {
+  const page = await browser.newPage({ viewport: { width: 1400, height: 700 }, colorScheme, reducedMotion: 'reduce' });
+  await page.goto(server.resolvedUrls.local[0] + address);
+  // The view alone, at the size of the picture: the page lays itself out anew.
+  await page.addStyleTag({
+    content: `.stage { position: fixed; z-index: 9; top: 0; left: 0; width: ${width}px; height: ${height}px; border: 0 !important; background: var(--page) }
+      .view { width: 100%; height: 100%; } .tools { display: none !important; }`,
+  });
+  for (let times = 0; times < 3; times++) await page.locator('#zoom-in').evaluate((button) => button.click());
+  const pictures = [];
+  for (let frame = 0; frame < frames; frame++) {
+    await page.locator('#step').evaluate((button) => button.click());
+    await page.waitForTimeout(60);
+    const png = await page.screenshot({ clip: { x: 0, y: 0, width, height } });
+    pictures.push(await pixelsOf(page, png));
+  }
+  const palette = quantize(pictures[0], 128);
+  const gif = GIFEncoder();
+  const back = pictures.slice(1, -1).reverse();
+  for (const [k, pixels] of [...pictures, ...back].entries()) {
+    gif.writeFrame(applyPalette(pixels, palette), width, height, { palette: k === 0 ? palette : undefined, delay });
+  }
+  gif.finish();
+  const file = `docs/picture-${colorScheme}.gif`;
+  writeFileSync(path(file), gif.bytes());
+  console.log(`${file}: ${Math.round(gif.bytes().length / 1000)} kB`);
+  await page.close();
+}
+await browser.close();
+await server.close();
+
+/** What a picture holds, as RGBA, unpacked by the browser. */
+async function pixelsOf(page, png) {
+  const base64 = await page.evaluate(async (source) => {
+    const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${source}`)).blob());
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    let text = '';
+    for (let k = 0; k < data.length; k += 4096) text += String.fromCharCode(...data.subarray(k, k + 4096));
+    return btoa(text);
+  }, png.toString('base64'));
+  return new Uint8ClampedArray(Buffer.from(base64, 'base64'));
+}

@@ -1,0 +1,84 @@
+// The reference of the library's API, made by typedoc of the doc comments, as pages under api/. What is public and has
+// no comment, or links to nothing, is an error. In development it is made at the first visit.
+import { existsSync } from 'node:fs';
+import { readFile, writeFile } from 'node:fs/promises';
+import { extname } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import {
+  Application,
+  type DeclarationReflection,
+  JSX,
+  type ProjectReflection,
+  ReflectionKind,
+  type TranslatedString,
+} from 'typedoc';
+import type { Plugin } from 'vite';
+import { navigation } from './frame.ts';
+
+const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
+const kinds: Record<string, string> = {
+  '.html': 'text/html',
+  '.css': 'text/css',
+  '.js': 'text/javascript',
+  '.svg': 'image/svg+xml',
+};
+
+/** What can be called or made, and does not show how. What comes from elsewhere need not. */
+const withoutExample = (project: ProjectReflection): string[] =>
+  project
+    .getReflectionsByKind(ReflectionKind.Class | ReflectionKind.Function | ReflectionKind.Method)
+    .filter(
+      (each): each is DeclarationReflection => each.isDeclaration() && !each.parent?.kindOf(ReflectionKind.Interface),
+    )
+    .filter((each) => !each.inheritedFrom && !each.overwrites && !each.implementationOf && !each.name.startsWith('['))
+    .filter((each) => !(each.signatures ?? [each]).some(({ comment }) => comment?.getTag('@example')))
+    .map((each) => each.getFullName());
+
+async function writeReference(folder: string): Promise<void> {
+  const customCss = path('../build/api.css');
+  const styles = [path('shared/frame.css'), path('api.css')];
+  await writeFile(customCss, (await Promise.all(styles.map((file) => readFile(file, 'utf8')))).join('\n'));
+  const app = await Application.bootstrapWithPlugins({
+    options: path('../typedoc.json'),
+    tsconfig: path('../tsconfig.json'),
+    customCss,
+    favicon: path('public/logo.svg'),
+  });
+  app.renderer.hooks.on('body.begin', ({ page }) =>
+    JSX.createElement(JSX.Raw, { html: navigation(`api/${page.url}`) }),
+  );
+  const project = await app.convert();
+  if (project) {
+    app.validate(project);
+    for (const name of withoutExample(project))
+      app.logger.validationWarning(`${name} has no example` as TranslatedString);
+  }
+  if (!project || app.logger.hasErrors() || app.logger.hasWarnings()) {
+    throw new Error('the reference of the API is not complete: see the warnings above');
+  }
+  await app.generateDocs(project, folder);
+}
+
+export const api: Plugin = {
+  name: 'api',
+  async closeBundle() {
+    await writeReference(path('dist/api'));
+  },
+  configureServer(server) {
+    const folder = path('../build/api');
+    let written: Promise<void> | undefined;
+    server.middlewares.use('/api', async (request, response, next) => {
+      try {
+        written ??= writeReference(folder);
+        await written;
+        const { pathname } = new URL(request.url!, 'http://site');
+        const file = folder + (pathname.endsWith('/') ? `${pathname}index.html` : pathname);
+        if (!existsSync(file)) return next();
+        response.setHeader('Content-Type', kinds[extname(file)] ?? 'application/octet-stream');
+        response.end(await readFile(file));
+      } catch (error) {
+        next(error);
+      }
+    });
+  },
+};

@@ -1,0 +1,159 @@
+// Pages made of the repository's Markdown, so that a text stands in one place and reads well in both: the guides and
+// the other documents under guides/, and the examples with their source under examples/. A link to what is no page is
+// an error.
+import { readdirSync, readFileSync } from 'node:fs';
+import { basename, posix } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import highlight from 'highlight.js';
+import MarkdownIt from 'markdown-it';
+import type { Plugin } from 'vite';
+import { rootFrom } from './frame.ts';
+
+const repository = fileURLToPath(new URL('..', import.meta.url));
+const site = fileURLToPath(new URL('.', import.meta.url));
+
+const guides = [
+  'getting-started',
+  'ids-and-ecs',
+  'moving-here',
+  'choosing-a-technique',
+  'static-worlds',
+  'events',
+  'queries',
+  'fixed-time-steps',
+  'rollback',
+  'performance',
+  'troubleshooting',
+];
+const others = ['docs/command.md', 'docs/trace-format.md', 'docs/promises.md', 'ARCHITECTURE.md', 'CHANGELOG.md'];
+
+/** The page of each Markdown file, by its path in the repository, in the order in which they are listed. */
+const pages = new Map([
+  ['docs/guides/README.md', 'guides/index.html'],
+  ...[...guides.map((name) => `docs/guides/${name}.md`), ...others].map((file): [string, string] => [
+    file,
+    `guides/${basename(file, '.md').toLowerCase()}/index.html`,
+  ]),
+  ['examples/README.md', 'examples/index.html'],
+]);
+
+/** The folders of examples, each a page with its source. */
+const folders = new Map(
+  readdirSync(`${repository}examples`, { withFileTypes: true })
+    .filter((entry) => entry.isDirectory() && entry.name !== 'node_modules')
+    .map(({ name }) => [`examples/${name}`, `examples/${name}/index.html`]),
+);
+
+const read = (file: string) => readFileSync(repository + file, 'utf8');
+const titleOf = (markdown: string) => /^# (.*)$/m.exec(markdown)![1].replaceAll('`', '');
+const slugOf = (heading: string) =>
+  heading
+    .toLowerCase()
+    .replace(/[^\p{L}\p{N} _-]/gu, '')
+    .replaceAll(' ', '-');
+
+/** Where a link of a file leads, as seen from its page. */
+function linkFrom(file: string, page: string, href: string): string {
+  if (/^(https?:|#)/.test(href)) return href;
+  const [path, anchor] = posix.join(posix.dirname(file), href).split('#');
+  const target = path.replace(/\/$/, '');
+  const folder = [...folders.keys()].find((name) => target.startsWith(`${name}/`));
+  const to = pages.get(target) ?? folders.get(target) ?? (folder && folders.get(folder));
+  if (!to) throw new Error(`${file} links to ${href}, which is no page of the site`);
+  const hash = anchor ?? (to === folders.get(folder ?? '') ? slugOf(basename(target)) : undefined);
+  return rootFrom(page) + to.replace('index.html', '') + (hash ? `#${hash}` : '');
+}
+
+const paint = (code: string, language: string) =>
+  highlight.getLanguage(language) ? highlight.highlight(code, { language }).value : '';
+
+function render(file: string, page: string): string {
+  const markdown = new MarkdownIt({ html: true, highlight: (code, language) => paint(code, language) });
+  const { rules } = markdown.renderer;
+  rules.heading_open = (tokens, k) => {
+    const { tag } = tokens[k];
+    return tag === 'h1' ? '<h1>' : `<${tag} id="${slugOf(tokens[k + 1].content)}">`;
+  };
+  // What scrolls must be reached by the keyboard.
+  rules.table_open = () => '<div class="scroll" tabindex="0" role="group" aria-label="A table"><table>';
+  rules.table_close = () => '</table></div>';
+  const { fence } = rules;
+  rules.fence = (...given) => fence!(...given).replace('<pre>', '<pre tabindex="0">');
+  rules.link_open = (tokens, k, options, _, self) => {
+    tokens[k].attrSet('href', linkFrom(file, page, tokens[k].attrGet('href')!));
+    return self.renderToken(tokens, k, options);
+  };
+  return markdown.render(read(file));
+}
+
+/** The source of an example, file by file. */
+function source(folder: string): string {
+  const files = readdirSync(repository + folder).sort();
+  const listings = files.map((name) => {
+    const language = name.split('.').pop()!.replace('mjs', 'js');
+    return `<h2 id="${slugOf(name)}">${name}</h2>
+      <pre tabindex="0"><code>${paint(read(`${folder}/${name}`), language)}</code></pre>`;
+  });
+  return `<h1>${basename(folder)}</h1><p><a href="../">All examples</a></p>${listings.join('')}`;
+}
+
+/** The list beside a document. */
+function listing(page: string): string {
+  const links = [...pages]
+    .filter(([, path]) => path.startsWith('guides/'))
+    .map(([file, path]) => {
+      const current = path === page ? ' aria-current="page"' : '';
+      const name = path === 'guides/index.html' ? 'All guides' : titleOf(read(file));
+      return `<li><a href="${rootFrom(page)}${path.replace('index.html', '')}"${current}>${name}</a></li>`;
+    });
+  return `<nav class="documents" aria-label="Guides"><ul>${links.join('')}</ul></nav>`;
+}
+
+function documentOf(page: string): string {
+  const [file] = [...pages, ...folders].find(([, path]) => path === page)!;
+  const isGuide = page.startsWith('guides/');
+  const title = folders.has(file) ? `${basename(file)}, an example` : titleOf(read(file));
+  const body = folders.has(file) ? source(file) : render(file, page);
+  return `<!doctype html>
+<html lang="en">
+  <head>
+    <!-- head -->
+    <title>${title} · broadphase</title>
+    <link rel="stylesheet" href="${rootFrom(page)}shared/documents.css" />
+  </head>
+  <body>
+    <!-- navigation -->
+    <div class="page">
+      ${isGuide ? listing(page) : ''}
+      <main class="document">${body}</main>
+    </div>
+  </body>
+</html>`;
+}
+
+const addresses = [...pages.values(), ...folders.values()];
+
+export const documents: Plugin = {
+  name: 'documents',
+  enforce: 'pre',
+  config: () => ({
+    build: { rolldownOptions: { input: Object.fromEntries(addresses.map((page) => [page, site + page])) } },
+  }),
+  resolveId: (id) => (addresses.some((page) => id === site + page) ? id : undefined),
+  load: (id) => {
+    const page = addresses.find((address) => id === site + address);
+    return page && documentOf(page);
+  },
+  configureServer(server) {
+    server.middlewares.use(async (request, response, next) => {
+      const page = `${new URL(request.url!, 'http://site').pathname.slice(1)}index.html`;
+      if (!addresses.includes(page)) return next();
+      try {
+        response.setHeader('Content-Type', 'text/html');
+        response.end(await server.transformIndexHtml(`/${page}`, documentOf(page)));
+      } catch (error) {
+        next(error);
+      }
+    });
+  },
+};

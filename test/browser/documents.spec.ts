@@ -1,0 +1,108 @@
+// The pages to read: every link within the site leads somewhere, the guides and the reference fit a phone, light and
+// dark, and are reached by keyboard; the reference can be searched.
+import { readdirSync, readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { expect, test } from '@playwright/test';
+
+const dist = fileURLToPath(new URL('../../site/dist/', import.meta.url));
+/** Anchors that scripts make when the page runs. */
+const made = /^(article\/index\.html#fig-\d+|questions\/index\.html#\w+)$/;
+
+test('no link within the site is dead', () => {
+  const pages = readdirSync(dist, { recursive: true, encoding: 'utf8' }).filter((file) => file.endsWith('.html'));
+  const ids = (html: string) => new Set([...html.matchAll(/\bid="([^"]+)"/g)].map(([, id]) => id));
+  const idsIn = new Map(pages.map((page) => [page, ids(readFileSync(dist + page, 'utf8'))]));
+  const dead: string[] = [];
+  let links = 0;
+  for (const page of pages) {
+    const html = readFileSync(dist + page, 'utf8');
+    for (const { 1: attribute } of html.matchAll(/<a\b[^>]*?\shref="([^"]+)"/g)) {
+      const href = attribute.replaceAll('&amp;', '&');
+      if (/^(https?:|data:)/.test(href)) continue;
+      links++;
+      const { pathname, hash } = new URL(href, `http://site/${page}`);
+      const target = decodeURIComponent(pathname.slice(1)).replace(/(^|\/)$/, '$1index.html');
+      const id = decodeURIComponent(hash.slice(1));
+      const known = idsIn.get(target);
+      if (known && (id === '' || known.has(id) || made.test(`${target}#${id}`))) continue;
+      dead.push(`${page}: ${href}`);
+    }
+  }
+  expect(links).toBeGreaterThan(1000);
+  expect(dead).toEqual([]);
+});
+
+test('no page of the site asks others for anything', async ({ page, baseURL }) => {
+  const strangers: string[] = [];
+  page.on('request', (request) => {
+    if (!/^(data|blob):/.test(request.url()) && !request.url().startsWith(baseURL!)) strangers.push(request.url());
+  });
+  page.on(
+    'response',
+    (response) => response.status() >= 400 && strangers.push(`${response.status()} ${response.url()}`),
+  );
+  for (const address of [
+    'guides/',
+    'guides/moving-here/',
+    'api/',
+    'api/classes/broadphase.BroadPhase.html',
+    'examples/ecs/',
+  ]) {
+    await page.goto(address);
+    await page.waitForLoadState('networkidle');
+  }
+  expect(strangers).toEqual([]);
+});
+
+for (const colorScheme of ['light', 'dark'] as const) {
+  for (const [device, width, height] of [
+    ['phone', 390, 844],
+    ['wide', 1280, 900],
+  ] as const) {
+    test(`fit a ${device} screen, ${colorScheme}`, async ({ page }) => {
+      await page.setViewportSize({ width, height });
+      await page.emulateMedia({ colorScheme });
+      for (const [name, address] of [
+        ['guide', 'guides/moving-here/'],
+        ['promises', 'guides/promises/'],
+        ['example', 'examples/ecs/'],
+        ['reference', 'api/classes/broadphase.BroadPhase.html'],
+      ]) {
+        await page.goto(address);
+        await expect(page.getByRole('heading', { level: 1 })).toBeVisible();
+        const background = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+        expect(background, name).toBe(colorScheme === 'light' ? 'rgb(251, 251, 250)' : 'rgb(16, 17, 19)');
+        expect(await page.evaluate(() => document.documentElement.scrollWidth), name).toBeLessThanOrEqual(width);
+        await page.screenshot({ path: `test-results/screens/${name}-${device}-${colorScheme}.png` });
+      }
+    });
+  }
+}
+
+test('the navigation leads by keyboard from the first page to a guide, and on to the reference', async ({ page }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await page.goto('/');
+  const follow = async (name: string) => {
+    for (let presses = 0; presses < 40; presses++) {
+      await page.keyboard.press('Tab');
+      if ((await page.evaluate(() => document.activeElement?.textContent?.trim())) !== name) continue;
+      return page.keyboard.press('Enter');
+    }
+    throw new Error(`the tab key does not come to ${name}`);
+  };
+  await follow('Guides');
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Guides');
+  await follow('Getting started');
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Getting started');
+  await follow('API');
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('API');
+});
+
+test('the reference finds a method by its name', async ({ page }) => {
+  await page.goto('api/');
+  await page.getByRole('button', { name: 'Search' }).click();
+  await page.keyboard.type('rayCastAll');
+  await page.getByRole('option').first().click();
+  await expect(page).toHaveURL(/broadphase\.BroadPhase\.html#raycastall/);
+  await expect(page.getByText('All boxes that a ray meets').first()).toBeVisible();
+});
