@@ -1,31 +1,12 @@
 // The recorder for Phaser, in a game that runs: all its bodies are in the recording, as large as they are, where they move.
-// Skipped where the packages of the examples are not installed.
-import { execFile } from 'node:child_process';
-import { existsSync } from 'node:fs';
 import { readFile } from 'node:fs/promises';
-import { fileURLToPath } from 'node:url';
-import { promisify } from 'node:util';
 import { expect, test } from '@playwright/test';
 import { openTrace } from 'broadphase/trace';
-
-const path = (file: string) => fileURLToPath(new URL(`../../${file}`, import.meta.url));
-const installed = Boolean(process.env.CI) || existsSync(path('examples/node_modules/phaser'));
+import { openExample } from './example.ts';
 
 test('a Phaser game is recorded as it runs', async ({ page }) => {
-  test.skip(!installed, 'npm ci --prefix examples brings Phaser');
   test.slow();
-  const faults: string[] = [];
-  page.on('pageerror', (error) => faults.push(String(error)));
-  const outDir = path('build/record-phaser');
-  const vite = path('node_modules/vite/bin/vite.js');
-  const config = path('examples/vite.config.mjs');
-  const given = ['build', path('examples/record-phaser'), '--config', config, '--outDir', outDir, '--emptyOutDir'];
-  await promisify(execFile)(process.execPath, [vite, ...given]);
-  await page.route('http://phaser.test/**', async (route) => {
-    const { pathname } = new URL(route.request().url());
-    await route.fulfill({ path: outDir + (pathname === '/' ? '/index.html' : pathname) });
-  });
-  await page.goto('http://phaser.test/');
+  const faults = await openExample(page, 'record-phaser');
   await page.waitForFunction('globalThis.recorded?.recording.frames >= 90', undefined, { timeout: 60_000 });
 
   const download = page.waitForEvent('download');

@@ -1,0 +1,102 @@
+// A selection of boxes, for React: by a rubber band drawn with mouse, pen or finger, and by keys as in a list. What a
+// band touches is one question, queryBox; where an arrow key leads is another, sweep.
+import { BroadPhase } from 'broadphase';
+import { useMemo, useReducer, useRef } from 'react';
+
+const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+/** Farther than any board is wide. */
+const far = 1e5;
+
+const bandOf = ([fromX, fromY], [toX, toY]) => [
+  Math.min(fromX, toX),
+  Math.min(fromY, toY),
+  Math.max(fromX, toX),
+  Math.max(fromY, toY),
+];
+
+const unionOf = (a, b) => [
+  ...a.slice(0, 2).map((n, k) => Math.min(n, b[k])),
+  ...a.slice(2).map((n, k) => Math.max(n, b[k + 2])),
+];
+
+/** Ids in one of two sets. */
+const both = (a, b) => new Set([...a, ...b]);
+
+const nothing = { selected: new Set(), before: new Set(), band: undefined, active: 0, anchor: 0, took: 0 };
+
+/**
+ * boxes: [minX, minY, maxX, maxY] of each id, in pixels of the board; the same array while they stay where they are.
+ * Gives what is selected, the band to draw, the id that keys act on, and the handlers of the board.
+ */
+export function useSelection(boxes) {
+  const [state, put] = useReducer((old, change) => ({ ...old, ...change }), nothing);
+  const space = useMemo(() => {
+    const made = new BroadPhase();
+    for (const [id, box] of boxes.entries()) made.set(id, ...box);
+    return made.update();
+  }, [boxes]);
+  const start = useRef(undefined);
+
+  const within = (box) => {
+    const started = performance.now();
+    const ids = space.queryBox(...box);
+    return { ids, took: performance.now() - started };
+  };
+  const at = ({ clientX, clientY, currentTarget }) => {
+    const { left, top } = currentTarget.getBoundingClientRect();
+    return [clientX - left, clientY - top];
+  };
+
+  const handlers = {
+    onPointerDown(event) {
+      if (event.button !== 0) return;
+      event.currentTarget.setPointerCapture(event.pointerId);
+      start.current = at(event);
+      const more = event.shiftKey || event.ctrlKey || event.metaKey;
+      const { ids, took } = within(bandOf(start.current, start.current));
+      const before = more ? state.selected : new Set();
+      const active = ids[0] ?? state.active;
+      put({ before, selected: both(before, ids), active, anchor: active, took });
+    },
+    onPointerMove(event) {
+      if (!start.current) return;
+      const band = bandOf(start.current, at(event));
+      const { ids, took } = within(band);
+      put({ band, selected: both(state.before, ids), took });
+    },
+    onPointerUp: () => end(),
+    onPointerCancel: () => end(),
+    onKeyDown(event) {
+      const { key, shiftKey } = event;
+      if (arrows[key]) move(arrows[key], shiftKey);
+      else if (key === ' ') toggle(state.active);
+      else if (key === 'a' && (event.ctrlKey || event.metaKey)) put({ selected: new Set(boxes.keys()) });
+      else if (key === 'Escape') put({ selected: new Set() });
+      else return;
+      event.preventDefault();
+    },
+  };
+
+  function end() {
+    start.current = undefined;
+    put({ band: undefined });
+  }
+
+  /** To what the active box would meet if it moved that way; with Shift, all between there and the anchor is selected. */
+  function move([dx, dy], extend) {
+    const box = boxes[state.active];
+    const hit = space.sweep(...box, dx * far, dy * far, { ignore: state.active });
+    if (!hit) return;
+    if (!extend) return put({ active: hit.id, anchor: hit.id, before: state.selected });
+    const { ids, took } = within(unionOf(boxes[state.anchor], boxes[hit.id]));
+    put({ active: hit.id, selected: both(state.before, ids), took });
+  }
+
+  function toggle(id) {
+    const selected = new Set(state.selected);
+    if (!selected.delete(id)) selected.add(id);
+    put({ selected, before: selected, anchor: id });
+  }
+
+  return { ...state, handlers };
+}

@@ -1,0 +1,231 @@
+// The examples with a page: what each shows is what a look at every box says, by mouse, touch and keyboard.
+import { expect, type Page, test } from '@playwright/test';
+import { openExample } from './example.ts';
+
+/** Without it Phaser draws on a 2D canvas: WebGL that runs on the processor is too slow for so many things. */
+const withoutWebgl = (page: Page) =>
+  page.addInitScript(() => {
+    const { getContext } = HTMLCanvasElement.prototype;
+    // biome-ignore lint/suspicious/noExplicitAny: it has a signature for each kind of context
+    HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, kind: string, ...options: any[]) {
+      return kind.includes('webgl') ? null : getContext.call(this, kind, ...options);
+    } as typeof getContext;
+  });
+
+/** Where there is no GPU a frame takes long. */
+const patient = { timeout: 30_000 };
+
+const numbers = (page: Page) => page.locator('#numbers').innerText();
+const count = (text: string, pattern: RegExp) => Number(pattern.exec(text)![1].replaceAll(',', ''));
+
+test('20,000 bullets in Phaser: the pairs are those of two plain loops, and the shield can be steered', async ({
+  page,
+}) => {
+  test.slow();
+  await withoutWebgl(page);
+  const faults = await openExample(page, 'bullets-phaser');
+  await expect.poll(() => numbers(page), patient).toMatch(/you caught [1-9]/);
+  const shield = () => page.evaluate('[game.x[0], game.y[0]]') as Promise<[number, number]>;
+  const [x] = await shield();
+  await page.locator('#stage').focus();
+  await page.keyboard.down('ArrowLeft');
+  await expect.poll(async () => (await shield())[0], patient).toBeLessThan(x - 20);
+  await page.keyboard.up('ArrowLeft');
+  const stage = (await page.locator('#stage').boundingBox())!;
+  await page.mouse.move(stage.x + 0.25 * stage.width, stage.y + 0.75 * stage.height);
+  const aimed = () => page.evaluate('[game.x[0] / game.width, game.y[0] / game.height].map((n) => n.toFixed(1))');
+  await expect.poll(aimed, patient).toEqual([expect.stringMatching(/0\.[23]/), expect.stringMatching(/0\.[78]/)]);
+
+  await page.getByRole('button', { name: 'Pause' }).click();
+  await page.getByRole('checkbox', { name: 'two plain loops instead' }).check();
+  const plain = count(await numbers(page), /find ([\d,]+) pairs/);
+  expect(plain).toBeGreaterThan(200);
+  const plainPairs = await page.evaluate('game.pairs.join()');
+  await page.getByRole('checkbox').uncheck();
+  expect(count(await numbers(page), /find ([\d,]+) pairs/)).toBe(plain);
+  const sorted = await page.evaluate(
+    'Array.from({ length: game.pairs.length / 2 }, (_, k) => [game.pairs[2 * k], game.pairs[2 * k + 1]]).sort(([a, b], [c, d]) => a - c || b - d).join()',
+  );
+  expect(sorted).toBe(plainPairs);
+  expect(faults).toEqual([]);
+});
+
+test('20,000 bullets in Phaser stand still for those who ask for less motion', async ({ page }) => {
+  test.slow();
+  await withoutWebgl(page);
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  const faults = await openExample(page, 'bullets-phaser');
+  const places = () => page.evaluate('game.x.slice(0, 400).join()');
+  const before = await places();
+  await page.waitForTimeout(500);
+  expect(await places()).toBe(before);
+  await page.getByRole('button', { name: 'Play' }).click();
+  await expect.poll(places, patient).not.toBe(before);
+  expect(faults).toEqual([]);
+});
+
+/** The ids of the boxes that overlap a box: one look at each. */
+const overlapping = (boxes: number[][], [minX, minY, maxX, maxY]: number[]) =>
+  boxes.flatMap((box, id) => (box[0] <= maxX && box[2] >= minX && box[1] <= maxY && box[3] >= minY ? [id] : []));
+
+test('PixiJS: what is drawn is what overlaps the view, and what is picked lies under the pointer', async ({ page }) => {
+  test.slow();
+  const faults = await openExample(page, 'culling-pixi');
+  await expect.poll(() => numbers(page), patient).toContain('of 100,000 drawn');
+  const boxes = (await page.evaluate(
+    'Array.from({ length: example.space.size }, (_, id) => [...example.space.get(id)])',
+  )) as number[][];
+  /** Draws, and compares with the boxes that overlap what the window shows of the world. */
+  const look = async () => {
+    await page.evaluate('new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))');
+    const [view, seen] = (await page.evaluate(`(() => {
+      const { world, app, sprites } = example;
+      const [width, height] = [app.screen.width, app.screen.height];
+      const corner = (x, y) => { const { x: a, y: b } = world.toLocal({ x, y }); return [a, b]; };
+      return [[...corner(0, 0), ...corner(width, height)], sprites.flatMap(({ visible }, id) => (visible ? [id] : []))];
+    })()`)) as [number[], number[]];
+    expect(seen).toEqual(overlapping(boxes, view));
+    expect(count(await numbers(page), /^([\d,]+) of/)).toBe(seen.length);
+    return { view, seen };
+  };
+  const first = await look();
+  expect(first.seen.length).toBeGreaterThan(100);
+
+  const stage = page.locator('#stage');
+  await stage.press('ArrowRight');
+  await stage.press('-');
+  const second = await look();
+  expect(second.view[0]).not.toBe(first.view[0]);
+  expect(second.seen.length).toBeGreaterThan(first.seen.length);
+  const { x, y, width, height } = (await stage.boundingBox())!;
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.wheel(0, -300);
+  await page.mouse.down();
+  await page.mouse.move(x + width / 2 + 150, y + height / 2 + 40, { steps: 3 });
+  await page.mouse.up();
+  const third = await look();
+  expect(third.seen.length).toBeLessThan(second.seen.length);
+
+  // Over the middle of a tile, and in the middle of the view by the Enter key.
+  const [minX, minY, maxX, maxY] = boxes[third.seen[7]];
+  const scale = width / (third.view[2] - third.view[0]);
+  const [atX, atY] = [(minX + maxX) / 2, (minY + maxY) / 2];
+  await page.mouse.move(x + scale * (atX - third.view[0]), y + scale * (atY - third.view[1]));
+  const top = Math.max(...overlapping(boxes, [atX, atY, atX, atY]));
+  await expect(page.getByRole('status')).toHaveText(`Tile ${top.toLocaleString('en')}`);
+  await stage.press('Enter');
+  const [midX, midY] = [(third.view[0] + third.view[2]) / 2, (third.view[1] + third.view[3]) / 2];
+  const middle = Math.max(-1, ...overlapping(boxes, [midX, midY, midX, midY]));
+  await expect(page.getByRole('status')).toHaveText(
+    middle < 0 ? 'No tile is here.' : `Tile ${middle.toLocaleString('en')}`,
+  );
+  expect(faults).toEqual([]);
+});
+
+test('three.js: the pairs of the cloud are those of a look at every two boxes, and what overlaps is hot', async ({
+  page,
+}) => {
+  test.slow();
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  const faults = await openExample(page, 'instancing-three', '?boxes=1500');
+  const look = async () => {
+    const { pairs, middles, halves, heat } = (await page.evaluate(
+      '(({ space, middles, halves, heat }) => ({ pairs: [...space.pairs], middles: [...middles], halves: [...halves], heat: [...heat] }))(example.cloud)',
+    )) as Record<string, number[]>;
+    const near = (a: number, b: number) =>
+      [0, 1, 2].every(
+        (axis) =>
+          Math.abs(middles[3 * a + axis] - middles[3 * b + axis]) <= halves[3 * a + axis] + halves[3 * b + axis],
+      );
+    const expected: string[] = [];
+    for (let a = 0; a < 1500; a++) for (let b = a + 1; b < 1500; b++) if (near(a, b)) expected.push(`${a} ${b}`);
+    const found = Array.from({ length: pairs.length / 2 }, (_, k) => `${pairs[2 * k]} ${pairs[2 * k + 1]}`);
+    expect(found.sort()).toEqual(expected.sort());
+    expect(found.length).toBeGreaterThan(50);
+    expect(heat.filter((value) => value === 1)).toHaveLength(new Set(pairs).size);
+    return found.join();
+  };
+  const still = await look();
+  expect(await look()).toBe(still);
+  expect(count(await numbers(page), /find ([\d,]+) pairs/)).toBe(still.split(',').length);
+  await page.getByRole('button', { name: 'Play' }).click();
+  await expect.poll(() => page.evaluate('example.cloud.heat.some((heat) => heat > 0 && heat < 1)'), patient).toBe(true);
+  await page.keyboard.press('p');
+  await expect(page.getByRole('button', { name: 'Play' })).toBeVisible();
+  expect(await look()).not.toBe(still);
+  const place = () => page.evaluate('example.camera.position.toArray().join()');
+  for (const key of ['ArrowLeft', 'ArrowUp', '-']) {
+    const before = await place();
+    await page.locator('#stage').press(key);
+    expect(await place()).not.toBe(before);
+  }
+  expect(faults).toEqual([]);
+});
+
+test('React: a band selects what it touches, and keys do what they do in a list', async ({ page }) => {
+  const faults = await openExample(page, 'selection-react');
+  const board = page.getByRole('listbox');
+  await expect.poll(() => page.getByRole('option').count()).toBeGreaterThan(100);
+  const frame = (await board.boundingBox())!;
+  const boxes = await page.getByRole('option').evaluateAll((tiles) =>
+    (tiles as HTMLElement[]).map(({ style }) => {
+      const [left, top, width, height] = [style.left, style.top, style.width, style.height].map(Number.parseFloat);
+      return [left, top, left + width, top + height];
+    }),
+  );
+  const selected = () =>
+    page.getByRole('option', { selected: true }).evaluateAll((tiles) => tiles.map(({ id }) => Number(id.slice(5))));
+  const drag = async (from: number[], to: number[]) => {
+    await page.mouse.move(frame.x + from[0], frame.y + from[1]);
+    await page.mouse.down();
+    await page.mouse.move(frame.x + to[0], frame.y + to[1], { steps: 4 });
+    await page.mouse.up();
+  };
+  await drag([401.5, 300.5], [120.5, 90.5]);
+  const first = overlapping(boxes, [120.5, 90.5, 401.5, 300.5]);
+  expect(first.length).toBeGreaterThan(15);
+  expect(await selected()).toEqual(first);
+  await expect(page.getByRole('status')).toContainText(`${first.length} of ${boxes.length} tiles selected`);
+
+  await page.keyboard.down('Shift');
+  await drag([500.5, 400.5], [610.5, 470.5]);
+  await page.keyboard.up('Shift');
+  const more = overlapping(boxes, [500.5, 400.5, 610.5, 470.5]);
+  expect(await selected()).toEqual([...new Set([...first, ...more])].sort((a, b) => a - b));
+  await page.mouse.click(frame.x + boxes[3][0] + 5, frame.y + boxes[3][1] + 5);
+  expect(await selected()).toEqual([3]);
+
+  await board.press('Escape');
+  expect(await selected()).toEqual([]);
+  await board.press('ArrowRight');
+  await board.press(' ');
+  expect(await selected()).toEqual([4]);
+  await board.press('Shift+ArrowDown');
+  const active = Number((await board.getAttribute('aria-activedescendant'))!.slice(5));
+  expect(boxes[active][1]).toBeGreaterThan(boxes[4][3]);
+  const [a, b] = [boxes[4], boxes[active]];
+  const union = [Math.min(a[0], b[0]), a[1], Math.max(a[2], b[2]), b[3]];
+  expect(await selected()).toEqual(overlapping(boxes, union));
+  await board.press('Control+a');
+  expect(await selected()).toHaveLength(boxes.length);
+  expect(faults).toEqual([]);
+});
+
+test('React: a finger draws the band too', async ({ browser }) => {
+  const page = await browser.newPage({ viewport: { width: 390, height: 780 }, hasTouch: true, isMobile: true });
+  const faults = await openExample(page, 'selection-react');
+  await expect.poll(() => page.getByRole('option').count()).toBeGreaterThan(50);
+  const touch = await page.context().newCDPSession(page);
+  for (const [type, x, y] of [
+    ['touchStart', 40, 60],
+    ['touchMove', 120, 200],
+    ['touchMove', 250, 420],
+    ['touchEnd', 0, 0],
+  ] as const) {
+    await touch.send('Input.dispatchTouchEvent', { type, touchPoints: type === 'touchEnd' ? [] : [{ x, y }] });
+  }
+  await expect.poll(() => page.getByRole('option', { selected: true }).count()).toBeGreaterThan(20);
+  expect(await page.evaluate(() => [scrollX, scrollY, document.documentElement.scrollWidth])).toEqual([0, 0, 390]);
+  expect(faults).toEqual([]);
+  await page.close();
+});
