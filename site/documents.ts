@@ -25,7 +25,14 @@ const guides = [
   'performance',
   'troubleshooting',
 ];
-const others = ['docs/command.md', 'docs/trace-format.md', 'docs/promises.md', 'ARCHITECTURE.md', 'CHANGELOG.md'];
+const others = [
+  'docs/command.md',
+  'docs/trace-format.md',
+  'docs/promises.md',
+  'docs/versioning.md',
+  'ARCHITECTURE.md',
+  'CHANGELOG.md',
+];
 
 /** The page of each Markdown file, by its path in the repository, in the order in which they are listed. */
 const pages = new Map([

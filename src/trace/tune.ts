@@ -144,7 +144,7 @@ const worthwhile = 1.03;
  * const recording = record(space);
  * for (let x = 0; x < 3; x++) space.set(7, x, 0, x + 4, 4).set(9, 5, 0, 9, 4).update();
  * const { code, frames } = tune(openTrace(recording.bytes()), { techniques: ['brute-force'], seconds: 0.01 });
- * code.startsWith('const space = new BroadPhase('); // → true
+ * code.includes('const space = new BroadPhase('); // → true
  * frames.length; // → 2
  */
 export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
