@@ -63,6 +63,7 @@ describe.each(runs)('incremental, $dimensions dimensions, speed $speed of $share
       fresh.update();
       expect(keysOf(kept.pairs), `frame ${frame}`).toEqual(keysOf(fresh.pairs));
       if (kept.stats.tests !== fresh.stats.tests) answered++;
+      expect(kept.stats.candidates, `frame ${frame}`).toBeGreaterThanOrEqual(kept.stats.pairs);
       kept.validate();
     }
     expect(answered, 'updates answered from what is kept').toBeGreaterThan(20);

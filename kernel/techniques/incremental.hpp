@@ -939,7 +939,6 @@ template <int D> class Incremental {
       if (leaves_ == 0) return;
     }
     if (huge_count_ > 0) report_huge(scene, pairs, stats);
-    stats.candidates = candidates_;
     stats.tests += candidates_;
     stats.cells = leaves_;
     stats.entries = moving_ + resting_;

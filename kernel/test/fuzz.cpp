@@ -8,6 +8,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (beginning.dimensions == 2) Calls<2>(bytes, beginning.technique).run();
   else Calls<3>(bytes, beginning.technique).run();
   CHECK(heap::used == 0);
-  if (testing::failures > 0) std::abort();
+  if (testing::failures > 0) {
+    std::fflush(stdout);  // what does not hold
+    std::abort();
+  }
   return 0;
 }
