@@ -115,6 +115,63 @@ template <int D> void check_updates() {
   }
 }
 
+/// Boxes of which a few creep, come, wake and jump, update after update, until techniques keep what they find; then
+/// memory ends in one update: when they begin to, while they fill what they keep, and when they answer from it.
+template <int D> void check_kept_updates() {
+  Random random(23);
+  const Boxes<D> boxes = as_floats<D>(spread<D>(random, 400, 0, D == 2 ? 200 : 60, 8));
+  u32 failures = 0;
+  auto change = [](Fixture<D>& f, u32 k, bool much) {
+    for (u32 id = 0; id < (much ? 60u : 12u); id++) {
+      Box<D> box = f.model.at(id);
+      for (u32 n = 0; n < 2 * D; n++) box[n] += (id % 2 ? 0.125 : -0.125) * (k / 30 % 2 ? 1 : -1);
+      f.space.set(id, box.data());
+      f.model.set(id, box);
+    }
+    if (!much) return;
+    Box<D> other = f.model.at(77);
+    for (u32 id : {f.model.count(), 99u}) {
+      f.space.set(id, other.data());
+      f.model.set(id, other);
+    }
+  };
+  for (Technique technique : {Technique::incremental, Technique::automatic, Technique::aabb_tree, Technique::retained_grid}) {
+    testing::Where where("technique " + std::to_string(u32(technique)));
+    for (u32 last : {1u, 2u, 3u, 40u, 93u, 98u, 130u}) {
+      for (u32 room : {0u, 100u, 1000u, 10'000u}) {
+        testing::Where where("update " + std::to_string(last) + " with " + std::to_string(room) + " bytes left");
+        Fixture<D> f;
+        f.space.technique = technique;
+        replace(f.space, boxes, false);
+        f.model.replace(boxes);
+        for (u32 k = 0; k < last; k++) {
+          change(f, k, false);
+          f.space.update();
+        }
+        change(f, last, true);
+        const u64 limit = heap::limit;
+        heap::limit = heap::used + room;
+        bool failed = false;
+        try {
+          f.space.update();
+        } catch (const Failure&) {
+          failed = true;
+        }
+        heap::limit = limit;
+        if (failed) {
+          failures++;
+          f.space.recover();
+          f.unchanged();
+        }
+        f.works();
+        for (u32 k = 0; k < 3; k++) change(f, k, true);
+        f.works();
+      }
+    }
+  }
+  CHECK(failures > 40);
+}
+
 /// More pairs than there is memory for, then fewer boxes in the same memory.
 template <int D> void check_too_many_pairs() {
   for (u32 t = 0; t < technique_count; t++) {
@@ -152,6 +209,7 @@ template <int D> void list_memory_tests() {
   testing::list({
       {"memory that ends in a change leaves all as it was", D, check_changes<D>},
       {"memory that ends in an update ends it with no pairs", D, check_updates<D>},
+      {"memory that ends in an update of techniques that keep things ends it with no pairs", D, check_kept_updates<D>},
       {"memory suffices again with fewer boxes", D, check_too_many_pairs<D>},
   });
 }
