@@ -173,8 +173,8 @@ function drawFast(thing: FastThing, state: State, pixel: number): void {
 }
 
 function show(name: string): void {
-  kind = kinds[name] ?? kinds.shapes;
-  const chosen = kinds[name] ? name : 'shapes';
+  const chosen = Object.hasOwn(kinds, name) ? name : 'shapes';
+  kind = kinds[chosen];
   find<HTMLInputElement>(`kind-${chosen}`).checked = true;
   find('hint').textContent = kind.hint;
   find('word').textContent = kind.word;

@@ -28,14 +28,14 @@ const values = [
 ];
 const names = ['boxes', 'scene', 'technique', 'cell', 'show', 'rate', 'frame', 'view', 'box', 'race', 'renderer'];
 
-for (const path of ['', 'article/', 'lab/']) {
+for (const path of ['', 'article/', 'lab/', 'bench/', 'narrow-phase/', 'questions/']) {
   test(`no address breaks /${path}`, async ({ page }) => {
     test.setTimeout(240_000);
     const done = watch(page);
     await page.emulateMedia({ reducedMotion: 'reduce' });
     for (const value of values) {
       const query = names.map((name) => `${name}=${value.includes('%') ? value : encodeURIComponent(value)}`).join('&');
-      await page.goto(`/${path}?${query}`);
+      await page.goto(`/${path}?${query}#${value}`);
       await expect(page.getByRole('heading', { level: 1 })).toBeVisible();
       await expect.poll(() => page.evaluate(() => 6 * 7)).toBe(42);
       expect(await page.locator('img[src=x]').count()).toBe(0);
