@@ -4,6 +4,9 @@
 #pragma once
 #include "box.hpp"
 
+/// A pair as it is reported: the smaller slot in the low half.
+inline u64 pair_of(u32 a, u32 b) { return u64(smaller(a, b)) | u64(larger(a, b)) << 32; }
+
 struct Pairs {
   Buffer<u64> list;  // in memory: slot a, slot b, slot a, …
   u64 count = 0;

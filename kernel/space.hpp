@@ -286,7 +286,7 @@ template <int D> class Space {
   COLD bool is_pair(u32 a, u32 b) {
     if (pairs.count == 0) return false;
     if (!table_.made) table_.make(pairs);
-    return table_.find(pairs, u64(smaller(a, b)) | u64(larger(a, b)) << 32) != PairTable::none;
+    return table_.find(pairs, pair_of(a, b)) != PairTable::none;
   }
 
   /// Writes the ids that were in a pair with this one in the last update to `answers`; returns how many.
@@ -565,7 +565,7 @@ template <int D> class Space {
     u64* list = pairs.list.data();
     for (u64 p = 0; p < pairs.count; p++) {
       u32 a = ids_.id(u32(list[p])), b = ids_.id(u32(list[p] >> 32));
-      list[p] = u64(smaller(a, b)) | u64(larger(a, b)) << 32;
+      list[p] = pair_of(a, b);
     }
   }
 };

@@ -102,7 +102,7 @@ class Wrap {
       if (a == b) continue;
       bool keep = plain_[a] & plain_[b];
       if (!keep) keep = is_first(a, ghost_a, b, ghost_b);
-      list[kept] = u64(smaller(a, b)) | u64(larger(a, b)) << 32;
+      list[kept] = pair_of(a, b);
       kept += keep;
     }
     pairs.count = kept;

@@ -106,7 +106,7 @@ template <int D> class Incremental {
   static constexpr u32 ahead = 8;            // its motion is known from so many updates
   static constexpr u32 late_share = 40;      // all is given up where one in so many leaves its fat box at once
   static constexpr f32 least_period = 4, most_period = 64, growth = 1.15f;
-  static constexpr f32 still_for = 3;        // updates without motion after which a box rests
+  static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 watched = 256;        // boxes whose motion is looked at before anything is kept
   static constexpr f64 quick = 0.06;          // and how far of its size one may move in an update, on average
   static constexpr u32 first_pause = 8, longest_pause = 256;
@@ -124,15 +124,13 @@ template <int D> class Incremental {
     f32 low[4], high[4];  // where a corner must be for this cell to report: at or above low, not at or above high
     Movers movers;
     Stills stills;
-    Buffer<f32> boxes;    // of the movers, as they are now
-    Buffer<u32> pairs;    // candidates among movers: one's place, the other's place << 16
-    Buffer<u64> edges;    // candidates of a mover with one at rest: the other's slot, its place << 32
-    u32 pair_count, edge_count;
+    Buffer<u64> candidates;  // pairs of slots, as they are reported
+    u32 candidate_count;
   };
 
   struct Known {
-    f32 box[width];  // at rest, or where it was when it began to wait
-    f32 since;       // the update of that
+    f32 box[width];  // of a mover: while it is in here its candidates hold; else: at rest, or when it began to wait
+    u32 since;       // the update of that
     u32 tag;         // exclusion bits, and those below them
   };
 
@@ -147,7 +145,7 @@ template <int D> class Incremental {
   Buffer<u32> queue_;    // slots that wait to be put into cells
   u32 queued_ = 0, resting_ = 0;
   u32 unseen_ = 0;       // of those that wait, so many have not even been looked at
-  Buffer<u64> late_list_;  // movers that have left their fat boxes: slot, cell << 32
+  Buffer<u32> late_;     // movers that have left their fat boxes
   u32 late_count_ = 0;
   u32 huge_[most_huge] = {};
   u32 huge_count_ = 0;
@@ -158,10 +156,10 @@ template <int D> class Incremental {
   bool excluding_ = false;  // boxes had exclusion bits
   bool kept_ = false;    // the last update was answered from what is kept
   u32 cursor_ = 0;       // the cell whose turn is next
-  f32 now_ = 0;          // updates, counted
+  u32 now_ = 0;          // updates, counted
   f32 period_ = 16, target_ = 16;  // updates in which every cell has one turn, and what that is to become
   f32 slack_ = 0.5f;     // fat boxes reach to all sides, in motions of one update
-  f64 moving_ = 0, candidates_ = 0, late_ = 0, turned_ = 0, motion_ = 0;  // of this update
+  f64 moving_ = 0, candidates_ = 0, turned_ = 0, motion_ = 0;  // of this update
   f64 fresh_ = 0;        // what the last update cost that was answered by strip-sweep
   u32 pause_ = 0, pauses_ = first_pause;  // updates left in which nothing is tried; how many the last pause had
   Buffer<f32> watched_;  // boxes of the update before
@@ -201,7 +199,7 @@ template <int D> class Incremental {
     cuts_.release();
     known_.release();
     queue_.release();
-    late_list_.release();
+    late_.release();
     settled_.list.release();
     order_.release();
     woken_.release();
@@ -215,16 +213,17 @@ template <int D> class Incremental {
  private:
   void find(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
-    now_ += 1;
+    now_++;
     if (leaves_ > 0 && (n < few || n > 2 * planned_ || 4 * n < planned_)) forget();
     pairs.count = 0;
-    moving_ = candidates_ = late_ = turned_ = motion_ = 0;
+    moving_ = candidates_ = turned_ = motion_ = 0;
     if (leaves_ > 0) {
       follow(scene, pairs);
       serve(scene, options, stats);
       if (leaves_ > 0 && queued_ == 0) {
         take_turns(scene, options, stats);
-        if (leaves_ > 0 && pays()) report(scene, options, pairs, stats);
+        if (leaves_ > 0) serve_late(scene, options, stats);
+        if (leaves_ > 0 && pays()) report(scene, pairs, stats);
       }
     }
     kept_ = leaves_ > 0 && queued_ == 0;
@@ -246,6 +245,10 @@ template <int D> class Incremental {
     u32 both = bitmask((load<f32x4>(one) <= load<f32x4>(other + D)) & (load<f32x4>(other) <= load<f32x4>(one + D)));
     return !(~both & ((1 << D) - 1));
   }
+  static bool inside(const f32* box, const f32* other) {
+    u32 low = bitmask(load<f32x4>(other) <= load<f32x4>(box)), high = bitmask(load<f32x4>(box + D) <= load<f32x4>(other + D));
+    return !(~(low & high) & ((1 << D) - 1));
+  }
   static bool equal(const f32* a, const f32* b) {
     u32 both = bitmask((load<f32x4>(a) == load<f32x4>(b)) & (load<f32x4>(a + D) == load<f32x4>(b + D)));
     return !(~both & ((1 << D) - 1));
@@ -256,9 +259,7 @@ template <int D> class Incremental {
     for (u32 c = 0; c < leaves_; c++) {
       cells_[c].movers.values.release();
       cells_[c].stills.values.release();
-      cells_[c].boxes.release();
-      cells_[c].pairs.release();
-      cells_[c].edges.release();
+      cells_[c].candidates.release();
     }
     leaves_ = count_ = queued_ = unseen_ = resting_ = huge_count_ = watching_ = 0;
     settled_.count = 0;
@@ -291,7 +292,7 @@ template <int D> class Incremental {
   }
 
   /// How far a box moved in an update, as a share of its size, at most 1.
-  static f64 pace(const f32* box, const f32* low, f32 updates) {
+  static f64 pace(const f32* box, const f32* low, u32 updates) {
     f64 most = 0;
     for (int a = 0; a < D; a++) {
       f64 step = (f64(box[a]) - low[a]) / updates, size = f64(box[D + a]) - box[a];
@@ -474,65 +475,36 @@ template <int D> class Incremental {
 
   static u32 tag_of(u32 slot, u32 tag) { return slot | (tag & ~slot_mask); }
 
-  /// Puts a mover into a cell; gives its place.
-  COLD static u32 put(Cell& cell, u32 tag, const f32* box, const f32* fat) {
-    u32 at = cell.movers.put(fat, tag);
-    cell.boxes.grow(u64(at + 1) * width + padding, u64(at) * width);
-    __builtin_memcpy(cell.boxes.data() + u64(at) * width, box, width * sizeof(f32));
-    return at;
-  }
-
   /// Notes when and where a fat box was made.
   void stamp(const Cell& cell, u32 at, const f32* box) const {
     for (int a = 0; a < D; a++) cell.movers.row(from_row + u32(a))[at] = box[a];
-    cell.movers.row(when_row)[at] = now_;
+    cell.movers.row(when_row)[at] = bits<f32>(now_);
   }
 
-  /// Takes the candidates of a mover out of its cell.
-  COLD static void purge(Cell& cell, u32 at) {
+  /// How long ago that was.
+  u32 age(const Cell& cell, u32 at) const { return now_ - bits<u32>(cell.movers.row(when_row)[at]); }
+
+  /// Takes the candidates of a box out of a cell.
+  COLD static void purge(Cell& cell, u32 slot) {
     u32 left = 0;
-    for (u32 k = 0; k < cell.pair_count; k++) {
-      u32 pair = cell.pairs[k];
-      cell.pairs[left] = pair;
-      left += (pair & 0xffff) != at && pair >> 16 != at;
+    for (u32 k = 0; k < cell.candidate_count; k++) {
+      u64 pair = cell.candidates[k];
+      cell.candidates[left] = pair;
+      left += u32(pair) != slot && u32(pair >> 32) != slot;
     }
-    cell.pair_count = left;
-    left = 0;
-    for (u32 k = 0; k < cell.edge_count; k++) {
-      u64 edge = cell.edges[k];
-      cell.edges[left] = edge;
-      left += u32(edge >> 32) != at;
-    }
-    cell.edge_count = left;
+    cell.candidate_count = left;
   }
 
   /// Takes a mover and its candidates out of a cell; the last mover comes to its place.
   COLD static void take(Cell& cell, u32 at) {
-    purge(cell, at);
+    purge(cell, cell.movers.tags()[at] & slot_mask);
     cell.movers.take(at);
-    u32 last = cell.movers.count;
-    if (last == at) return;
-    __builtin_memcpy(cell.boxes.data() + u64(at) * width, cell.boxes.data() + u64(last) * width, width * sizeof(f32));
-    for (u32 k = 0; k < cell.pair_count; k++) {
-      u32 pair = cell.pairs[k], a = pair & 0xffff, b = pair >> 16;
-      cell.pairs[k] = (a == last ? at : a) | (b == last ? at : b) << 16;
-    }
-    for (u32 k = 0; k < cell.edge_count; k++) {
-      u64 edge = cell.edges[k];
-      if (u32(edge >> 32) == last) cell.edges[k] = u64(u32(edge)) | u64(at) << 32;
-    }
   }
 
   /// Takes a box at rest and its candidates out of a cell.
   COLD static void take_still(Cell& cell, u32 slot) {
     cell.stills.take(cell.stills.find(slot));
-    u32 left = 0;
-    for (u32 k = 0; k < cell.edge_count; k++) {
-      u64 edge = cell.edges[k];
-      cell.edges[left] = edge;
-      left += u32(edge) != slot;
-    }
-    cell.edge_count = left;
+    purge(cell, slot);
   }
 
   /// Calls `what` with the place of each of `rows` whose fat box overlaps this one and may meet this tag.
@@ -557,26 +529,24 @@ template <int D> class Incremental {
 
   /// Collects the candidates of the mover at a place, which has none.
   NOINLINE static void meet(Cell& cell, u32 at, const f32* fat, Stats& stats) {
-    u32 tag = cell.movers.tags()[at];
+    u32 tag = cell.movers.tags()[at], slot = tag & slot_mask;
     stats.tests += cell.movers.count + cell.stills.count;
     each_hit(cell.movers, fat, tag, [&](u32 other) {
-      if (other == at) return;
-      cell.pairs.grow(u64(cell.pair_count) + 1, cell.pair_count);
-      cell.pairs[cell.pair_count++] = at | other << 16;
+      if (other != at) add_candidate(cell, slot, cell.movers.tags()[other] & slot_mask);
     });
-    each_hit(cell.stills, fat, tag, [&](u32 other) { add_edge(cell, at, cell.stills.tags()[other] & slot_mask); });
+    each_hit(cell.stills, fat, tag, [&](u32 other) { add_candidate(cell, slot, cell.stills.tags()[other] & slot_mask); });
   }
 
-  COLD static void add_edge(Cell& cell, u32 at, u32 slot) {
-    cell.edges.grow(u64(cell.edge_count) + 1, cell.edge_count);
-    cell.edges[cell.edge_count++] = u64(slot) | u64(at) << 32;
+  COLD static void add_candidate(Cell& cell, u32 a, u32 b) {
+    cell.candidates.grow(u64(cell.candidate_count) + 1 + Pairs::slack, cell.candidate_count);
+    cell.candidates[cell.candidate_count++] = pair_of(a, b);
   }
 
   /// The fat box of a box: what its motion will cover in so many updates, given where it was so many ago.
-  void fatten(const f32* box, const f32* low, f32 updates, f32 until, f32 margin, f32* out) const {
+  void fatten(const f32* box, const f32* low, u32 updates, f32 until, f32 margin, f32* out) const {
     f32 step[D], fastest = 0;
     for (int a = 0; a < D; a++) {
-      f32 motion = (box[a] - low[a]) / updates, size = box[D + a] - box[a];
+      f32 motion = (box[a] - low[a]) / f32(updates), size = box[D + a] - box[a];
       step[a] = motion <= size && -motion <= size ? motion : 0;  // a jump says nothing about what comes
       fastest = larger(fastest, larger(step[a], -step[a]));
     }
@@ -591,42 +561,42 @@ template <int D> class Incremental {
   /// How many updates fat boxes reach ahead: a little more than until their next turn.
   f32 reach() const { return period_ * growth + 1; }
 
-  /// Puts a mover into all cells that its new fat box touches, where it is not in already with one that still holds it.
-  /// `found`: its cells. Where there are pairs to report to, reports those it has in the cells it comes to.
-  /// The newest fat box has to be kept in one cell at least, where it is seen when the mover leaves it: only then is it
-  /// sure that the mover is in all cells it touches. `kept`: it is, in the cell that calls.
-  void enter(const Scene<D>& scene, u32 slot, const f32* fat, Found& found, bool kept, Pairs* pairs, Stats& stats) {
+  /// Puts a mover into all cells that its new fat box touches, `found`, where it is not in already with one that still
+  /// holds it: then its candidates hold for as long as it is in both.
+  void enter(const Scene<D>& scene, u32 slot, const f32* fat, Found& found, Stats& stats) {
     const f32* box = box_of(scene, slot);
     if (found.many()) {
       fat = box;
       cells_of(box, found);
       if (found.many()) return forget();
     }
-    for (u32 k = found.count; k-- > 0;) {
+    f32* bounds = last(slot);
+    __builtin_memcpy(bounds, fat, width * sizeof(f32));
+    for (u32 k = 0; k < found.count; k++) {
       Cell& cell = cells_[found.cell[k]];
       u32 at = cell.movers.find(slot);
-      bool known = false;
       if (at == Movers::nowhere) {
         if (cell.movers.count >= most_in_cell) return forget();
-        at = put(cell, tag_of(slot, known_[slot].tag), box, fat);
+        at = cell.movers.put(fat, tag_of(slot, known_[slot].tag));
+      } else if (holds(cell, at, box)) {
+        for (u32 a = 0; a < u32(D); a++) {
+          bounds[a] = larger(bounds[a], cell.movers.row(a)[at]);
+          bounds[D + a] = smaller(bounds[D + a], cell.movers.row(D + a)[at]);
+        }
+        continue;
       } else {
-        known = !outside(cell, at, box);
-        if (known && (kept || k > 0)) continue;
-        purge(cell, at);
+        purge(cell, slot);
         cell.movers.write(at, fat);
-        __builtin_memcpy(cell.boxes.data() + u64(at) * width, box, width * sizeof(f32));
       }
       stamp(cell, at, box);
-      u32 pair = cell.pair_count, edge = cell.edge_count;
       meet(cell, at, fat, stats);
-      kept = true;
-      if (pairs && !known) report_cell(cell, pair, edge, scene, *pairs);
     }
   }
 
-  static bool outside(const Cell& cell, u32 at, const f32* box) {
-    bool is = false;
-    for (u32 a = 0; a < u32(D); a++) is |= !(cell.movers.row(a)[at] <= box[a] && box[D + a] <= cell.movers.row(D + a)[at]);
+  /// Whether a box is in its fat one in a cell.
+  static bool holds(const Cell& cell, u32 at, const f32* box) {
+    bool is = true;
+    for (u32 a = 0; a < u32(D); a++) is &= cell.movers.row(a)[at] <= box[a] && box[D + a] <= cell.movers.row(D + a)[at];
     return is;
   }
 
@@ -640,7 +610,7 @@ template <int D> class Incremental {
       u32 at = cell.movers.find(slot);
       if (at != Movers::nowhere) take(cell, at);
       stats.tests += cell.movers.count + cell.stills.count;
-      each_hit(cell.movers, box, tag, [&](u32 other) { add_edge(cell, other, slot); });
+      each_hit(cell.movers, box, tag, [&](u32 other) { add_candidate(cell, slot, cell.movers.tags()[other] & slot_mask); });
       each_hit(cell.stills, box, tag, [&](u32 other) {
         u32 its = cell.stills.tags()[other] & slot_mask;
         // One that has woken, and waits, is no longer where it rested.
@@ -656,7 +626,7 @@ template <int D> class Incremental {
 
   COLD void settle(u32 a, u32 b) {
     settled_.list.grow(settled_.count + 1 + Pairs::slack, settled_.count);
-    settled_.list[settled_.count++] = u64(smaller(a, b)) | u64(larger(a, b)) << 32;
+    settled_.list[settled_.count++] = pair_of(a, b);
   }
 
   /// A box that rested waits to be a mover. Its cells have it until it is served.
@@ -689,6 +659,7 @@ template <int D> class Incremental {
       for (u64 w = known; w < words; w++) woken_[w] = 0;
     }
     bool sweeps = n < had;
+    late_count_ = 0;
     for (u32 slot = n; slot < had; slot++) {
       u32 tag = known_[slot].tag;
       if (!(tag & rests)) continue;
@@ -702,7 +673,7 @@ template <int D> class Incremental {
       for (u32 k = 0; k < scene.changes->count(); k++) {
         if (list[k] < both) check(scene, list[k], sweeps);
       }
-    } else if (resting_ > 0 || scene.excluded || excluding_) {
+    } else if (kept_ || resting_ > 0 || scene.excluded || excluding_) {
       for (u32 slot = 0; slot < both; slot++) check(scene, slot, sweeps);
     }
     excluding_ = scene.excluded;
@@ -712,11 +683,22 @@ template <int D> class Incremental {
     for (u32 slot = had; slot < n; slot++) expect(scene, slot);
   }
 
-  /// Wakes a box at rest that is not what it was, and sees to it that a mover with another tag is put in anew.
+  /// Finds out whether a mover has left its fat boxes, wakes a box at rest that is not what it was, and sees to it that
+  /// one with another tag is put in anew.
   void check(const Scene<D>& scene, u32 slot, bool& sweeps) {
-    u32 tag = known_[slot].tag, excluded = excluded_of(scene, slot);
-    if (tag == (excluded | rests) && equal(box_of(scene, slot), last(slot))) return;
-    if (tag != excluded) changed(scene, slot, sweeps);
+    const Known& known = known_[slot];
+    const f32* box = box_of(scene, slot);
+    u32 excluded = excluded_of(scene, slot);
+    if (known.tag == excluded) {
+      if (!inside(box, known.box)) add_late(slot);
+    } else if (known.tag != (excluded | rests) || !equal(box, known.box)) {
+      changed(scene, slot, sweeps);
+    }
+  }
+
+  COLD void add_late(u32 slot) {
+    late_.grow(u64(late_count_) + 1, late_count_);
+    late_[late_count_++] = slot;
   }
 
   COLD void changed(const Scene<D>& scene, u32 slot, bool& sweeps) {
@@ -807,10 +789,10 @@ template <int D> class Incremental {
       if (known_[slot].tag & rests) leave_rest(slot);
       known_[slot].tag = excluded_of(scene, slot);
       const f32* box = box_of(scene, slot);
-      f32 updates = now_ - known_[slot].since;
+      u32 updates = now_ - known_[slot].since;
       bool still = updates > still_for && equal(box, last(slot));
       f32 fat[width + padding];
-      if (!still) fatten(box, last(slot), larger(updates, 1.0f), until, f32(options.margin), fat);
+      if (!still) fatten(box, last(slot), larger(updates, 1u), until, f32(options.margin), fat);
       Found found;
       cells_of(still ? box : fat, found);
       if (found.many() && !still) cells_of(box, found);
@@ -825,7 +807,7 @@ template <int D> class Incremental {
         rest(slot, box, found, stats);
         continue;
       }
-      enter(scene, slot, fat, found, false, nullptr, stats);
+      enter(scene, slot, fat, found, stats);
       if (leaves_ == 0) return;
     }
   }
@@ -848,7 +830,7 @@ template <int D> class Incremental {
       u32 slot = cell.movers.tags()[k] & slot_mask, tag = known_[slot].tag;
       const f32* box = box_of(scene, slot);
       if (tag & rests) {
-        cell.pair_count = cell.edge_count = 0;  // it rests elsewhere; all candidates are to be collected anyway
+        cell.candidate_count = 0;  // it rests elsewhere; all candidates are to be collected anyway
         take(cell, k);
         continue;
       }
@@ -858,7 +840,7 @@ template <int D> class Incremental {
         low[a] = cell.movers.row(from_row + u32(a))[k];
         moved |= low[a] != box[a];
       }
-      f32 updates = now_ - cell.movers.row(when_row)[k];
+      u32 updates = age(cell, k);
       if (updates == 0) continue;
       Found found;
       if (!moved && updates > still_for && touches(cell, box)) {
@@ -871,72 +853,92 @@ template <int D> class Incremental {
       fatten(box, low, updates, reach(), f32(options.margin), fat);
       motion_ += pace(box, low, updates);
       turned_ += 1;
-      bool stays = touches(cell, fat);
-      if (stays) {
+      if (touches(cell, fat)) {
         cell.movers.write(k, fat);
         stamp(cell, k, box);
-        if (within(cell, fat)) continue;
+        if (within(cell, fat)) {
+          __builtin_memcpy(last(slot), fat, width * sizeof(f32));
+          continue;
+        }
       } else {
-        cell.pair_count = cell.edge_count = 0;
+        cell.candidate_count = 0;
         take(cell, k);
       }
       cells_of(fat, found);
-      enter(scene, slot, fat, found, stays, nullptr, stats);
+      enter(scene, slot, fat, found, stats);
       if (leaves_ == 0) return;
     }
-    if (cell.movers.count > 0) gather(cell, stats);
-    else cell.pair_count = cell.edge_count = 0;
+    gather(cell, stats);
   }
 
   /// All candidates of a cell.
   NOINLINE static void gather(Cell& cell, Stats& stats) {
-    LaneView<D> lanes = cell.movers.view();
-    u32 count = cell.movers.count;
+    LaneView<D> lanes = cell.movers.view(), still = cell.stills.view();
+    u32 count = cell.movers.count, stills = cell.stills.count;
     u32 found = 0;
     for (u32 i = 0; i < count; i++) {
-      u32* out = cell.pairs.grow(u64(found) + count + padding, found) + found;
+      u64* out = cell.candidates.grow(u64(found) + count + stills + Pairs::slack, found) + found;
       Probe<D> probe(lanes, i);
-      for (u32 j = i + 1; j < count; j += 4) {
-        u32 hits = bitmask(probe.hits(lanes, j, load<u32x4>(lanes.tag + j)));
-        u32x4 places = u32x4{0, 1, 2, 3} + splat(j);
-        store(out, bits<u32x4>(swizzle(bits<u8x16>((places << 16) | splat(i)), load<u8x16>(detail::swizzles.of[hits]))));
-        out += detail::bits_set[hits];
-      }
-      found = u32(out - cell.pairs.data());
+      auto meets = [&](const LaneView<D>& others, u32 from, u32 until) {
+        for (u32 j = from; j < until; j += 4) {
+          u32x4 tags = load<u32x4>(others.tag + j);
+          out = append(out, probe.slot, tags & splat(slot_mask), bitmask(probe.hits(others, j, tags)));
+        }
+      };
+      meets(lanes, i + 1, count);
+      meets(still, 0, stills);
+      found = u32(Pairs::between(cell.candidates.data(), out));
     }
-    cell.pair_count = found;
-    cell.edge_count = 0;
-    stats.tests += f64(count) * (count - 1) / 2 + f64(count) * cell.stills.count;
-    if (cell.stills.count == 0) return;
-    for (u32 i = 0; i < count; i++) {
-      f32 fat[width];
-      for (u32 k = 0; k < width; k++) fat[k] = cell.movers.row(k)[i];
-      each_hit(cell.stills, fat, lanes.tag[i], [&](u32 other) { add_edge(cell, i, cell.stills.tags()[other] & slot_mask); });
+    cell.candidate_count = found;
+    stats.tests += f64(count) * (count - 1) / 2 + f64(count) * stills;
+  }
+
+  /// Gives movers that have left their fat boxes new ones.
+  COLD void serve_late(const Scene<D>& scene, const Settings& options, Stats& stats) {
+    u32 n = scene.count;
+    if (!kept_) {
+      // While cells were filled nobody looked.
+      late_count_ = 0;
+      for (u32 slot = 0; slot < n; slot++) {
+        if (known_[slot].tag == excluded_of(scene, slot) && !inside(box_of(scene, slot), last(slot))) add_late(slot);
+      }
+    }
+    if (late_count_ > n / late_share + 64) return forget();
+    for (u32 k = 0; k < late_count_; k++) {
+      u32 slot = late_[k];
+      const f32* box = box_of(scene, slot);
+      if (known_[slot].tag != excluded_of(scene, slot) || inside(box, last(slot))) continue;  // it has had its turn
+      // Its motion is known where it is in a cell that it touches still.
+      Found found;
+      cells_of(box, found);
+      f32 low[D], fat[width + padding];
+      __builtin_memcpy(low, box, D * sizeof(f32));
+      u32 updates = 1;
+      for (u32 c = 0; c < found.count; c++) {
+        const Cell& cell = cells_[found.cell[c]];
+        u32 at = cell.movers.find(slot);
+        if (at == Movers::nowhere) continue;
+        for (int a = 0; a < D; a++) low[a] = cell.movers.row(from_row + u32(a))[at];
+        updates = larger(age(cell, at), 1u);
+        break;
+      }
+      fatten(box, low, updates, reach(), f32(options.margin), fat);
+      cells_of(fat, found);
+      enter(scene, slot, fat, found, stats);
+      if (leaves_ == 0) return;
     }
   }
 
-  /// Reads where the movers are, cell by cell; reports the settled pairs and the candidates that overlap.
-  void report(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+  /// Reports the settled pairs and the candidates that overlap.
+  void report(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
     u64 head = settled_.count;
     pairs.list.grow(head + Pairs::slack, pairs.kept);
     if (head > pairs.kept) {
       __builtin_memcpy(pairs.list.data() + pairs.kept, settled_.list.data() + pairs.kept, (head - pairs.kept) * sizeof(u64));
     }
     pairs.count = pairs.kept = head;
-    late_count_ = 0;
-    u64 most = scene.count / late_share + 64;
     for (u32 c = 0; c < leaves_; c++) {
-      Cell& cell = cells_[c];
-      if (cell.movers.count == 0) continue;
-      look(c, scene);
-      // Seen early, where it is so in all cells.
-      if (u64(late_count_) * leaves_ > most * (c + leaves_ / 8)) return forget();
-      report_cell(cell, 0, 0, scene, pairs);
-    }
-    late_ = f64(late_count_);
-    for (u32 k = 0; k < late_count_; k++) {
-      serve_late(cells_[late_list_[k] >> 32], u32(late_list_[k]), scene, options, pairs, stats);
-      if (leaves_ == 0) return;
+      if (cells_[c].candidate_count > 0) report_cell(cells_[c], scene.boxes, pairs);
     }
     if (huge_count_ > 0) report_huge(scene, pairs, stats);
     stats.tests += candidates_;
@@ -944,81 +946,20 @@ template <int D> class Incremental {
     stats.entries = moving_ + resting_;
   }
 
-  /// Reads where the movers of a cell are. Those that have left their fat boxes are NaN for now: they overlap nothing.
-  NOINLINE void look(u32 number, const Scene<D>& scene) {
-    const Cell& cell = cells_[number];
-    u32 count = cell.movers.count;
-    LaneView<D> lanes = cell.movers.view();
-    f32* boxes = cell.boxes.data();
-    for (u32 k = 0; k < count; k += 4) {
-      f32x4 lo[4], hi[4];
-      for (u32 j = 0; j < 4; j++) {
-        const f32* box = box_of(scene, lanes.tag[k + j < count ? k + j : k] & slot_mask);
-        lo[j] = load<f32x4>(box);
-        if constexpr (D == 3) {
-          f32x4 tail = load<f32x4>(box + 2);
-          hi[j] = __builtin_shufflevector(tail, tail, 1, 2, 3, 3);
-        }
-      }
-      for (u32 j = 0; j < 4 && k + j < count; j++) {
-        store(boxes + u64(k + j) * width, lo[j]);
-        if constexpr (D == 3) __builtin_memcpy(boxes + u64(k + j) * width + 3, &hi[j], 3 * sizeof(f32));
-      }
-      transpose(lo);
-      if constexpr (D == 3) transpose(hi);
-      i32x4 in = ~i32x4{};
-      for (int a = 0; a < D; a++) {
-        in &= load<f32x4>(lanes.lo[a] + k) <= lo[a];
-        in &= load<f32x4>(lanes.hi[a] + k) >= (D == 2 ? lo[2 + a] : hi[a]);
-      }
-      u32 out = ~bitmask(in) & 15;
-      if (out == 0) continue;
-      if (k + 4 > count) out &= (1u << (count - k)) - 1;
-      for (; out; out &= out - 1) {
-        u32 at = k + u32(__builtin_ctz(out));
-        late_list_.grow(u64(late_count_) + 1, late_count_);
-        late_list_[late_count_++] = u64(number) << 32 | (lanes.tag[at] & slot_mask);
-        for (u32 w = 0; w < width; w++) boxes[u64(at) * width + w] = __builtin_nanf("");
-      }
-    }
-  }
-
-  /// Gives a mover that has left its fat box in a cell a new one.
-  COLD void serve_late(Cell& cell, u32 slot, const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
-    const f32* box = box_of(scene, slot);
-    u32 at = cell.movers.find(slot);
-    if (!outside(cell, at, box)) return;  // served already, from another of its cells
-    f32 low[D], fat[width + padding];
-    for (int a = 0; a < D; a++) low[a] = cell.movers.row(from_row + u32(a))[at];
-    f32 updates = now_ - cell.movers.row(when_row)[at];
-    fatten(box, low, larger(updates, 1.0f), reach(), f32(options.margin), fat);
-    if (!touches(cell, fat)) take(cell, at);
-    Found found;
-    cells_of(fat, found);
-    enter(scene, slot, fat, found, false, &pairs, stats);
-  }
-
-  /// Reports the candidates of a cell, from a pair and an edge on, that overlap and are this cell's to report.
-  NOINLINE static void report_cell(const Cell& cell, u32 pair_from, u32 edge_from, const Scene<D>& scene, Pairs& pairs) {
-    u64* out = pairs.room(pairs.list.data() + pairs.count, cell.pair_count + cell.edge_count);
-    const f32* boxes = cell.boxes.data();
-    const u32* tags = cell.movers.tags();
+  /// Reports the candidates of a cell that overlap and are its to report.
+  NOINLINE static void report_cell(const Cell& cell, const f32* boxes, Pairs& pairs) {
+    const u64* list = cell.candidates.data();
+    u32 count = cell.candidate_count;
+    u64* out = pairs.room(pairs.list.data() + pairs.count, count);
     f32x4 low = load<f32x4>(cell.low), high = load<f32x4>(cell.high);
-    auto try_pair = [&](const f32* one, const f32* other, u32 a, u32 b) {
+    for (u32 k = 0; k < count; k++) {
+      u64 pair = list[k];
+      const f32* one = boxes + u64(u32(pair)) * width;
+      const f32* other = boxes + (pair >> 32) * width;
       f32x4 first = load<f32x4>(one), second = load<f32x4>(other), corner = max(first, second);
       i32x4 hit = (first <= load<f32x4>(other + D)) & (second <= load<f32x4>(one + D)) & (corner >= low) & ~(corner >= high);
-      *out = u64(smaller(a, b)) | u64(larger(a, b)) << 32;
+      *out = pair;
       out += !(~bitmask(hit) & ((1 << D) - 1));
-    };
-    const u32* list = cell.pairs.data();
-    for (u32 k = pair_from; k < cell.pair_count; k++) {
-      u32 a = list[k] & 0xffff, b = list[k] >> 16;
-      try_pair(boxes + u64(a) * width, boxes + u64(b) * width, tags[a] & slot_mask, tags[b] & slot_mask);
-    }
-    for (u32 k = edge_from; k < cell.edge_count; k++) {
-      u64 edge = cell.edges[k];
-      u32 slot = u32(edge), a = u32(edge >> 32);
-      try_pair(boxes + u64(a) * width, box_of(scene, slot), tags[a] & slot_mask, slot);
     }
     pairs.count = Pairs::between(pairs.list.data(), out);
   }
@@ -1028,13 +969,13 @@ template <int D> class Incremental {
     auto try_pair = [&](u32 h, u32 slot) {
       if ((known_[h].tag & known_[slot].tag & ~slot_mask) || !touch(box_of(scene, h), box_of(scene, slot))) return;
       pairs.room(pairs.list.data() + pairs.count, 1);
-      pairs.list[pairs.count++] = u64(smaller(h, slot)) | u64(larger(h, slot)) << 32;
+      pairs.list[pairs.count++] = pair_of(h, slot);
     };
     for (u32 c = 0; c < leaves_; c++) {
       const Cell& cell = cells_[c];
       for (u32 k = 0; k < cell.movers.count; k++) {
         u32 slot = cell.movers.tags()[k] & slot_mask;
-        const f32* box = cell.boxes.data() + u64(k) * width;
+        const f32* box = box_of(scene, slot);
         if ((known_[slot].tag & rests) || !reports(cell, box, box)) continue;
         for (u32 h = 0; h < huge_count_; h++) try_pair(huge_[h], slot);
       }
@@ -1074,7 +1015,7 @@ template <int D> class Incremental {
   COLD bool pays() {
     for (u32 c = 0; c < leaves_; c++) {
       moving_ += cells_[c].movers.count;
-      candidates_ += cells_[c].pair_count + cells_[c].edge_count;
+      candidates_ += cells_[c].candidate_count;
     }
     f64 mover = mover_cost + uncached_cost * moving_ / (moving_ + cached_movers);
     f64 cost = (mover + turn_cost / period_) * moving_ + candidate_cost * candidates_;
@@ -1092,6 +1033,6 @@ template <int D> class Incremental {
     f64 best = __builtin_sqrt(turn_cost / candidate_cost * movers / (larger(hits, movers / 8) * D * pace));
     target_ = f32(larger(f64(least_period), smaller(f64(most_period), best)));
     // Where boxes leave their fat ones too early, reach further to the sides.
-    slack_ = smaller(16.0f, larger(0.5f, slack_ * (late_ > 0.1 * turned_ ? 1.05f : 0.99f)));
+    slack_ = smaller(16.0f, larger(0.5f, slack_ * (late_count_ > 0.1 * turned_ ? 1.05f : 0.99f)));
   }
 };
