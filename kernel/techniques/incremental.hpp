@@ -2,8 +2,8 @@
 //
 // Idea: space is cut into cells of a few dozen boxes, once, by a k-d tree over a sample. A box that moves stands in
 // every cell it may come to in the next updates, as a fat box that reaches as far as its motion will take it. A cell
-// keeps the pairs of fat boxes that overlap in it: its candidates. While boxes stay in their fat ones, an update reads
-// where they are, cell by cell, and tests each candidate once. Two boxes can be candidates in several cells; the cell
+// keeps the pairs of fat boxes that overlap in it: its candidates. While boxes stay in their fat ones, which one pass
+// over all that may have changed finds out, an update does nothing but test each candidate. Two boxes can be candidates in several cells; the cell
 // that holds the larger of their two lower corners reports them.
 //   - Cells take turns: a few of them, in each update, give all their boxes new fat ones and collect their candidates
 //     anew. So nothing builds up, and no single update pays for all. A box that leaves its fat one before is served
@@ -13,9 +13,10 @@
 //   - Boxes that touch very many cells (the ground, a wall) stand in none and are tested against all that move.
 // All this is filled little by little, while strip-sweep gives the answers, and given up again where many boxes leave
 // their fat ones at once or where it does not pay.
-// Cost: 12 ns a box where 10,000 move slowly in 2D, 24 where 100,000 do; 4 to 9 where 5 % move. While it is filled, an
-// update costs a fifth to a half more than strip-sweep, the one that cuts space into cells twice as much. Memory, beside
-// that of strip-sweep: about 140 (2D) or 230 (3D) bytes a box that moves, 100 or 140 one at rest.
+// Cost: where boxes move by a hundredth of their size in 2D, 0.6 of strip-sweep at 10,000, 0.75 at 100,000; where 5 %
+// move 5 to 12 ns a box, and with `set` only the movers count. While it is filled, an update costs a fifth to a third
+// more than strip-sweep, the one that cuts space into cells twice as much. Memory, beside that of strip-sweep: about 130
+// (2D) or 210 (3D) bytes a box that moves, 100 or 140 one at rest.
 // Wins where boxes rest, or up to some 10,000 move slowly. Is strip-sweep where they jump.
 // From: candidates kept with a margin, L. Verlet, "Computer Experiments on Classical Fluids", 1967; fat boxes, as in
 // the dynamic trees of Bullet and Box2D; k-d tree, J. Bentley, 1975. The combination is ours.
@@ -108,12 +109,13 @@ template <int D> class Incremental {
   static constexpr f32 least_period = 4, most_period = 64, growth = 1.15f;
   static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 watched = 256;        // boxes whose motion is looked at before anything is kept
-  static constexpr f64 quick = 0.06;          // and how far of its size one may move in an update, on average
+  static constexpr f64 worth = 0.7;          // keeping things must promise to cost this share of what it costs now
   static constexpr u32 first_pause = 8, longest_pause = 256;
   // What an update costs, in nanoseconds, to see whether keeping anything pays: an entry and a test of strip-sweep; a
-  // mover, and how much dearer it becomes where they are so many that they fill the caches; a candidate; a turn.
+  // mover, a candidate and a turn, all dearer where they are so many that they fill the caches.
   static constexpr f64 entry_cost = 20, test_cost = D == 2 ? 1.2 : 1.8;
-  static constexpr f64 mover_cost = 6, uncached_cost = 10, cached_movers = 40000, candidate_cost = 2, turn_cost = 50;
+  static constexpr f64 copies = D == 2 ? 1.25 : 1.6;  // cells that a mover stands in
+  static constexpr f64 mover_cost = 2.5, candidate_cost = 3, turn_cost = D == 2 ? 130 : 260, cached_movers = 40000;
 
   // Rows of a fat box that moves: where the box stood when it was made, and in which update that was.
   static constexpr u32 from_row = width + 1, when_row = width + 1 + D;
@@ -153,7 +155,7 @@ template <int D> class Incremental {
   PairOrder order_;
   Buffer<u32> woken_;    // a bit per slot: it rested, and does no longer
   bool any_woken_ = false;
-  bool excluding_ = false;  // boxes had exclusion bits
+  bool unchecked_ = false;  // boxes may have changed that were not looked at since
   bool kept_ = false;    // the last update was answered from what is kept
   u32 cursor_ = 0;       // the cell whose turn is next
   u32 now_ = 0;          // updates, counted
@@ -233,7 +235,7 @@ template <int D> class Incremental {
     pairs.count = pairs.kept = 0;
     anew_.update(scene, options, pairs, stats);
     fresh_ = entry_cost * stats.entries + test_cost * stats.tests;
-    if (leaves_ == 0 && n >= few && steady(scene)) plan(scene);
+    if (leaves_ == 0 && n >= few && steady(scene, f64(pairs.count))) plan(scene);
     stats.reason = f64(u32(leaves_ > 0 ? Reason::filling : Reason::moving));
   }
 
@@ -263,20 +265,19 @@ template <int D> class Incremental {
     }
     leaves_ = count_ = queued_ = unseen_ = resting_ = huge_count_ = watching_ = 0;
     settled_.count = 0;
-    any_woken_ = kept_ = false;
+    any_woken_ = kept_ = unchecked_ = false;
     pause_ = pauses_ = smaller(longest_pause, pauses_ * 2);
   }
 
-  /// Whether boxes move so little from one update to the next that keeping things may pay, by a few of them.
-  COLD bool steady(const Scene<D>& scene) {
+  /// Whether boxes move so little from one update to the next that keeping things promises to pay, by a few of them.
+  COLD bool steady(const Scene<D>& scene, f64 hits) {
     if (pause_ > 0) {
       pause_--;
       return false;
     }
     u32 n = scene.count, many = smaller(n, watched), stride = n / many;
     f32* before = watched_.reserve(watched * width + padding);
-    f64 moved = 0;
-    u32 movers = 0;
+    f64 moved = 0, movers = 0;
     bool known = watching_ == n;
     for (u32 k = 0; k < many; k++) {
       const f32* box = box_of(scene, k * stride);
@@ -286,9 +287,24 @@ template <int D> class Incremental {
       __builtin_memcpy(before + k * width, box, width * sizeof(f32));
     }
     watching_ = n;
-    // Where nearly all move and fill the caches there is nothing to be won, however slow they are.
-    bool crowded = n > cached_movers && movers * 2 > many;
-    return known && moved < quick * many && !crowded;
+    f64 share = movers / many, speed = moved / larger(movers, 1.0);
+    period_ = target_ = best_period(n * share, hits * share, speed);
+    f64 candidates = hits * share;
+    for (int a = 0; a < D; a++) candidates *= 1 + speed * period_;
+    return known && cost(copies * n * share, candidates, period_) <= worth * fresh_;
+  }
+
+  /// Updates in which every cell should have one turn, given how far movers move in one as a share of their size: what
+  /// turns cost balances what candidates cost, which are the more the further fat boxes reach.
+  static f32 best_period(f64 movers, f64 hits, f64 pace) {
+    f64 growth = larger(hits, movers / 8) * D * larger(pace, 1e-4);
+    f64 best = __builtin_sqrt(turn_cost / candidate_cost * larger(movers, 1.0) / larger(growth, 1e-4));
+    return f32(larger(f64(least_period), smaller(f64(most_period), best)));
+  }
+
+  /// What an update costs in which so much is kept.
+  static f64 cost(f64 movers, f64 candidates, f64 period) {
+    return ((mover_cost + turn_cost / period) * movers + candidate_cost * candidates) * (1 + movers / (movers + cached_movers));
   }
 
   /// How far a box moved in an update, as a share of its size, at most 1.
@@ -353,9 +369,8 @@ template <int D> class Incremental {
     // In an order in which those of a cell come soon after one another: cells then stay in the cache.
     anew_.each_in_order([&](u32 slot) { queue_[queued_++] = slot; });
     unseen_ = n;
-    see(scene, ahead * (n / share + 1));
+    see(scene, ahead * portion(n));
     cursor_ = 0;
-    period_ = target_ = 16;
     slack_ = 0.5f;
   }
 
@@ -648,6 +663,9 @@ template <int D> class Incremental {
 
   // --- an update ---
 
+  /// How many boxes that wait are served in an update.
+  static u32 portion(u32 n) { return n / share + 1; }
+
   /// Finds out who is new, who is gone, and who rests no longer.
   COLD void follow(const Scene<D>& scene, Pairs& pairs) {
     u32 n = scene.count, had = count_, both = smaller(n, had);
@@ -668,15 +686,18 @@ template <int D> class Incremental {
       any_woken_ = true;
     }
     if (n < had) unqueue(n);
-    if (scene.changes && !scene.changes->all()) {
+    // While cells are filled nobody asks who has moved, but for the last of these updates.
+    bool listed = scene.changes && !scene.changes->all(), filling = queued_ > 2 * portion(n);
+    if (filling && !listed) unchecked_ = true;
+    if (listed && !unchecked_) {
       const u32* list = scene.changes->list();
       for (u32 k = 0; k < scene.changes->count(); k++) {
         if (list[k] < both) check(scene, list[k], sweeps);
       }
-    } else if (kept_ || resting_ > 0 || scene.excluded || excluding_) {
+    } else if (!filling) {
       for (u32 slot = 0; slot < both; slot++) check(scene, slot, sweeps);
+      unchecked_ = false;
     }
-    excluding_ = scene.excluded;
     if (any_woken_) unsettle(pairs, larger(n, had));
     if (sweeps) sweep_out(n);
     count_ = n;
@@ -779,10 +800,9 @@ template <int D> class Incremental {
   /// Puts boxes that wait into cells: all that are few, else a share of them.
   COLD void serve(const Scene<D>& scene, const Settings& options, Stats& stats) {
     u32 n = scene.count;
-    u32 portion = n / share + 1;
-    u32 many = queued_ <= 2 * portion ? queued_ : portion;
+    u32 many = queued_ <= 2 * portion(n) ? queued_ : portion(n);
     // While all is filled, little by little, the first must reach further ahead than the last.
-    f32 until = reach() + f32(queued_ - many) / f32(portion);
+    f32 until = reach() + f32(queued_ - many) / f32(portion(n));
     see(scene, many);
     for (; many > 0; many--) {
       u32 slot = queue_[--queued_];
@@ -1017,9 +1037,7 @@ template <int D> class Incremental {
       moving_ += cells_[c].movers.count;
       candidates_ += cells_[c].candidate_count;
     }
-    f64 mover = mover_cost + uncached_cost * moving_ / (moving_ + cached_movers);
-    f64 cost = (mover + turn_cost / period_) * moving_ + candidate_cost * candidates_;
-    if (cost <= fresh_) return true;
+    if (cost(moving_, candidates_, period_) <= fresh_) return true;
     forget();
     return false;
   }
@@ -1028,10 +1046,7 @@ template <int D> class Incremental {
   COLD void balance(f64 hits) {
     pauses_ = larger(first_pause, pauses_ - 1);
     if (turned_ < 16) return;
-    f64 pace = larger(motion_ / turned_, 1e-4);
-    f64 movers = turned_ * period_;
-    f64 best = __builtin_sqrt(turn_cost / candidate_cost * movers / (larger(hits, movers / 8) * D * pace));
-    target_ = f32(larger(f64(least_period), smaller(f64(most_period), best)));
+    target_ = best_period(turned_ * period_, hits, motion_ / turned_);
     // Where boxes leave their fat ones too early, reach further to the sides.
     slack_ = smaller(16.0f, larger(0.5f, slack_ * (late_count_ > 0.1 * turned_ ? 1.05f : 0.99f)));
   }
