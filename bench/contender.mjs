@@ -2,7 +2,7 @@
 //   { describe: module }      ->  what it can do: { dimensions, variants, answers, npm }
 //   { prepare: { … } }        ->  makes the scene and the contender, runs and checks the first frames:
 //                                 { fingerprints, wrong } or { unable } or { slow: milliseconds of a frame }
-//   { warmUp: milliseconds }  ->  { frames } that were run
+//   { warmUp: milliseconds }  ->  { frames } that were run: for so long, and until what is kept has settled
 //   { round: { … } }          ->  { times } in milliseconds of each frame, and what its own profiler says, { own }
 //   { finish: milliseconds }  ->  { garbage: bytes of JavaScript heap allocated per frame, peak: bytes of memory }
 // and any of them can be answered by { error }. The scene's own motion is never timed. Every contender goes through the
@@ -17,6 +17,8 @@ import { openScene } from './scene.mjs';
 /** A contender whose frames took so long in all is checked in two of them only, in milliseconds. */
 const enough = 600;
 const mostWarmUp = 3000;
+/** Who keeps things between frames has filled them after so many: unless that takes thrice as long, it may. */
+const settling = 150;
 
 let scene;
 let contender;
@@ -69,9 +71,13 @@ const actions = {
   },
 
   warmUp(milliseconds) {
-    const end = performance.now() + milliseconds;
+    const start = performance.now();
     let frames = 0;
-    for (; performance.now() < end && frames < mostWarmUp; frames++) timedFrame();
+    for (; frames < mostWarmUp; frames++) {
+      const spent = performance.now() - start;
+      if (spent > 3 * milliseconds || (spent > milliseconds && frames >= settling)) break;
+      timedFrame();
+    }
     return { frames };
   },
 
