@@ -2,7 +2,7 @@
 // drawn (queryBox), and the one under the pointer is found (queryPoint).
 import { BroadPhase } from 'broadphase';
 import { Application, Container, Graphics, Sprite, Texture } from 'pixi.js';
-import { stopwatch } from '../page.mjs';
+import { stopwatch } from '../page/page.mjs';
 import { moveView } from './view.mjs';
 
 const count = 100_000;

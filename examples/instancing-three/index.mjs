@@ -13,7 +13,7 @@ import {
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { playButton, stopwatch } from '../page.mjs';
+import { playButton, stopwatch } from '../page/page.mjs';
 import { Cloud } from './cloud.mjs';
 
 const count = Number(new URLSearchParams(location.search).get('boxes') ?? 20_000);
