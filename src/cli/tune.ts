@@ -43,7 +43,7 @@ export const tuneCommand: Command = {
       `${(ms.mean / tuned.best.ms.mean).toFixed(2)}x`,
     ]);
     terminal.out(table(['finalists', 'mean ms', '95 %', 'worst', 'to recommended'], rows));
-    terminal.out(`\n${verdictOf(tuned)}\n\n  ${tuned.code.replaceAll('\n', '\n  ')}\n`);
+    terminal.out(`\n${verdictOf(tuned)}\n\n${tuned.code.replaceAll(/^(?=.)/gm, '  ')}\n`);
     if (report !== undefined) terminal.out(`\nreport: ${report}\n`);
     return exitCode.ok;
   },
