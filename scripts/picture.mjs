@@ -9,9 +9,10 @@ import { preview } from 'vite';
 const { applyPalette, GIFEncoder, quantize } = gifenc;
 const path = (file) => fileURLToPath(new URL(`../${file}`, import.meta.url));
 const [width, height] = [720, 400];
-const frames = 40;
+const frames = 32;
 const delay = 50; // milliseconds
-const address = '?boxes=400&scene=mixed2d&renderer=canvas-2d';
+const colours = 63; // and one for what has not changed
+const address = '?boxes=700&scene=uniform2d&renderer=canvas-2d';
 
 const server = await preview({ root: path('site'), configFile: path('site/vite.config.ts'), logLevel: 'error' });
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium' });
@@ -24,7 +25,7 @@ for (const colorScheme of ['light', 'dark']) {
     content: `.stage { position: fixed; z-index: 9; top: 0; left: 0; width: ${width}px; height: ${height}px; border: 0 !important; background: var(--page) }
       .view { width: 100%; height: 100%; } .tools { display: none !important; }`,
   });
-  for (let times = 0; times < 3; times++) await page.locator('#zoom-in').evaluate((button) => button.click());
+  for (let times = 0; times < 2; times++) await page.locator('#zoom-in').evaluate((button) => button.click());
   const pictures = [];
   for (let frame = 0; frame < frames; frame++) {
     await page.locator('#step').evaluate((button) => button.click());
@@ -32,11 +33,18 @@ for (const colorScheme of ['light', 'dark']) {
     const png = await page.screenshot({ clip: { x: 0, y: 0, width, height } });
     pictures.push(await pixelsOf(page, png));
   }
-  const palette = quantize(pictures[0], 128);
+  const sample = [0, frames >> 1, frames - 1].flatMap((k) => [...pictures[k]]);
+  const palette = quantize(Uint8ClampedArray.from(sample), colours);
   const gif = GIFEncoder();
   const back = pictures.slice(1, -1).reverse();
-  for (const [k, pixels] of [...pictures, ...back].entries()) {
-    gif.writeFrame(applyPalette(pixels, palette), width, height, { palette: k === 0 ? palette : undefined, delay });
+  const transparent = palette.push([0, 0, 0]) - 1;
+  let before;
+  for (const pixels of [...pictures, ...back]) {
+    const indices = applyPalette(pixels, palette.slice(0, transparent));
+    const changes = indices.map((index, at) => (index === before?.[at] ? transparent : index));
+    const options = { palette: before ? undefined : palette, transparent: true, transparentIndex: transparent };
+    gif.writeFrame(changes, width, height, { ...options, delay, dispose: 1 });
+    before = indices;
   }
   gif.finish();
   const file = `docs/picture-${colorScheme}.gif`;

@@ -8,7 +8,7 @@ const dist = fileURLToPath(new URL('../../site/dist/', import.meta.url));
 /** Anchors that scripts make when the page runs. */
 const made = /^(article\/index\.html#fig-\d+|questions\/index\.html#\w+)$/;
 
-test('no link within the site is dead', () => {
+test('no link within the site is dead, and none leaves the path that the site stands under', () => {
   const pages = readdirSync(dist, { recursive: true, encoding: 'utf8' }).filter((file) => file.endsWith('.html'));
   const ids = (html: string) => new Set([...html.matchAll(/\bid="([^"]+)"/g)].map(([, id]) => id));
   const idsIn = new Map(pages.map((page) => [page, ids(readFileSync(dist + page, 'utf8'))]));
@@ -16,6 +16,7 @@ test('no link within the site is dead', () => {
   let links = 0;
   for (const page of pages) {
     const html = readFileSync(dist + page, 'utf8');
+    expect(html.match(/\s(href|src)="\//g), page).toBeNull();
     for (const { 1: attribute } of html.matchAll(/<a\b[^>]*?\shref="([^"]+)"/g)) {
       const href = attribute.replaceAll('&amp;', '&');
       if (/^(https?:|data:)/.test(href)) continue;
