@@ -1,7 +1,7 @@
 // Pages made of the repository's Markdown, so that a text stands in one place and reads well in both: the guides and
-// the other documents under guides/, and the examples with their source under examples/. A link to what is no page is
-// an error.
-import { readdirSync, readFileSync } from 'node:fs';
+// the other documents under guides/, and the examples with their source under examples/. A link to what is
+// not there is an error.
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { basename, posix } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import highlight from 'highlight.js';
@@ -59,14 +59,15 @@ const slugOf = (heading: string) =>
     .replace(/[^\p{L}\p{N} _-]/gu, '')
     .replaceAll(' ', '-');
 
-/** Where a link of a file leads, as seen from its page. */
-function linkFrom(file: string, page: string, href: string): string {
+/** Where a link of a file leads, as seen from its page; undefined for a file of the repository that has no page. */
+function linkFrom(file: string, page: string, href: string): string | undefined {
   if (/^(https?:|#)/.test(href)) return href;
   const [path, anchor] = posix.join(posix.dirname(file), href).split('#');
   const target = path.replace(/\/$/, '');
   const folder = [...folders.keys()].find((name) => target.startsWith(`${name}/`));
   const to = pages.get(target) ?? folders.get(target) ?? (folder && folders.get(folder));
-  if (!to) throw new Error(`${file} links to ${href}, which is no page of the site`);
+  if (!to && existsSync(repository + target)) return undefined;
+  if (!to) throw new Error(`${file} links to ${href}, which is not there`);
   const hash = anchor ?? (to === folders.get(folder ?? '') ? slugOf(basename(target)) : undefined);
   return rootFrom(page) + to.replace('index.html', '') + (hash ? `#${hash}` : '');
 }
@@ -87,7 +88,9 @@ function render(file: string, page: string): string {
   const { fence } = rules;
   rules.fence = (...given) => fence!(...given).replace('<pre>', '<pre tabindex="0">');
   rules.link_open = (tokens, k, options, _, self) => {
-    tokens[k].attrSet('href', linkFrom(file, page, tokens[k].attrGet('href')!));
+    const href = linkFrom(file, page, tokens[k].attrGet('href')!);
+    if (href) tokens[k].attrSet('href', href);
+    else tokens[k].attrs = null;
     return self.renderToken(tokens, k, options);
   };
   return markdown.render(read(file));
@@ -96,8 +99,9 @@ function render(file: string, page: string): string {
 /** The source of an example, file by file. */
 function source(folder: string): string {
   const files = readdirSync(repository + folder).sort();
-  const listings = files.map((name) => {
+  const listings = files.flatMap((name) => {
     const language = name.split('.').pop()!.replace('mjs', 'js');
+    if (!highlight.getLanguage(language)) return [];
     return `<h2 id="${slugOf(name)}">${name}</h2>
       <pre tabindex="0"><code>${paint(read(`${folder}/${name}`), language)}</code></pre>`;
   });
