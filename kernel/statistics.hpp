@@ -41,27 +41,47 @@ inline f32 sample[6][most_samples];  // per axis the minima, then per axis the m
 inline f32 sorted[most_samples];
 
 /// The k-th smallest of n values, which are reordered (quickselect with the median of three).
-COLD inline f32 select(f32* v, i32 n, i32 k) {
+/// Where they are points of `width` coordinates: of those along one axis.
+template <int width = 1> COLD f32 select(f32* points, i32 n, i32 k, int axis = 0) {
+  f32* v = points + axis;
   i32 from = 0, to = n - 1;
   while (from < to) {
-    f32 a = v[from], b = v[(from + to) / 2], c = v[to];
+    f32 a = v[from * width], b = v[(from + to) / 2 * width], c = v[to * width];
     f32 pivot = larger(smaller(a, b), smaller(larger(a, b), c));
     i32 i = from, j = to;
     while (i <= j) {
-      while (v[i] < pivot) i++;
-      while (pivot < v[j]) j--;
+      while (v[i * width] < pivot) i++;
+      while (pivot < v[j * width]) j--;
       if (i <= j) {
-        f32 t = v[i];
-        v[i++] = v[j];
-        v[j--] = t;
+        for (int a = 0; a < width; a++) {
+          f32 t = points[i * width + a];
+          points[i * width + a] = points[j * width + a];
+          points[j * width + a] = t;
+        }
+        i++;
+        j--;
       }
     }
     if (k <= j) to = j;
     else if (k >= i) from = i;
     else break;
   }
-  return v[k];
+  return v[k * width];
 }
+
+/// Takes n of `count`, each from a share of its own, at places that follow no pattern of theirs.
+class Sampling {
+  u32 stride_, at_ = 0, jitter_ = 0x9e3779b9;
+
+ public:
+  Sampling(u32 count, u32 n) : stride_(count / n) {}
+  u32 next() {
+    jitter_ = jitter_ * 1664525 + 1013904223;
+    u32 from = at_;
+    at_ += stride_;
+    return from + u32((u64(jitter_) * stride_) >> 32);
+  }
+};
 
 /// How many of so many boxes are looked at.
 inline u32 samples_of(u32 count) { return smaller(count, smaller(larger(count / 64, 256u), most_samples)); }
@@ -158,11 +178,9 @@ template <int D> SHARED Statistics<D> judge(u32 n) {
 template <int D, class Source> SHARED Statistics<D> measure(const Source& items, u32 count) {
   using detail::sample;
   u32 n = detail::samples_of(count);
-  u32 stride = count / n;
-  u32 jitter = 0x9e3779b9;
+  detail::Sampling sampling(count, n);
   for (u32 k = 0; k < n; k++) {
-    jitter = jitter * 1664525 + 1013904223;
-    Item<D> item = items[k * stride + u32((u64(jitter) * stride) >> 32)];
+    Item<D> item = items[sampling.next()];
     for (int a = 0; a < D; a++) {
       sample[a][k] = item.lo(a);
       sample[D + a][k] = item.hi(a);

@@ -46,7 +46,7 @@ template <int D> class AabbTree {
   u32 count_ = 0;        // boxes in the tree; 0: nothing is kept
   u32 free_count_ = 0;
   u64 wear_ = 0;  // boxes moved since the order was made
-  f32 now_ = 0;   // updates, counted
+  u32 now_ = 0;   // updates, counted
   f32 reach_ = 0;    // updates that fat boxes reach ahead, on average
   f64 fresh_ = 0;    // what an update costs that keeps nothing
   f64 loss_ = 0;     // what keeping has cost more than that
@@ -72,7 +72,7 @@ template <int D> class AabbTree {
     tags_.grow(most, had);
     place_.grow(most, had);
     moved_.reserve(n);
-    now_ += 1;
+    now_++;
     u32 moved = look(scene, had, f32(options.margin));
     bool order = had == 0 || n > had + free_count_, all = u64(moved) * bulk_share > n;
     if (n < had) {
@@ -175,7 +175,7 @@ template <int D> class AabbTree {
     // Not all reach equally far, or they would all leave together; but neighbours do, for the nodes' sake.
     u32 crowd = is_new ? 0 : place_[slot] / crowd_size;
     f32 reach = reach_ * (0.6f + f32(crowd * 0x9e3779b9u >> 8) * 0x0.cp-24f);
-    f32 updates = larger(now_ - origin[D], 1.0f);
+    f32 updates = f32(larger(now_ - bits<u32>(origin[D]), 1u));
     for (int a = 0; a < D; a++) {
       f32 motion = is_new ? 0 : (box[a] - origin[a]) / updates;
       f32 size = box[D + a] - box[a];
@@ -186,7 +186,7 @@ template <int D> class AabbTree {
       fat[D + a] = larger(box[D + a], box[D + a] + larger(ahead, 0.0f) + aside);
       origin[a] = box[a];
     }
-    origin[D] = now_;
+    origin[D] = bits<f32>(now_);
   }
 
   /// Orders the tree anew.

@@ -119,10 +119,9 @@ template <int D> class BspTree {
   COLD static Cut choose(const ItemsAt<D>& items, u32 count, f32 spare) {
     static f32 starts[D][samples];
     static f32 sizes[D][samples];
-    u32 stride = count / samples, jitter = count;
+    detail::Sampling sampling(count, samples);
     for (u32 k = 0; k < samples; k++) {
-      jitter = jitter * 1664525 + 1013904223;
-      Item<D> item = items[k * stride + u32((u64(jitter) * stride) >> 32)];
+      Item<D> item = items[sampling.next()];
       for (int a = 0; a < D; a++) {
         starts[a][k] = item.lo(a);
         sizes[a][k] = item.hi(a) - item.lo(a);

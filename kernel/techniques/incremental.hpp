@@ -342,12 +342,8 @@ template <int D> class Incremental {
     // The lower corners of a sample are cut in halves again and again.
     u32 samples = smaller(n, smaller(leaves * samples_a_cell, most_samples));
     f32* sample = sample_.reserve(u64(samples) * D);
-    u32 stride = n / samples, jitter = 0x9e3779b9;
-    for (u32 k = 0; k < samples; k++) {
-      jitter = jitter * 1664525 + 1013904223;
-      u32 slot = k * stride + u32((u64(jitter) * stride) >> 32);
-      for (int a = 0; a < D; a++) sample[k * D + a] = box_of(scene, slot)[a];
-    }
+    detail::Sampling sampling(n, samples);
+    for (u32 k = 0; k < samples; k++) __builtin_memcpy(sample + k * D, box_of(scene, sampling.next()), D * sizeof(f32));
     cuts_.reserve(leaves);
     cells_.reserve(leaves);
     u64 room = u64(n) + n / 4;
@@ -401,7 +397,7 @@ template <int D> class Incremental {
     }
     int a = axis_[level];
     u32 half = count / 2;
-    f32 at = count > 0 ? halve(sample, count, half, a) : low[a];
+    f32 at = count > 0 ? detail::select<D>(sample, i32(count), i32(half), a) : low[a];
     cuts_[node] = at;
     f32 border[4];
     __builtin_memcpy(border, high, sizeof(border));
@@ -410,33 +406,6 @@ template <int D> class Incremental {
     __builtin_memcpy(border, low, sizeof(border));
     border[a] = at;
     cut(sample + u64(half) * D, count - half, 2 * node + 1, level + 1, border, high);
-  }
-
-  /// Puts the `half` least samples along an axis first; gives the next one's coordinate.
-  COLD static f32 halve(f32* v, u32 count, u32 half, int a) {
-    i32 from = 0, to = i32(count) - 1, k = i32(half);
-    while (from < to) {
-      f32 x = v[from * D + a], y = v[(from + to) / 2 * D + a], z = v[to * D + a];
-      f32 pivot = larger(smaller(x, y), smaller(larger(x, y), z));
-      i32 i = from, j = to;
-      while (i <= j) {
-        while (v[i * D + a] < pivot) i++;
-        while (pivot < v[j * D + a]) j--;
-        if (i <= j) {
-          for (int b = 0; b < D; b++) {
-            f32 t = v[i * D + b];
-            v[i * D + b] = v[j * D + b];
-            v[j * D + b] = t;
-          }
-          i++;
-          j--;
-        }
-      }
-      if (k <= j) to = j;
-      else if (k >= i) from = i;
-      else break;
-    }
-    return v[k * D + a];
   }
 
   /// Cells that a box touches.
