@@ -145,12 +145,13 @@ template <int D> class Calls {
   /// Many updates in which little changes, which is when techniques come to keep what they have found: some boxes
   /// move on, now and then turn back; where the bytes say so, others are disturbed, and memory ends once.
   void let_time_pass() {
-    if (++spells_ > most_spells) return update();
+    update();
+    if (++spells_ > most_spells) return;
     Random random(bytes_.next16());
     if (model_.count() < 250 || space_.pairs.count > most_boxes) replace(as_floats<D>(spread<D>(random, 250 + random.below(200), 0, D == 2 ? 200 : 60, 10)), false);
     u8 how = bytes_.next();
     bool in_place = how & 4, disturbed = how & 8;
-    u32 updates = 60 + bytes_.below(128), ends = how & 16 ? random.below(updates) : updates;
+    u32 updates = 96 + bytes_.below(64), ends = how & 16 ? random.below(updates) : updates;
     u32 movers = how % 4 == 0 ? 0 : how % 4 == 1 ? 5 : how % 4 == 2 ? model_.count() / 10 : most_boxes;
     f64 speed = std::exp2(-f64(how >> 5));
     for (u32 k = 0; k < updates; k++) {
@@ -179,6 +180,7 @@ template <int D> class Calls {
       if (disturbed && random.below(4) == 0) disturb(random);
       starved_ = k == ends;
       update(k % 16 == 15 || k + 1 == updates);
+      if (space_.pairs.count > 8 * most_boxes) return update();
     }
   }
 

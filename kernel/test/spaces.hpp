@@ -106,6 +106,26 @@ template <int D> void check_calls() {
   }
 }
 
+/// Long spells in which little changes, of every kind, for the techniques that keep what they find.
+template <int D> void check_spells() {
+  u8 seed = 0;
+  for (Technique technique : {Technique::incremental, Technique::automatic, Technique::aabb_tree}) {
+    for (u8 how = 0; how < 32; how += 2) {
+      testing::Where where("technique " + std::to_string(u32(technique)) + ", spell " + std::to_string(how));
+      u8 events = how & 4 ? 16 : 0, margin = how % 16 == 6 ? 4 : 0, speed = u8(seed % 8 << 5);
+      // What the space is made with, then twice: a spell, a look, the technique once more.
+      std::vector<u8> data = {u8(events | margin)};
+      if (margin) data.push_back(seed);
+      for (u8 kind : {how, u8(how + 1)}) {
+        u8 call[] = {31, ++seed, 0, u8(kind | speed), 40, 19, 18, u8(technique)};
+        data.insert(data.end(), std::begin(call), std::end(call));
+      }
+      Bytes bytes(data.data(), data.size());
+      Calls<D>(bytes, technique).run();
+    }
+  }
+}
+
 /// The sequences that the fuzzer found worth keeping, and those that once failed.
 template <int D> void check_corpus() {
   CHECK(!corpus().empty());
@@ -341,6 +361,7 @@ template <int D> void list_space_tests() {
       {"spaces give the pairs in an order that follows from the calls", D, check_order<D>},
       {"spaces give the pairs in the same order whatever was there before", D, check_history<D>},
       {"spaces follow random calls", D, check_calls<D>},
+      {"spaces follow long spells in which little changes", D, check_spells<D>},
       {"spaces follow the fuzzer's calls", D, check_corpus<D>},
       {"spaces keep the numbers they were given", D, check_rounding<D>},
       {"spaces name bad boxes written in place", D, check_exposed<D>},
