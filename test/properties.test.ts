@@ -9,7 +9,7 @@ import { referencePairs } from './reference.ts';
 import { setBox } from './set-box.ts';
 
 const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 31));
-const numRuns = Number(process.env.RUNS ?? 60);
+const numRuns = Number(process.env.RUNS ?? 30);
 
 type Model = Map<number, number[]>;
 

@@ -10,7 +10,7 @@ import { setBox } from './set-box.ts';
 import { wrappedPairs } from './wrapped-reference.ts';
 
 const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 31));
-const numRuns = Number(process.env.RUNS ?? 40);
+const numRuns = Number(process.env.RUNS ?? 20);
 
 const combinations = BroadPhase.techniques.flatMap((technique) =>
   ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
