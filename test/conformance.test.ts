@@ -73,7 +73,7 @@ describe.each(combinations)('%s in %d dimensions', (technique, dimensions) => {
     }
   });
 
-  test.each(scenesHere.filter((name) => /uniform|mixed|clustered/.test(name)))(
+  test.each(scenesHere.filter((name) => /uniform|mixed|clustered2d/.test(name)))(
     'finds the pairs of 20,000 boxes of %s',
     (name) => {
       const space = create();
