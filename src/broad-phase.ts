@@ -916,7 +916,7 @@ const isBuilt = (technique: number): boolean => (builtTechniques() & (1 << techn
 function checkTechnique(name: unknown): void {
   const technique = techniques.indexOf(name as TechniqueName);
   if (technique >= 0 && isBuilt(technique)) return;
-  const more = technique < 0 ? '' : ": for the others, import from 'broadphase/all'";
+  const more = technique < 0 ? '' : ": the others are in 'broadphase/all'";
   badValue('technique', name, `one of ${BroadPhase.techniques.join(', ')}${more}`, typeof name !== 'string');
 }
 
