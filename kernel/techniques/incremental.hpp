@@ -15,8 +15,8 @@
 // their fat ones at once or where it does not pay.
 // Cost: where boxes move by a hundredth of their size in 2D, 0.6 of strip-sweep at 10,000, 0.75 at 100,000; where 5 %
 // move 5 to 12 ns a box, and with `set` only the movers count. While it is filled, an update costs a fifth to a third
-// more than strip-sweep, the one that cuts space into cells twice as much. Memory, beside that of strip-sweep: about 130
-// (2D) or 210 (3D) bytes a box that moves, 100 or 140 one at rest.
+// more than strip-sweep, the two before it, which cut space into cells and line the boxes up, up to twice as much. Memory,
+// beside that of strip-sweep: about 130 (2D) or 210 (3D) bytes a box that moves, 100 or 140 one at rest.
 // Wins where boxes rest, or up to some 10,000 move slowly. Is strip-sweep where they jump.
 // From: candidates kept with a margin, L. Verlet, "Computer Experiments on Classical Fluids", 1967; fat boxes, as in
 // the dynamic trees of Bullet and Box2D; k-d tree, J. Bentley, 1975. The combination is ours.
@@ -216,10 +216,13 @@ template <int D> class Incremental {
   void find(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     now_++;
-    if (leaves_ > 0 && (n < few || n > 2 * planned_ || 4 * n < planned_)) forget();
+    if (leaves_ > 0 && (n < few || n > 2 * planned_ || 4 * n < planned_ || (count_ == 0 && n != planned_))) forget();
     pairs.count = 0;
     moving_ = candidates_ = turned_ = motion_ = 0;
-    if (leaves_ > 0) {
+    bool enlists = leaves_ > 0 && count_ == 0;  // another update than the one that made the cells: both take their time
+    if (enlists) {
+      enlist(scene);
+    } else if (leaves_ > 0) {
       follow(scene, pairs);
       serve(scene, options, stats);
       if (leaves_ > 0 && queued_ == 0) {
@@ -320,7 +323,7 @@ template <int D> class Incremental {
 
   // --- the cells ---
 
-  /// Cuts space into cells, still empty: all boxes wait to be put in.
+  /// Cuts space into cells, still empty.
   COLD void plan(const Scene<D>& scene) {
     u32 n = scene.count, levels = 0;
     while ((n >> (levels + 1)) >= cell_boxes) levels++;
@@ -346,28 +349,33 @@ template <int D> class Incremental {
     for (u32 k = 0; k < samples; k++) __builtin_memcpy(sample + k * D, box_of(scene, sampling.next()), D * sizeof(f32));
     cuts_.reserve(leaves);
     cells_.reserve(leaves);
-    u64 room = u64(n) + n / 4;
-    known_.reserve(room);
-    queue_.reserve(room);
-    settled_.list.reserve(Pairs::slack);
-    woken_.reserve(room / 32 + 1);
-    __builtin_memset(woken_.data(), 0, (room / 32 + 1) * sizeof(u32));
     __builtin_memset(static_cast<void*>(cells_.data()), 0, leaves * sizeof(Cell));
     leaves_ = leaves;
-    planned_ = count_ = n;
+    planned_ = n;
     f32 low[4], high[4];
     for (int a = 0; a < 4; a++) {
       low[a] = -__builtin_inff();
       high[a] = __builtin_nanf("");
     }
     cut(sample, samples, 1, 0, low, high);
+    cursor_ = 0;
+    slack_ = 0.5f;
+  }
+
+  /// All boxes wait to be put into cells.
+  COLD void enlist(const Scene<D>& scene) {
+    u32 n = count_ = scene.count;
+    u64 room = u64(n) + n / 4;
+    known_.reserve(room);
+    queue_.reserve(room);
+    settled_.list.reserve(Pairs::slack);
+    woken_.reserve(room / 32 + 1);
+    __builtin_memset(woken_.data(), 0, (room / 32 + 1) * sizeof(u32));
     for (u32 slot = 0; slot < n; slot++) known_[slot].tag = waiting | excluded_of(scene, slot);
     // In an order in which those of a cell come soon after one another: cells then stay in the cache.
     anew_.each_in_order([&](u32 slot) { queue_[queued_++] = slot; });
     unseen_ = n;
     see(scene, ahead * portion(n));
-    cursor_ = 0;
-    slack_ = 0.5f;
   }
 
   /// Notes where some of those stand that wait to be put into cells, to know their motion when it is their turn.
