@@ -218,6 +218,8 @@ export class BroadPhase extends Queries {
    * Chainable.
    *
    * @param id an integer from 0 to 2^24 - 1; ids near 0 without gaps are best
+   * @param minX the least coordinates, in the units of your world: any numbers but NaN, infinite ones too
+   * @param maxX the largest ones, not below the least
    * @throws RangeError for a bad id, for NaN, and for a minimum above its maximum; TypeError for other than
    *   numbers and for a wrong number of them. The space is as before.
    *
@@ -230,6 +232,11 @@ export class BroadPhase extends Queries {
   set(id: number, minX: number, minY: number, maxX: number, maxY: number): this;
   /**
    * Adds box `id`, or moves it, in 3D.
+   *
+   * @param id an integer from 0 to 2^24 - 1
+   * @param minX the least coordinates: any numbers but NaN
+   * @param maxX the largest ones, not below the least
+   * @throws as in 2D
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
@@ -273,6 +280,8 @@ export class BroadPhase extends Queries {
    * that its pairs are all it may meet. Which it does meet, when and on which side, `sweep` with the same numbers tells.
    * 2D `setSwept(id, minX, minY, maxX, maxY, dx, dy)`, 3D `setSwept(id, minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz)`.
    *
+   * @param id an integer from 0 to 2^24 - 1
+   * @param minX where it stands now, as for `set`
    * @param dx how far it moves along the first axis, and so on: finite numbers
    * @throws as `set` does. The space is as before.
    *
@@ -428,7 +437,8 @@ export class BroadPhase extends Queries {
   }
 
   /**
-   * Takes box `id` away.
+   * Takes box `id` away, with its filter.
+   * @param id an integer from 0 to 2^24 - 1, of a box or not
    * @returns whether there was one
    * @throws RangeError for a bad id
    *
@@ -450,6 +460,7 @@ export class BroadPhase extends Queries {
 
   /**
    * Whether there is a box `id`.
+   * @param id an integer from 0 to 2^24 - 1
    * @throws RangeError for a bad id
    *
    * @example
@@ -462,6 +473,7 @@ export class BroadPhase extends Queries {
 
   /**
    * The numbers box `id` was given with, or `undefined` where there is none.
+   * @param id an integer from 0 to 2^24 - 1
    * @throws RangeError for a bad id
    *
    * @example
@@ -471,7 +483,8 @@ export class BroadPhase extends Queries {
   get(id: number): Float64Array | undefined;
   /**
    * The same without garbage.
-   * @param out filled and returned
+   * @param id an integer from 0 to 2^24 - 1
+   * @param out filled with 4 numbers (3D: 6) and returned
    *
    * @example
    * const space = new BroadPhase();
@@ -493,6 +506,7 @@ export class BroadPhase extends Queries {
    * before and inside the search: boxes that ignore each other cost little, boxes that can meet nobody cost nothing.
    * The filter belongs to the id: it stays when the box moves, by whatever call, and goes with `delete` and `clear`.
    *
+   * @param id an integer from 0 to 2^24 - 1, of a box that is there
    * @param layer what the box is: an integer from 0 to 2^32 - 1, most often one bit
    * @param mask whom it meets: the same, most often some bits. Write `~bits >>> 0` for all but some
    * @throws RangeError for a bad id or one that has no box, and for other than 32 bits; TypeError for other than numbers
@@ -522,6 +536,8 @@ export class BroadPhase extends Queries {
    * Says whether box `id` is static: two static boxes are never a pair. Static boxes may be moved like others. Belongs
    * to the id, as filters do.
    *
+   * @param id an integer from 0 to 2^24 - 1, of a box that is there
+   * @param isStatic true unless told
    * @throws RangeError for a bad id or one that has no box; TypeError for other than a boolean
    *
    * @example
@@ -684,7 +700,7 @@ export class BroadPhase extends Queries {
   }
 
   /**
-   * The boxes of the cells, strips or nodes that the last update used, to draw: interleaved like `setAll`'s. A
+   * The boxes of the cells, strips or nodes that the last update used, to draw: 4 numbers (3D: 6) each, as `setAll`'s. A
    * view of the kernel's memory: valid until the next call.
    *
    * @example

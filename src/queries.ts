@@ -74,6 +74,7 @@ export abstract class Queries extends Space {
 
   /**
    * Whether boxes `a` and `b` are a pair of the last update: constant time after the first question.
+   * @param a an integer from 0 to 2^24 - 1, of a box or not; so is `b`
    * @throws RangeError for a bad id
    *
    * @example
@@ -96,6 +97,7 @@ export abstract class Queries extends Space {
    * The ids of the boxes that are in a pair with box `id` in the last update, in the order of `pairs`: takes time
    * proportional to the answer, after the first question.
    *
+   * @param id an integer from 0 to 2^24 - 1, of a box or not
    * @param out filled and returned, if given; else a new array
    * @throws RangeError for a bad id; TypeError where `out` is no array
    *
@@ -118,6 +120,8 @@ export abstract class Queries extends Space {
    * The ids of the boxes that overlap or touch a box, which may be infinite: in no particular order, but the same one
    * for the same boxes. 2D: `queryBox(minX, minY, maxX, maxY, options?)`.
    *
+   * @param minX the least coordinates, in the units of your world: any numbers but NaN
+   * @param maxX the largest ones, not below the least
    * @throws as all questions do: see {@link BroadPhase}
    *
    * @example
@@ -173,6 +177,7 @@ export abstract class Queries extends Space {
 
   /**
    * The ids of the boxes that hold a point or touch it: as {@link BroadPhase.queryBox}. 2D: `queryPoint(x, y, options?)`.
+   * @param x where it is: finite, as is y
    *
    * @example
    * const space = new BroadPhase();
@@ -197,7 +202,8 @@ export abstract class Queries extends Space {
 
   /**
    * 2D: the ids of the boxes that a circle overlaps or touches: as {@link BroadPhase.queryBox}.
-   * @param radius at least 0
+   * @param x its centre: finite, as is y
+   * @param radius at least 0, in the units of your world
    *
    * @example
    * const space = new BroadPhase();
@@ -214,7 +220,8 @@ export abstract class Queries extends Space {
 
   /**
    * 3D: the ids of the boxes that a sphere overlaps or touches: as {@link BroadPhase.queryBox}.
-   * @param radius at least 0
+   * @param x its centre: finite, as are y and z
+   * @param radius at least 0, in the units of your world
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
@@ -232,6 +239,11 @@ export abstract class Queries extends Space {
    * The first box that a ray meets, or `undefined`: of several at the same distance the one of the smallest id.
    * The direction may have any length; where it has none the ray is a point. 2D: `rayCast(x, y, directionX,
    * directionY, options?)`.
+   *
+   * @param x where it begins: finite, as is y
+   * @param directionX where it points: finite, as is directionY
+   * @returns the box, the distance to it in the units of your world, and the normal of the side that was hit
+   * @throws as all questions do: see {@link BroadPhase}
    *
    * @example
    * const space = new BroadPhase();
@@ -267,7 +279,11 @@ export abstract class Queries extends Space {
   }
 
   /**
-   * All boxes that a ray meets, by distance and then by id: as {@link BroadPhase.rayCast}.
+   * All boxes that a ray meets, by distance and then by id: as {@link BroadPhase.rayCast}. 2D: `rayCastAll(x, y,
+   * directionX, directionY, options?)`.
+   *
+   * @param x where it begins: finite, as is y
+   * @param directionX where it points: finite, as is directionY
    *
    * @example
    * const space = new BroadPhase();
@@ -316,7 +332,10 @@ export abstract class Queries extends Space {
    * frame to frame. Of several met at the same time the one of the smallest id. A box that is in the space meets
    * itself: name it in `ignore`. 2D: `sweep(minX, minY, maxX, maxY, dx, dy, options?)`.
    *
-   * @param dx how far it moves along the first axis, and so on
+   * @param minX where it stands now: any numbers but NaN
+   * @param dx how far it moves along the first axis, and so on: finite
+   * @returns the box, the share of the way until they touch, and the normal of the side that was hit
+   * @throws as all questions do: see {@link BroadPhase}
    *
    * @example
    * const space = new BroadPhase();
@@ -403,7 +422,10 @@ export abstract class Queries extends Space {
   /**
    * The ids of the `k` boxes nearest to a point, by the distance to the box, which is 0 inside, and then by id. 2D:
    * `nearest(x, y, k, options?)`.
+   * @param x where from: finite, as is y
    * @param k how many: an integer from 1 on
+   * @returns fewer than k where there are no more, or none within `maxDistance`
+   * @throws as all questions do: see {@link BroadPhase}
    *
    * @example
    * const space = new BroadPhase();

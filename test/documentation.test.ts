@@ -68,7 +68,7 @@ describe('the code that the documentation shows', () => {
       return `${documented[index]?.example.name ?? file?.fileName}: ${ts.flattenDiagnosticMessageText(messageText, '\n')}: ${line}`;
     });
     expect(errors).toEqual([]);
-  });
+  }, 120_000);
 
   documented.forEach(({ example }, k) => {
     test(example.name, async () => {
