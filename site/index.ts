@@ -29,6 +29,12 @@ const fewest = 100;
 const most = 200_000;
 /** Brute force makes a test for every two boxes: from here on a frame would take seconds. */
 const mostByBruteForce = 20_000;
+/** What a visitor sees who has chosen nothing: the most of these that this machine moves smoothly. */
+const greetings = [100_000, 50_000, 20_000, 10_000, 5_000];
+/** Frames a second. */
+const smooth = 28;
+/** Milliseconds of play in which that is found out. */
+const trial = 1500;
 const frameBudget = 1000 / 60;
 const refresh = 250;
 const playIcon = 'M4 2.2v11.6a.6.6 0 0 0 .9.5l9-5.8a.6.6 0 0 0 0-1l-9-5.8a.6.6 0 0 0-.9.5z';
@@ -54,6 +60,10 @@ const figure = new Figure(
 );
 let recording: Promise<LiveScene> | undefined;
 let shown = 0;
+/** Until the visitor chooses a number of boxes, or it runs smoothly. */
+let greeting = !address.has('boxes');
+/** When the scene began to move. */
+let movingSince = 0;
 
 // The slider is logarithmic; counts are rounded to two digits.
 
@@ -91,8 +101,11 @@ async function show(): Promise<void> {
   const fewer = !recorded && scene.count < boxesAt(slider.valueAsNumber / Number(slider.max));
   note.textContent = fewer
     ? `Brute force stops here at ${formatCount(scene.count)} boxes: that is ${formatCount(possible(scene.count))} tests a frame.`
-    : scenes[sceneMenu.selectedIndex][2];
+    : greeting && scene.count < greetings[0]
+      ? `${formatCount(scene.count)} boxes, as many as this device moves smoothly; the slider goes to ${formatCount(most)}.`
+      : scenes[sceneMenu.selectedIndex][2];
   figure.show(scene);
+  movingSince = performance.now();
   report();
   remember(scene.count);
 }
@@ -100,8 +113,22 @@ async function show(): Promise<void> {
 function remember(count: number): void {
   address.set('scene', sceneMenu.value);
   address.set('technique', techniqueMenu.value);
-  if (sceneMenu.value !== 'rain') address.set('boxes', String(count));
+  if (sceneMenu.value !== 'rain' && !greeting) address.set('boxes', String(count));
   history.replaceState(null, '', `?${address}`);
+}
+
+/** Shows fewer boxes where those of the greeting do not move smoothly here. Drawing them is most of the work. */
+function greet(): void {
+  const { timings, loop, scene } = figure;
+  if (!greeting || !loop.playing || !scene || slider.disabled || performance.now() - movingSince < trial) return;
+  const can = (scene.count * timings.rate) / smooth;
+  const fewer = greetings.filter((count) => count < scene.count);
+  if (timings.rate >= smooth || fewer.length === 0) {
+    greeting = false;
+    return;
+  }
+  slide(fewer.find((count) => count <= can) ?? fewer.at(-1)!);
+  void show();
 }
 
 const possible = (count: number) => (count * (count - 1)) / 2;
@@ -117,6 +144,7 @@ function report(): void {
   write('budget', formatShare(share));
   meter.style.setProperty('--share', Math.min(1, share).toFixed(3));
   write('boxes', formatCount(scene.count));
+  write('hero', formatCount(scene.count));
   write('pairs', formatCount(space.pairCount));
   write('touching', formatCount(groups.touching));
   write('tests', formatCount(stats.tests));
@@ -127,6 +155,7 @@ function report(): void {
 
 function play(playing: boolean): void {
   figure.loop.playing = playing;
+  movingSince = performance.now();
   find('play-icon').setAttribute('d', playing ? pauseIcon : playIcon);
   find('play-label').textContent = playing ? 'Pause' : 'Play';
   if (playing) figure.timings.clear();
@@ -148,10 +177,13 @@ function fillMenus(): void {
   for (const [name, label] of scenes) sceneMenu.add(new Option(label, name));
   for (const name of BroadPhase.techniques) techniqueMenu.add(new Option(name, name));
   const scene = address.get('scene');
-  sceneMenu.value = scenes.find(([name]) => name === scene)?.[0] ?? 'uniform2d';
+  sceneMenu.value = scenes.find(([name]) => name === scene)?.[0] ?? 'mixed2d';
   const technique = address.get('technique');
   techniqueMenu.value = BroadPhase.techniques.find((name) => name === technique) ?? 'auto';
-  const boxes = Math.min(most, Math.max(fewest, Number(address.get('boxes')) || 20_000));
+  slide(Math.min(most, Math.max(fewest, Number(address.get('boxes')) || greetings[0])));
+}
+
+function slide(boxes: number): void {
   slider.value = String(Math.round(positionOf(boxes) * Number(slider.max)));
 }
 
@@ -161,9 +193,12 @@ const showSoon = () => {
   cancelAnimationFrame(pending);
   pending = requestAnimationFrame(() => void show());
 };
-slider.addEventListener('input', showSoon);
-sceneMenu.addEventListener('change', showSoon);
-techniqueMenu.addEventListener('change', showSoon);
+for (const control of [slider, sceneMenu, techniqueMenu]) {
+  control.addEventListener('input', () => {
+    greeting = false;
+    showSoon();
+  });
+}
 find('play').addEventListener('click', () => play(!figure.loop.playing));
 find('step').addEventListener('click', () => {
   if (figure.loop.playing) play(false);
@@ -194,7 +229,12 @@ addEventListener('unhandledrejection', (event) => failed(event.reason));
 
 const still = matchMedia('(prefers-reduced-motion: reduce)');
 still.addEventListener('change', () => play(!still.matches));
-setInterval(report, refresh);
+setInterval(() => {
+  report();
+  greet();
+}, refresh);
 fillMenus();
 await show();
+// Where nothing moves one update stands for all: not one of the first, in which the browser compiles and memory grows.
+for (let k = 0; still.matches && k < 5; k++) await show();
 play(!still.matches);

@@ -41,16 +41,40 @@ async function openStill(page: Page, address: string): Promise<void> {
   await solved(page);
 }
 
-test('opens with 20,000 moving boxes and live numbers', async ({ page }) => {
+test('opens with 100,000 moving boxes and live numbers, or as many as move smoothly, and says how many', async ({
+  page,
+}) => {
   await page.goto('/');
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('Which boxes overlap?');
-  await expect(shown(page, 'boxes')).toHaveText('20,000');
   await solved(page);
   expect(await number(page, 'tests')).toBeGreaterThan(0);
   expect(await number(page, 'median')).toBeGreaterThan(0);
   const before = await number(page, 'pairs');
   await expect.poll(() => number(page, 'pairs'), { timeout: 20_000 }).not.toBe(before);
   await expect.poll(() => number(page, 'rate'), { timeout: 20_000 }).toBeGreaterThan(0);
+  await page.waitForTimeout(4000);
+  await page.getByRole('button', { name: 'Pause' }).click();
+  const boxes = (await shown(page, 'boxes').textContent())!;
+  expect(['100,000', '50,000', '20,000', '10,000', '5,000']).toContain(boxes);
+  await expect(page.locator('.lede')).toContainText(`${boxes} boxes move`);
+  await expect(page.getByRole('img')).toHaveAttribute('aria-label', new RegExp(`^${boxes} boxes, paused`));
+  if (boxes !== '100,000')
+    await expect(page.getByRole('status')).toContainText(`${boxes} boxes, as many as this device`);
+});
+
+test('shows 100,000 boxes, still, to those who ask for less motion; what they choose stays', async ({ page }) => {
+  await openStill(page, '/');
+  await expect(shown(page, 'boxes')).toHaveText('100,000');
+  await expect(page.locator('.lede')).toContainText('100,000 boxes move');
+  expect(await number(page, 'pairs')).toBeGreaterThan(40_000);
+  await expect(page).not.toHaveURL(/boxes=/);
+  await page.waitForTimeout(2500);
+  await expect(shown(page, 'boxes')).toHaveText('100,000');
+  await page.getByRole('slider', { name: 'Boxes' }).press('End');
+  await expect(shown(page, 'boxes')).toHaveText('200,000');
+  await page.getByRole('button', { name: 'Play' }).click();
+  await page.waitForTimeout(2500);
+  await expect(shown(page, 'boxes')).toHaveText('200,000');
 });
 
 test('is cross-origin isolated, so that its clock is fine', async ({ page }) => {
@@ -175,7 +199,7 @@ for (const [device, width, height] of [
     test(`fits a ${device} screen, ${colorScheme}`, async ({ page }) => {
       await page.setViewportSize({ width, height });
       await page.emulateMedia({ colorScheme });
-      await openStill(page, '/?boxes=2000');
+      await openStill(page, '/');
       expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
       expect(await coloursInView(page)).toBeGreaterThan(10);
       await page.screenshot({ path: `test-results/screens/${device}-${colorScheme}.png`, fullPage: true });
