@@ -2,6 +2,7 @@
 // What is chosen stands in the address, so that a view can be sent to someone.
 import { BroadPhase, type TechniqueName } from 'broadphase';
 import type { SceneName } from '../src/scenes/index.ts';
+import { find, showPlaying } from './shared/elements.ts';
 import { Figure } from './shared/figure.ts';
 import { formatCount, formatMilliseconds, formatRate, formatShare } from './shared/format.ts';
 import { numberPanel } from './shared/numbers.ts';
@@ -37,10 +38,7 @@ const smooth = 28;
 const trial = 1500;
 const frameBudget = 1000 / 60;
 const refresh = 250;
-const playIcon = 'M4 2.2v11.6a.6.6 0 0 0 .9.5l9-5.8a.6.6 0 0 0 0-1l-9-5.8a.6.6 0 0 0-.9.5z';
-const pauseIcon = 'M3.5 2h3v12h-3zM9.5 2h3v12h-3z';
 
-const find = <T extends Element = HTMLElement>(id: string) => document.getElementById(id) as unknown as T;
 const slider = find<HTMLInputElement>('count');
 const sceneMenu = find<HTMLSelectElement>('scene');
 const techniqueMenu = find<HTMLSelectElement>('technique');
@@ -156,8 +154,7 @@ function report(): void {
 function play(playing: boolean): void {
   figure.loop.playing = playing;
   movingSince = performance.now();
-  find('play-icon').setAttribute('d', playing ? pauseIcon : playIcon);
-  find('play-label').textContent = playing ? 'Pause' : 'Play';
+  showPlaying(playing);
   if (playing) figure.timings.clear();
   report();
   caption();

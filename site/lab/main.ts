@@ -1,6 +1,7 @@
 // The lab: a scene, a technique, what it costs. This file ties the parts together; the work is done in workers.
 // What is shown stands in the address, so that it can be sent to someone.
 import { BroadPhase, type TechniqueName } from 'broadphase';
+import { find, showPlaying } from '../shared/elements.ts';
 import { formatCount, formatMilliseconds, formatRate } from '../shared/format.ts';
 import { numberPanel } from '../shared/numbers.ts';
 import type { RendererKind } from '../shared/renderer.ts';
@@ -27,11 +28,8 @@ const mostByBruteForce = 20_000;
 const mostInRace = 100_000;
 const refresh = 200;
 const rememberAfter = 300;
-const playIcon = 'M4 2.2v11.6a.6.6 0 0 0 .9.5l9-5.8a.6.6 0 0 0 0-1l-9-5.8a.6.6 0 0 0-.9.5z';
-const pauseIcon = 'M3.5 2h3v12h-3zM9.5 2h3v12h-3z';
 const file = 'file';
 
-const find = <T extends Element = HTMLElement>(id: string) => document.getElementById(id) as unknown as T;
 const sceneMenu = find<HTMLSelectElement>('scene');
 const techniqueMenu = find<HTMLSelectElement>('technique');
 const rateMenu = find<HTMLSelectElement>('rate');
@@ -365,8 +363,7 @@ function report(): void {
 
 function play(playing: boolean): void {
   playback.playing = playing;
-  find('play-icon').setAttribute('d', playing ? pauseIcon : playIcon);
-  find('play-label').textContent = playing ? 'Pause' : 'Play';
+  showPlaying(playing);
   if (playing) timings.clear();
   report();
   caption();

@@ -9,6 +9,7 @@ import {
   shapes,
   world,
 } from '../../examples/narrow-phase/scenes.mjs';
+import { find, showPlaying } from '../shared/elements.ts';
 import { formatCount } from '../shared/format.ts';
 import { FrameLoop } from '../shared/loop.ts';
 import { numberPanel } from '../shared/numbers.ts';
@@ -18,10 +19,7 @@ const sharpest = 2;
 const refresh = 250;
 /** Frames before the first that is shown. */
 const settling = 60;
-const playIcon = 'M4 2.2v11.6a.6.6 0 0 0 .9.5l9-5.8a.6.6 0 0 0 0-1l-9-5.8a.6.6 0 0 0-.9.5z';
-const pauseIcon = 'M3.5 2h3v12h-3zM9.5 2h3v12h-3z';
 
-const find = <T extends Element = HTMLElement>(id: string) => document.getElementById(id) as unknown as T;
 const canvas = find<HTMLCanvasElement>('canvas');
 const countMenu = find<HTMLSelectElement>('count');
 const context = canvas.getContext('2d')!;
@@ -198,8 +196,7 @@ loop.watch(canvas);
 
 function play(playing: boolean): void {
   loop.playing = playing;
-  find('play-icon').setAttribute('d', playing ? pauseIcon : playIcon);
-  find('play-label').textContent = playing ? 'Pause' : 'Play';
+  showPlaying(playing);
 }
 find('play').addEventListener('click', () => play(!loop.playing));
 find('step').addEventListener('click', () => {

@@ -2,6 +2,7 @@
 // Where it aims is dragged, or moved by the arrow keys; which question it is stands in the address.
 import { BroadPhase } from 'broadphase';
 import { Camera } from '../shared/camera.ts';
+import { find, showPlaying } from '../shared/elements.ts';
 import { formatCount } from '../shared/format.ts';
 import { FrameLoop } from '../shared/loop.ts';
 import { numberPanel } from '../shared/numbers.ts';
@@ -22,10 +23,7 @@ const keyStep = 0.02;
 /** A pointer that moves less, in pixels, does not drag. */
 const leastDrag = 6;
 const everyone = 7;
-const playIcon = 'M4 2.2v11.6a.6.6 0 0 0 .9.5l9-5.8a.6.6 0 0 0 0-1l-9-5.8a.6.6 0 0 0-.9.5z';
-const pauseIcon = 'M3.5 2h3v12h-3zM9.5 2h3v12h-3z';
 
-const find = <T extends Element = HTMLElement>(id: string) => document.getElementById(id) as unknown as T;
 const view = find('view');
 view.tabIndex = 0;
 const canvas = find<HTMLCanvasElement>('boxes');
@@ -262,8 +260,7 @@ view.addEventListener('keydown', (event) => {
 
 function play(playing: boolean): void {
   loop.playing = playing;
-  find('play-icon').setAttribute('d', playing ? pauseIcon : playIcon);
-  find('play-label').textContent = playing ? 'Pause' : 'Play';
+  showPlaying(playing);
 }
 find('play').addEventListener('click', () => play(!loop.playing));
 find('step').addEventListener('click', () => {

@@ -1,0 +1,12 @@
+// Elements of a page that every page with a moving picture has.
+const playIcon = 'M4 2.2v11.6a.6.6 0 0 0 .9.5l9-5.8a.6.6 0 0 0 0-1l-9-5.8a.6.6 0 0 0-.9.5z';
+const pauseIcon = 'M3.5 2h3v12h-3zM9.5 2h3v12h-3z';
+
+/** The element of this id, which the page has. */
+export const find = <T extends Element = HTMLElement>(id: string) => document.getElementById(id) as unknown as T;
+
+/** Has the button that plays and pauses say what it does next. */
+export function showPlaying(playing: boolean): void {
+  find('play-icon').setAttribute('d', playing ? pauseIcon : playIcon);
+  find('play-label').textContent = playing ? 'Pause' : 'Play';
+}
