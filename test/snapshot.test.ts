@@ -305,7 +305,8 @@ describe('bytes that are no snapshot leave the space as it was', () => {
           expect(Buffer.compare(space.snapshot(), before)).toBe(0);
         }
         space.validate().update().validate();
-        expect(new BroadPhase({ events: true }).restore(space.snapshot()).update().pairs).toEqual(space.pairs);
+        const again = new BroadPhase({ events: true }).restore(space.snapshot()).update();
+        expectSameWords(again.pairs, space.pairs, 'from a snapshot of it');
       },
     );
     fc.assert(property, { seed, numRuns: 20 * numRuns });
