@@ -131,9 +131,9 @@ template <int D> class Queries {
     for (int a = 0; a < D; a++) {
       f64 lo = asked_.lo[a], hi = asked_.hi[a];
       if (is_circle()) {
-        // Differences to the edge may have been rounded.
-        lo -= asked_.radius + (asked_.radius + __builtin_fabs(lo)) * 1e-15;
-        hi += asked_.radius + (asked_.radius + __builtin_fabs(hi)) * 1e-15;
+        // Differences to the edge may have been rounded, and the squares of very small ones are 0.
+        lo -= asked_.radius + (asked_.radius + __builtin_fabs(lo)) * 1e-15 + 1e-160;
+        hi += asked_.radius + (asked_.radius + __builtin_fabs(hi)) * 1e-15 + 1e-160;
       }
       // Inward, and still exact: the numbers that are compared with them are float32.
       lo_[a] = splat(round_up(lo));

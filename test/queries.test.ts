@@ -229,6 +229,9 @@ describe('at the edges', () => {
     expect(exact.nearest(0.2 + 2 ** -51, 0.5, 2)).toEqual([0, 1]);
     expect(exact.queryCircle(0, 0.5, 0.1)).toEqual([0]);
     expect(exact.queryCircle(0, 0.5, 0.1 - 2 ** -54)).toEqual([]);
+    // The square of a distance so small is 0.
+    exact.set(0, -2, 0, 0, 0).update();
+    expect(exact.queryCircle(5e-324, 0, 0)).toEqual([0]);
   });
 
   test('before the first update there is nothing', () => {
