@@ -17,8 +17,9 @@ import { openScene } from './scene.mjs';
 /** A contender whose frames took so long in all is checked in two of them only, in milliseconds. */
 const enough = 600;
 const mostWarmUp = 3000;
-/** Who keeps things between frames has filled them after so many: unless that takes thrice as long, it may. */
+/** Who keeps things between frames has filled them after so many, for which there is so much time, in milliseconds. */
 const settling = 150;
+const mostSettling = 1500;
 
 let scene;
 let contender;
@@ -70,12 +71,12 @@ const actions = {
     return { fingerprints, wrong, spent, count: scene.count };
   },
 
-  warmUp(milliseconds) {
+  warmUp(milliseconds, settled = settling) {
     const start = performance.now();
     let frames = 0;
     for (; frames < mostWarmUp; frames++) {
       const spent = performance.now() - start;
-      if (spent > 3 * milliseconds || (spent > milliseconds && frames >= settling)) break;
+      if (spent > mostSettling || (spent > milliseconds && frames >= settled)) break;
       timedFrame();
     }
     return { frames };
@@ -94,7 +95,7 @@ const actions = {
 
   async finish(milliseconds) {
     // What the engine allocates until it has compiled everything is nobody's garbage.
-    actions.warmUp(milliseconds);
+    actions.warmUp(milliseconds, 0);
     const frame = () => contender.update(scene.boxes);
     const garbage = await allocatedBy(frame, () => scene.step(), milliseconds);
     return { garbage, peak: peakMemory() };

@@ -29,6 +29,7 @@ const others = [
   'docs/command.md',
   'docs/trace-format.md',
   'docs/promises.md',
+  'docs/figures.md',
   'docs/versioning.md',
   'ARCHITECTURE.md',
   'CHANGELOG.md',
