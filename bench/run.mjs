@@ -2,8 +2,8 @@
 // same questions.
 //   npm run bench -- --scenes uniform2d,mixed2d,uniform3d --n 100000
 //   npm run bench -- --queries                   questions instead of pairs, into results/<machine>-queries.json
-//   npm run bench -- --full                      all there is, within 25 minutes, into results/<machine>.json
-//   npm run bench -- --techniques all            every technique on every scene, within 12 minutes, no peers
+//   npm run bench -- --full                      all there is, within 35 minutes, into results/<machine>.json
+//   npm run bench -- --techniques all            every technique on every scene, within 20 minutes, no peers
 //   npm run bench -- --compare before.json after.json
 //   npm run bench -- --markdown [results.json]
 // One process per contender and case, pairs checked before anything is timed, rounds in turns. See README.md.
@@ -102,7 +102,7 @@ const countsOf = (item) => {
 
 const contenders = await describeAll();
 const settings = { rounds, frames, slowest, seed };
-const minutes = Number(options.minutes ?? (everyTechnique ? 12 : options.full ? 25 : Infinity));
+const minutes = Number(options.minutes ?? (everyTechnique ? 20 : options.full ? 35 : Infinity));
 const races = await raceAll();
 const record = { date: new Date().toISOString(), machine, versions: versions(), settings, everyTechnique, races };
 if (options.full) record.library = await libraryFigures();
