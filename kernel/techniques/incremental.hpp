@@ -13,10 +13,10 @@
 //   - Boxes that touch very many cells (the ground, a wall) stand in none and are tested against all that move.
 // All this is filled little by little, while strip-sweep gives the answers, and given up again where many boxes leave
 // their fat ones at once or where it does not pay.
-// Cost: where boxes move by a hundredth of their size in 2D, 0.6 of strip-sweep at 10,000, 0.75 at 100,000; where 5 %
-// move 5 to 12 ns a box, and with `set` only the movers count. While it is filled, an update costs a fifth to a third
+// Cost: where boxes move by a hundredth of their size in 2D, 0.6 of strip-sweep at 10,000, 0.8 at 100,000; where 5 %
+// move 8 to 12 ns a box, and with `set` only the movers count. While it is filled, an update costs a fifth to a third
 // more than strip-sweep, the two before it, which cut space into cells and line the boxes up, up to twice as much. Memory,
-// beside that of strip-sweep: about 130 (2D) or 210 (3D) bytes a box that moves, 100 or 140 one at rest.
+// beside that of strip-sweep: about 120 (2D) or 210 (3D) bytes a box that moves, 100 or 150 one at rest.
 // Wins where boxes rest, or up to some 10,000 move slowly. Is strip-sweep where they jump.
 // From: candidates kept with a margin, L. Verlet, "Computer Experiments on Classical Fluids", 1967; fat boxes, as in
 // the dynamic trees of Bullet and Box2D; k-d tree, J. Bentley, 1975. The combination is ours.
