@@ -163,7 +163,7 @@ inline void transpose(f32x4 (&row)[4]) {
 }
 
 /// Items as structure of arrays, for tests of one against four: lo and hi per axis, and the tags.
-/// Followed by a block of NaN boxes, which overlap nothing: reading past the end is harmless.
+/// Followed by `padding` NaN boxes, which overlap nothing: reading past the end is harmless.
 template <int D> class Lanes {
   Buffer<f32> values_;
   size_t stride_ = 0;
@@ -203,7 +203,7 @@ template <int D> class Lanes {
       Item<D> four[4] = {items[k], items[k + 1], items[k + 2], items[k + 3]};
       put4(k, four);
     }
-    for (; k + 4 <= n + padding; k += 4) {
+    for (; k < n + padding; k += 4) {
       Item<D> four[4];
       for (u32 lane = 0; lane < 4; lane++) four[lane] = k + lane < n ? items[k + lane] : nothing();
       put4(k, four);

@@ -13,6 +13,7 @@
 using f32 = float;
 using f64 = double;
 using u8 = uint8_t;
+using i16 = int16_t;
 using u16 = uint16_t;
 using u32 = uint32_t;
 using i32 = int32_t;
@@ -23,6 +24,7 @@ typedef i32 i32x4 __attribute__((vector_size(16)));
 typedef u32 u32x4 __attribute__((vector_size(16)));
 typedef f64 f64x2 __attribute__((vector_size(16)));
 typedef f32 f32x2 __attribute__((vector_size(8)));
+typedef i16 i16x8 __attribute__((vector_size(16)));
 typedef u8 u8x16 __attribute__((vector_size(16)));
 
 /// Reads any plain value from unaligned memory.
@@ -37,6 +39,7 @@ template <class T> inline void store(void* at, T value) { __builtin_memcpy(at, &
 inline f32x4 splat(f32 x) { return f32x4{x, x, x, x}; }
 inline f64x2 splat(f64 x) { return f64x2{x, x}; }
 inline u32x4 splat(u32 x) { return u32x4{x, x, x, x}; }
+inline i16x8 splat(i16 x) { return i16x8{x, x, x, x, x, x, x, x}; }
 
 template <class To, class From> inline To bits(From value) {
   static_assert(sizeof(To) == sizeof(From));
@@ -48,6 +51,10 @@ template <class To, class From> inline To bits(From value) {
 #if defined(__wasm_simd128__)
 /// One bit a lane: its sign.
 inline u32 bitmask(i32x4 v) { return wasm_i32x4_bitmask(bits<v128_t>(v)); }
+/// One bit a lane of two vectors of conditions.
+inline u32 bitmask(i16x8 a, i16x8 b) {
+  return wasm_i8x16_bitmask(wasm_i8x16_narrow_i16x8(bits<v128_t>(a), bits<v128_t>(b)));
+}
 /// One bit a lane: whether a is at most b.
 inline u32 at_most(f64x2 a, f64x2 b) { return wasm_i64x2_bitmask(bits<v128_t>(a <= b)); }
 inline bool any(i32x4 v) { return wasm_v128_any_true(bits<v128_t>(v)); }
@@ -62,6 +69,9 @@ inline u8x16 swizzle(u8x16 v, u8x16 index) {
 }
 #else
 inline u32 bitmask(i32x4 v) { return u32(_mm_movemask_ps(bits<__m128>(v))); }
+inline u32 bitmask(i16x8 a, i16x8 b) {
+  return u32(_mm_movemask_epi8(_mm_packs_epi16(bits<__m128i>(a), bits<__m128i>(b))));
+}
 inline u32 at_most(f64x2 a, f64x2 b) { return u32(_mm_movemask_pd(bits<__m128d>(a <= b))); }
 inline bool any(i32x4 v) { return !_mm_testz_si128(bits<__m128i>(v), bits<__m128i>(v)); }
 inline u32x4 min(u32x4 a, u32x4 b) { return bits<u32x4>(_mm_min_epu32(bits<__m128i>(a), bits<__m128i>(b))); }

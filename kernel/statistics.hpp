@@ -32,6 +32,17 @@ template <int D> struct Statistics {
     }
     return best;
   }
+
+  /// The same with the axes in another order.
+  Statistics in(const AxisOrder<D>& order) const {
+    Statistics turned = *this;
+    for (int a = 0; a < D; a++) {
+      turned.low[a] = low[order.axis[a]];
+      turned.high[a] = high[order.axis[a]];
+      turned.size[a] = size[order.axis[a]];
+    }
+    return turned;
+  }
 };
 
 namespace detail {

@@ -12,6 +12,7 @@
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, future expansion; the cell
 // lists of molecular dynamics (R. Hockney & J. Eastwood, "Computer Simulation Using Particles", 1981).
 #pragma once
+#include "long_sweep.hpp"
 #include "radix_sort.hpp"
 #include "settings.hpp"
 #include "stats.hpp"
@@ -33,6 +34,7 @@ template <int D> class HomeCellGrid {
   Lanes<D> lanes_;
   Buffer<Run> runs_;
   RadixSort sort_;
+  LongSweep<D> sweep_;  // of the large ones
   u32 home_ = 0;  // boxes that are not large
 
  public:
@@ -40,7 +42,8 @@ template <int D> class HomeCellGrid {
     u32 n = scene.count;
     if (n < 2) return;
     SceneItems<D> items{scene, AxisOrder<D>::make(0)};
-    u32 total = choose(measure<D>(items, n), n, options);
+    Statistics<D> world = measure<D>(items, n);
+    u32 total = choose(world, n, options);
     u32* cells = cells_.reserve(n);
     u32* large = large_.reserve(n);
     u32* starts = starts_.reserve(total + 1);
@@ -92,7 +95,7 @@ template <int D> class HomeCellGrid {
       out = runs;
     }
     stats.tests += sweep_runs<D>(lanes_, runs, out, pairs);
-    stats.tests += f64(sweep_ascending<D>(lanes_, home, n, pairs));
+    stats.tests += f64(sweep_.find(lanes_, world, home, n, pairs));
   }
 
   /// The cells with boxes in them.
@@ -112,6 +115,7 @@ template <int D> class HomeCellGrid {
     lanes_.release();
     runs_.release();
     sort_.release();
+    sweep_.release();
   }
 
  private:

@@ -93,13 +93,7 @@ template <int D> class StripSweep {
       everywhere.high[a] = __builtin_inf();
     }
     if (!one_strip) {
-      Statistics<D> turned = world;
-      for (int a = 0; a < D; a++) {
-        turned.low[a] = world.low[order_.axis[a]];
-        turned.high[a] = world.high[order_.axis[a]];
-        turned.size[a] = world.size[order_.axis[a]];
-      }
-      Cut cut = choose(turned, scene.count);
+      Cut cut = choose(world.in(order_), scene.count);
       if (cut.lists() > 1 && divide(items, scene.count, cut, everywhere, 0, 0, pairs)) return;
     }
     entries_.grow(scene.count, 0);

@@ -2,30 +2,33 @@
 //
 // Idea: the axis along which the world is longest, measured in boxes, is swept. The order is kept: from one update
 // to the next boxes move little, so it is nearly right and an insertion sort repairs it in one pass. Where too much
-// has changed (or all is new) that is given up after a few moves for a radix sort. Boxes that start together stand in
-// the order of their slots, so that what the order is depends on the boxes alone. Few of the boxes that meet on one
-// axis overlap, so eight are tested at a time and only looked at closer where one of them hits.
+// has changed that is given up after a few moves; boxes are then dealt into as many cells as there are boxes, those of
+// a cell in the order they had, which is repaired; and where cells are crowded, it is a radix sort. Boxes that start
+// together stand in the order of their slots, so that what the order is depends on the boxes alone. Few of the boxes
+// that meet on one axis overlap, so sixteen are tested at a time (long_sweep.hpp).
 // Cost: update O(n + moves in the order), at most that of one radix sort; pairs O(n * boxes that one meets along the
-// axis), which grows with the square root (2D) or the power 2/3 (3D) of n; memory about 50 (2D) or 65 (3D) bytes a box.
+// axis), which grows with the square root (2D) or the power 2/3 (3D) of n; memory about 65 (2D) or 75 (3D) bytes a box.
 // Wins in sparse and long worlds, and where few boxes move. Loses in large square ones, and most of all in cubes:
 // all but one axis are ignored.
 // From: D. Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", 1992; the sweep along one axis with the
 // tests of the others at once is C. Ericson, "Real-Time Collision Detection", 2005, 7.5.
 #pragma once
+#include "long_sweep.hpp"
 #include "radix_sort.hpp"
 #include "settings.hpp"
-#include "statistics.hpp"
 #include "stats.hpp"
-#include "sweep.hpp"
 
 template <int D> class SweepAndPrune {
-  // The repair is given up when it has made more moves than this for each box it has come past, and this many more.
-  static constexpr u32 patience = 2, head_start = 1024;
+  // A repair is given up when it has made more moves than this for each box it has come past, and this many more.
+  static constexpr u32 patience = 2, head_start = 256;
 
   Buffer<u32> order_;  // the slots 0 … count_ - 1, as they stood in the last update
-  Buffer<f32> keys_;
+  Buffer<f32> keys_;   // where they start
+  Buffer<u32> cells_, starts_, dealt_order_;
+  Buffer<f32> dealt_keys_;
   Lanes<D> lanes_;
   RadixSort sort_;
+  LongSweep<D> sweep_;
   u32 count_ = 0;
   int axis_ = 0;
 
@@ -33,20 +36,22 @@ template <int D> class SweepAndPrune {
   void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     if (n < 2) return;
-    axis_ = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, n).longest();
+    Statistics<D> world = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, n);
+    axis_ = world.longest();
+    AxisOrder<D> order = AxisOrder<D>::make(axis_);
     take(n);
-    keys_.reserve(n);
+    keys_.reserve(n + 4);
     lanes_.reserve(n);
     const f32* least = scene.boxes + axis_;
     for (u32 k = 0; k < n; k++) keys_[k] = least[size_t(order_[k]) * 2 * D];
-    if (!repair(n)) {
+    if (!repair(n) && !(deal(n, world), repair(n))) {
       sort_.begin(n);
       for (u32 k = 0; k < n; k++) sort_.put(k, least[size_t(k) * 2 * D]);
       sort_.sort(n);
       for (u32 k = 0; k < n; k++) order_[k] = sort_.index(k);
     }
-    lanes_.fill(PickedItems<D>{{scene, AxisOrder<D>::make(axis_)}, order_.data()}, n);
-    stats.tests = f64(sweep_ascending<D>(lanes_, 0, n, pairs));
+    lanes_.fill(PickedItems<D>{{scene, order}, order_.data()}, n);
+    stats.tests = f64(sweep_.find(lanes_, world.in(order), 0, n, pairs));
     stats.cells = stats.entries = n;
   }
 
@@ -64,8 +69,13 @@ template <int D> class SweepAndPrune {
   COLD void release() {
     order_.release();
     keys_.release();
+    cells_.release();
+    starts_.release();
+    dealt_order_.release();
+    dealt_keys_.release();
     lanes_.release();
     sort_.release();
+    sweep_.release();
     count_ = 0;
   }
 
@@ -83,11 +93,37 @@ template <int D> class SweepAndPrune {
     count_ = n;
   }
 
+  /// Deals the order into cells along the axis.
+  void deal(u32 n, const Statistics<D>& world) {
+    u32* cells = cells_.reserve(n + 4);
+    u32* starts = starts_.reserve(n);
+    __builtin_memset(starts, 0, n * sizeof(u32));
+    Axis axis = Axis::make(world.low[axis_], world.high[axis_], n);
+    Axes axes(axis, axis, axis, axis);
+    for (u32 k = 0; k < n; k += 4) store(cells + k, axes(load<f32x4>(keys_.data() + k)));
+    for (u32 k = 0; k < n; k++) starts[cells[k]]++;
+    u32 at = 0;
+    for (u32 c = 0; c < n; c++) {
+      u32 size = starts[c];
+      starts[c] = at;
+      at += size;
+    }
+    dealt_keys_.reserve(n + 4);
+    dealt_order_.reserve(n);
+    for (u32 k = 0; k < n; k++) {
+      u32 to = starts[cells[k]]++;
+      dealt_keys_[to] = keys_[k];
+      dealt_order_[to] = order_[k];
+    }
+    keys_.swap(dealt_keys_);
+    order_.swap(dealt_order_);
+  }
+
   /// Insertion sort of the order by its keys, then by the slots; false where that would take too long.
   bool repair(u32 n) {
     f32* keys = keys_.data();
     u32* order = order_.data();
-    u64 moves = 0;
+    u32 moves = 0;
     for (u32 k = 1; k < n; k++) {
       f32 key = keys[k];
       if (keys[k - 1] < key) continue;
@@ -100,7 +136,7 @@ template <int D> class SweepAndPrune {
       keys[at] = key;
       order[at] = slot;
       moves += k - at;
-      if (moves > head_start + u64(patience) * k) return false;
+      if (moves > head_start + patience * k) return false;
     }
     return true;
   }
