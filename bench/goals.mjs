@@ -1,6 +1,7 @@
 // What the library must reach, each with its figure out of a file of results, and whether it is met.
 import { bestPeer } from './markdown.mjs';
 import { bestOf, short, whole } from './table.mjs';
+import { autoAgainstBest } from './techniques.mjs';
 
 export function goals({ races, library }, cases) {
   const find = (scene, count) => races.find((race) => race.scene === scene && race.count === count);
@@ -41,9 +42,16 @@ export function goals({ races, library }, cases) {
     const [native, auto] = [cases.get(race.scene)?.bestNativeMs, autoOf(race)];
     return native && auto ? native / auto.figures.median : undefined;
   };
-  const againstFixed = (race) => {
-    const [fixed, auto] = [bestOf(race.results.filter(({ name }) => name !== 'auto')), autoOf(race)];
-    return fixed && auto ? auto.figures.median / fixed.figures.median : undefined;
+  /** What is allowed is in techniques.mjs; the worst of those beyond it is shown. */
+  const againstFixed = (goal) => {
+    const judged = races.map((race) => ({ race, ...autoAgainstBest(race) })).filter(({ best }) => best);
+    if (judged.length === 0) return { goal, figure: '' };
+    const missed = judged.filter(({ within }) => !within).sort((a, b) => b.slower - a.slower);
+    const count = `${judged.length - missed.length} of ${judged.length}`;
+    if (missed.length === 0) return { goal, figure: count, met: true };
+    const [{ race, slower, best }] = missed;
+    const worst = `${times(1 + slower)} the time of ${best} (${race.scene}, ${whole(race.count)})`;
+    return { goal, figure: `${count}; the worst: ${worst}`, met: false };
   };
   const garbage = (race) => {
     const ours = race.results.filter((result) => result.peer === 'broadphase' && result.garbage !== undefined);
@@ -65,7 +73,7 @@ export function goals({ races, library }, cases) {
       ['at least', 1],
       times,
     ),
-    inAll('`auto` never more than 10 % slower than the best technique', races, againstFixed, ['at most', 1.1], times),
+    againstFixed('`auto` never more than 10 % and 20 microseconds slower than the best technique'),
     inAll('every question: ahead of every npm package', asked, ahead, ['at least', 1], times),
     inAll(
       'no JavaScript heap per frame',

@@ -52,6 +52,7 @@ template <> struct Item<2> {
   u32 tag;
 
   f32x4 first() const { return box; }  // the vector whose lane 0 is the minimum along the sweep axis
+  f32x4 size() const { return __builtin_shufflevector(box, box, 2, 3, 2, 3) - box; }
   f32 lo(int axis) const { return box[axis]; }
   f32 hi(int axis) const { return box[2 + axis]; }
 };
@@ -61,6 +62,7 @@ template <> struct Item<3> {
   f32x4 high;  // max sweep, max binned 1, max binned 2, unused
 
   f32x4 first() const { return low; }
+  f32x4 size() const { return high - low; }
   f32 lo(int axis) const { return low[axis]; }
   f32 hi(int axis) const { return high[axis]; }
 };

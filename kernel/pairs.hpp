@@ -46,6 +46,16 @@ alignas(16) inline constexpr Swizzles swizzles;
 alignas(16) inline constexpr u8 bits_set[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 }  // namespace detail
 
+/// Appends the pairs of four slots with one of four others each, where their bit is set in `mask`.
+inline u64* append_each(u64* out, u32x4 some, u32x4 others, u32 mask) {
+  u8x16 front = load<u8x16>(detail::swizzles.of[mask]);
+  u32x4 a = bits<u32x4>(swizzle(bits<u8x16>(min(some, others)), front));
+  u32x4 b = bits<u32x4>(swizzle(bits<u8x16>(max(some, others)), front));
+  store(out, __builtin_shufflevector(a, b, 0, 4, 1, 5));
+  store(out + 2, __builtin_shufflevector(a, b, 2, 6, 3, 7));
+  return out + detail::bits_set[mask];
+}
+
 /// Appends the pairs of slot `mine` with those of the four `others` whose bit is set in `mask`.
 inline u64* append(u64* out, u32x4 mine, u32x4 others, u32 mask) {
   u32x4 packed = bits<u32x4>(swizzle(bits<u8x16>(others), load<u8x16>(detail::swizzles.of[mask])));

@@ -202,20 +202,19 @@ template <int D, class Source> SHARED Statistics<D> measure(const Source& items,
 
 /// The same for a few items, in one pass: extents with their outliers, and no crowding.
 template <int D, class Source> Statistics<D> glance(const Source& items, u32 count) {
+  f32x4 least = items[0].first(), most = least, sizes = {};
+  for (u32 k = 0; k < count; k++) {
+    Item<D> item = items[k];
+    least = min(least, item.first());
+    most = max(most, item.first());
+    sizes += item.size();
+  }
   Statistics<D> found;
   found.crowding = 1;
   for (int a = 0; a < D; a++) {
-    f32 least = __builtin_inff(), most = -least, sum = 0;
-    for (u32 k = 0; k < count; k++) {
-      Item<D> item = items[k];
-      f32 low = item.lo(a);
-      least = smaller(least, low);
-      most = larger(most, low);
-      sum += item.hi(a) - low;
-    }
-    found.low[a] = least;
-    found.high[a] = most;
-    found.size[a] = sum / f32(count);
+    found.low[a] = least[a];
+    found.high[a] = most[a];
+    found.size[a] = sizes[a] / f32(count);
   }
   return found;
 }

@@ -32,25 +32,68 @@ template <int D> struct Probe {
   }
 };
 
-/// Tests item i of [first, last) against the items i + 1 … end[i] - 1 and appends the pairs.
-/// `exact_end`: what stands behind `end` may overlap, so lanes past it are masked out.
+/// Four items in a row, ready to be tested against four others, each against one.
+template <int D> struct Four {
+  f32x4 lo[D], hi[D];
+  u32x4 tags;
+
+  Four(const LaneView<D>& lanes, u32 i) : tags(load<u32x4>(lanes.tag + i)) {
+    for (int axis = 0; axis < D; axis++) {
+      lo[axis] = load<f32x4>(lanes.lo[axis] + i);
+      hi[axis] = load<f32x4>(lanes.hi[axis] + i);
+    }
+  }
+
+  i32x4 hits(const LaneView<D>& lanes, u32 j, u32x4 others) const {
+    i32x4 all = bits<i32x4>((tags & others & splat(~slot_mask)) == u32x4{});
+    for (int axis = 0; axis < D; axis++) {
+      all &= load<f32x4>(lanes.lo[axis] + j) <= hi[axis];
+      all &= load<f32x4>(lanes.hi[axis] + j) >= lo[axis];
+    }
+    return all;
+  }
+};
+
+/// So much further than four items on average may one of them look for them to be tested together.
+inline constexpr u32 together = 6;
+
+/// Tests item i of the `count` items of `from`, which are all, against the items i + 1 … end[i] - 1 and appends the pairs.
+/// `exact_end`: what stands behind `end` may overlap, so lanes past it are masked out. Behind `end` there are four more.
 template <int D, bool exact_end = false>
-NOINLINE void sweep(const Lanes<D>& from, const u32* end, u32 first, u32 last, Pairs& pairs) {
+NOINLINE void sweep(const Lanes<D>& from, const u32* end, u32 count, Pairs& pairs) {
   const LaneView<D> lanes = from.view();  // on the stack nothing aliases it
   u64* out = pairs.list.data() + pairs.count;
   u64* limit = pairs.list.data() + pairs.list.capacity();
-  for (u32 i = first; i < last; i++) {
-    u32 until = end[i];
-    if (Pairs::between(out, limit) < (until - i) + Pairs::slack) {
-      out = pairs.room(out, until - i);
+  for (u32 i = 0; i < count; i += 4) {
+    u32x4 place = u32x4{0, 1, 2, 3} + splat(i);
+    // How far each of four items looks; 0 behind the last.
+    i32x4 reach = bits<i32x4>(load<u32x4>(end + i) - place) & (bits<i32x4>(place) < bits<i32x4>(splat(count)));
+    u32x4 pair = bits<u32x4>(reach);
+    pair = max(pair, __builtin_shufflevector(pair, pair, 2, 3, 0, 1));
+    u32 most = larger(pair[0], pair[1]), sum = u32(reach[0] + reach[1] + reach[2] + reach[3]);
+    if (Pairs::between(out, limit) < 4 * u64(most) + Pairs::slack) {
+      out = pairs.room(out, 4 * u64(most));
       limit = pairs.list.data() + pairs.list.capacity();
     }
-    Probe<D> probe(lanes, i);
-    for (u32 j = i + 1; j < until; j += 4) {
-      u32x4 tags = load<u32x4>(lanes.tag + j);
-      i32x4 hits = probe.hits(lanes, j, tags);
-      if constexpr (exact_end) hits &= bits<i32x4>(u32x4{0, 1, 2, 3} + splat(j) < splat(until));
-      out = append(out, probe.slot, tags & splat(slot_mask), bitmask(hits));
+    if (most <= sum / 4 + together) {
+      Four<D> four(lanes, i);
+      for (u32 d = 1; d < most; d++) {
+        u32x4 tags = load<u32x4>(lanes.tag + i + d);
+        i32x4 hits = four.hits(lanes, i + d, tags);
+        if constexpr (exact_end) hits &= bits<i32x4>(splat(d)) < reach;
+        out = append_each(out, four.tags & splat(slot_mask), tags & splat(slot_mask), bitmask(hits));
+      }
+      continue;
+    }
+    for (u32 k = i; k < smaller(i + 4, count); k++) {
+      u32 until = end[k];
+      Probe<D> probe(lanes, k);
+      for (u32 j = k + 1; j < until; j += 4) {
+        u32x4 tags = load<u32x4>(lanes.tag + j);
+        i32x4 hits = probe.hits(lanes, j, tags);
+        if constexpr (exact_end) hits &= bits<i32x4>(u32x4{0, 1, 2, 3} + splat(j) < splat(until));
+        out = append(out, probe.slot, tags & splat(slot_mask), bitmask(hits));
+      }
     }
   }
   pairs.count = Pairs::between(pairs.list.data(), out);

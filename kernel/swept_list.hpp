@@ -65,7 +65,7 @@ template <int D> class SweptList {
   }
 
   /// Appends the pairs of the items that were ordered last.
-  void find(u32 count, Pairs& pairs) const { sweep<D>(lanes_, end_.data(), 0, count, pairs); }
+  void find(u32 count, Pairs& pairs) const { sweep<D>(lanes_, end_.data(), count, pairs); }
 
   /// Whether most of the tests that the sweep is about to make would be misses, by a sample of them.
   COLD bool wasteful(u32 count) const {

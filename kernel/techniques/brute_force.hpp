@@ -20,7 +20,7 @@ template <int D> class BruteForce {
     if (n < 2) return;
     lanes_.reserve(n);
     items_.grow(n, 0);
-    end_.reserve(n);
+    end_.reserve(n + 4);
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     ItemsAt<D> items(items_, 0);
     for (u32 k = 0; k < n; k++) {
@@ -28,7 +28,7 @@ template <int D> class BruteForce {
       end_[k] = n;
     }
     lanes_.fill(items, n);
-    sweep<D>(lanes_, end_.data(), 0, n, pairs);
+    sweep<D>(lanes_, end_.data(), n, pairs);
     stats.tests = f64(n) * (n - 1) / 2;
     stats.cells = 1;
     stats.entries = n;

@@ -215,7 +215,7 @@ template <int D> class RetainedGrid {
       picked += cells_[c].dirty ? cells_[c].size : 0;
     }
     picked_.reserve(picked);
-    end_.reserve(picked);
+    end_.reserve(picked + 4);
     lanes_.reserve(picked);
     picked = 0;
     for (u32 c = 0; c < cells; c++) {
@@ -230,7 +230,7 @@ template <int D> class RetainedGrid {
     }
     lanes_.fill(PickedItems<D>{items, picked_.data()}, picked);
     fresh_.count = 0;
-    sweep<D, true>(lanes_, end_.data(), 0, picked, fresh_);
+    sweep<D, true>(lanes_, end_.data(), picked, fresh_);
     merge(items.scene.count, pairs);
     for (u32 c = 0; c < cells; c++) cells_[c].dirty = 0;
   }

@@ -47,7 +47,7 @@ template <int D> class SpatialGrid {
 
     ordered_.grow(total, 0);
     lanes_.reserve(u32(total));
-    u32* end = end_.reserve(total);
+    u32* end = end_.reserve(total + 4);
     ItemsAt<D> ordered(ordered_, 0);
     for (u32 k = 0; k < scene.count; k++) {
       Item<D> item = items[k];
@@ -59,7 +59,7 @@ template <int D> class SpatialGrid {
     for (u32 c = 0; c < cells; c++) {
       for (u32 until = starts[c]; k < until; k++) end[k] = until;
     }
-    sweep<D, true>(lanes_, end, 0, u32(total), pairs);
+    sweep<D, true>(lanes_, end, u32(total), pairs);
   }
 
   /// The cells with boxes in them.

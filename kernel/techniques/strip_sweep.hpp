@@ -22,11 +22,11 @@ template <int D> class StripSweep {
   // Strips longer than this leave the cache near the core.
   static constexpr f64 cached_items = 8192;
   static constexpr f64 least_items = 100;  // in a strip, on average: shorter ones cost more than they save
-  static constexpr u32 few = 400;  // boxes that are not worth cutting into strips
+  static constexpr u32 few = 2000;  // boxes that are one strip where they have no more candidates than a strip may have
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
   static constexpr u32 deepest = 6;
   // A strip is looked at again where it has this many candidates an item, and this many in all.
-  static constexpr u64 again_factor = 24, again_least = 8192;
+  static constexpr u64 again_factor = D == 2 ? 24 : 48, again_least = 8192;
   // A cut after which there would be more entries than this for each box is not made.
   static constexpr u64 most_copies = 8;
 
@@ -83,8 +83,14 @@ template <int D> class StripSweep {
     boxes_ = entered_ = scene.count;
     if (scene.count < 2) return;
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
+    Statistics<D> world;
     bool one_strip = scene.count < few;
-    Statistics<D> world = one_strip ? glance<D>(plain, scene.count) : measure<D>(plain, scene.count);
+    if (one_strip) {
+      world = glance<D>(plain, scene.count);
+      int a = world.longest();
+      one_strip = scene.count * world.size[a] <= again_factor * (world.high[a] - world.low[a]);
+    }
+    if (!one_strip) world = measure<D>(plain, scene.count);
     order_ = AxisOrder<D>::make(world.longest());
     SceneItems<D> items{scene, order_};
     Region everywhere;
