@@ -7,8 +7,9 @@
 
 template <int D> struct Grid {
   static constexpr f64 boxes_per_cell = 3;  // aimed at; measured to be nearly flat from 2 to 5
-  // A cell size so small that boxes would have more entries than this (or 16 each) is doubled until they do not.
-  static constexpr u64 most_entries = 1u << 22;
+  // A cell size so small that boxes would have more entries than this is doubled until they do not: 64 each and some
+  // for few boxes, 16 each for very many.
+  static u64 most_entries(u64 count) { return larger(16 * count, smaller(64 * count + (1 << 16), u64(1) << 22)); }
 
   Axis axis[D];
   u32 cells[D] = {};
@@ -53,7 +54,7 @@ template <int D> struct Grid {
       }
       if (product <= most_cells) {
         Axes lanes = axes();
-        u64 limit = larger(most_entries, u64(count) * 16), entries = 0;
+        u64 limit = most_entries(count), entries = 0;
         for (u32 k = 0; k < count && entries <= limit; k++) {
           Range covered = range(lanes, items[k]);
           u64 some = 1;

@@ -13,7 +13,10 @@ export interface BroadPhaseOptions {
   dimensions?: 2 | 3;
   /** One of {@link BroadPhase.techniques}. Default `'auto'`. */
   technique?: TechniqueName;
-  /** For grids: the side of a cell, or one number per axis, above 0. Left out: chosen from the boxes. */
+  /**
+   * For grids: the side of a cell, or one number per axis, above 0. One so small that boxes would stand in very many
+   * cells is doubled until they do not. Left out: chosen from the boxes.
+   */
   cellSize?: number | readonly number[];
   /** For `spatial-grid`: the world that is cut into cells, minima then maxima. Boxes outside are found all the same. */
   bounds?: readonly number[];

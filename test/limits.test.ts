@@ -43,6 +43,27 @@ const combinations = BroadPhase.techniques.flatMap((technique) =>
 // Files that run after this one in the same process get the kernel as it is.
 afterAll(() => init(kernel));
 
+describe.each(combinations)('a cell size far too small, %s in %d dimensions', (technique, dimensions) => {
+  const space = new BroadPhase({ technique, dimensions, cellSize: 1e-6 });
+  const low = Array(dimensions);
+
+  test('takes little memory for few boxes far apart', () => {
+    const boxes = [...low.fill(-1e6), ...low.fill(-1e6), ...low.fill(1e6), ...low.fill(1e6)];
+    space.setAll(boxes).update();
+    expect(space.pairCount).toBe(0);
+    expect(space.stats.bytes).toBeLessThan(2 * mebibyte);
+  });
+
+  test('takes time for the pairs of large boxes, not for the cells they have in common', () => {
+    const count = 1000;
+    const boxes = Array.from({ length: count }, (_, k) => [...low.fill(k / count), ...low.fill(1000 + k)]).flat();
+    space.setAll(boxes).update();
+    const pairs = (count * (count - 1)) / 2;
+    expect(space.pairCount).toBe(pairs);
+    expect(space.stats.tests).toBeLessThan(200 * pairs);
+  });
+});
+
 describe('with 64 MiB of memory', () => {
   beforeAll(() => init(kernelWith(64 * mebibyte)));
 

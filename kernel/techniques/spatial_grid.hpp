@@ -15,7 +15,8 @@
 #include "sweep.hpp"
 
 template <int D> class SpatialGrid {
-  static constexpr u32 most_cells = 1u << 24;
+  /// All cells are looked at in each update, so that few boxes do not get many.
+  static u32 most_cells(u32 count) { return u32(smaller(u64(1) << 24, (u64(1) << 16) + 128 * u64(count))); }
 
   Items<D> ordered_;
   Lanes<D> lanes_;
@@ -27,7 +28,7 @@ template <int D> class SpatialGrid {
   void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
     if (scene.count == 0) return;
     SceneItems<D> items{scene, AxisOrder<D>::make(0)};
-    u64 total = grid_.choose(items, scene.count, options, most_cells);
+    u64 total = grid_.choose(items, scene.count, options, most_cells(scene.count));
     u32 cells = grid_.total();
     Axes axes = grid_.axes();
     u32* starts = starts_.reserve(cells);
