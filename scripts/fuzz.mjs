@@ -47,7 +47,13 @@ if (values.coverage) {
   await coverage();
 } else {
   const program = await build(compiler, options, sources, folder, 'fuzz');
-  const limits = [`-max_len=${longest}`, '-len_control=0', `-timeout=${slowest}`, `-artifact_prefix=${folder}/`];
+  const limits = [
+    `-max_len=${longest}`,
+    '-len_control=0',
+    '-entropic_scale_per_exec_time=1', // more of what is quick
+    `-timeout=${slowest}`,
+    `-artifact_prefix=${folder}/`,
+  ];
   const fuzzing = positionals.length
     ? [...limits, ...positionals]
     : [...limits, `-max_total_time=${Number(values.seconds)}`, '-print_final_stats=1', found, corpus];
