@@ -8,10 +8,10 @@ import { expectKeys } from './expect-pairs.ts';
 import { type Entry, pairsOf } from './model.ts';
 import { ahead, inBox, inCircle, near } from './query-reference.ts';
 import { keyOf } from './reference.ts';
+import { runs, seed } from './runs.ts';
 import { setBox } from './set-box.ts';
 
-const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 31));
-const numRuns = Number(process.env.RUNS ?? 150);
+const numRuns = runs(150);
 const all = 0xffffffff;
 
 type Loose = Record<string, (...given: unknown[]) => unknown>;

@@ -6,10 +6,10 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { expectKeys, expectSameWords } from './expect-pairs.ts';
 import { referencePairs } from './reference.ts';
+import { runs, seed } from './runs.ts';
 import { setBox } from './set-box.ts';
 
-const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 31));
-const numRuns = Number(process.env.RUNS ?? 30);
+const numRuns = runs(30);
 
 type Model = Map<number, number[]>;
 

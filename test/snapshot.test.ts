@@ -6,11 +6,11 @@ import { describe, expect, test } from 'vitest';
 import { createRandom } from '../src/scenes/random.ts';
 import { expectSameWords } from './expect-pairs.ts';
 import { anyPlace, Modelled } from './model.ts';
+import { runs, seed } from './runs.ts';
 import { setBox } from './set-box.ts';
 import { readTrace } from './traces.ts';
 
-const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 31));
-const numRuns = Number(process.env.RUNS ?? 25);
+const numRuns = runs(25);
 
 const combinations = BroadPhase.techniques.flatMap((technique) =>
   ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),

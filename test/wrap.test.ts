@@ -6,11 +6,11 @@ import { describe, expect, test } from 'vitest';
 import { createRandom } from '../src/scenes/random.ts';
 import { expectKeys } from './expect-pairs.ts';
 import { keysOf, pairOf } from './reference.ts';
+import { runs, seed } from './runs.ts';
 import { setBox } from './set-box.ts';
 import { wrappedPairs } from './wrapped-reference.ts';
 
-const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 31));
-const numRuns = Number(process.env.RUNS ?? 20);
+const numRuns = runs(20);
 
 const combinations = BroadPhase.techniques.flatMap((technique) =>
   ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),

@@ -4,10 +4,10 @@ import { gunzipSync } from 'node:zlib';
 import { openAny, openTrace, readTrace, TraceError, TraceWriter } from 'broadphase/trace';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { runs, seed } from '../runs.ts';
 import { concat, factsOf, type GivenFrame, someFrames, write } from './arbitrary.ts';
 
-const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 31));
-const numRuns = Number(process.env.RUNS ?? 200);
+const numRuns = runs(200);
 
 function read(dimensions: number, bytes: Uint8Array) {
   return Array.from(openTrace(bytes), (frame) => factsOf(dimensions, frame));

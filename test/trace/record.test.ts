@@ -4,11 +4,11 @@ import { BroadPhase } from 'broadphase';
 import { applyFrame, openTrace, record, replay, TraceError } from 'broadphase/trace';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { runs, seed } from '../runs.ts';
 import { setBox } from '../set-box.ts';
 import { concat } from './arbitrary.ts';
 
-const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 31));
-const numRuns = Number(process.env.RUNS ?? 100);
+const numRuns = runs(100);
 
 type Call = (space: BroadPhase) => void;
 
