@@ -181,7 +181,9 @@ describe.runIf(process.env.LARGE_MEMORY)('with all memory that WebAssembly allow
     const pairs = (count * (count - 1)) / 2;
     expect(pairs).toBeGreaterThan(20_000_000);
     for (const view of [space.pairs, space.began]) expect(view.length).toBe(2 * pairs);
-    expect(Array.from(space.pairs.subarray(-2))).toEqual([count - 2, count - 1]);
+    let sum = 0;
+    for (const id of space.pairs) sum += id;
+    expect(sum).toBe((count - 1) * ((count * (count - 1)) / 2)); // each id is in a pair with all others
     expect(space.isColliding(17, 6000)).toBe(true);
     expect(space.collisionsOf(5).length).toBe(count - 1);
     space.setAll(identical(2, 2)).update().validate();
@@ -219,7 +221,9 @@ describe('views of memory', () => {
     const space = new BroadPhase({ technique: 'brute-force' }).setAll(identical(count, 2)).update();
     expect(space.pairCount).toBeGreaterThan(20_000_000);
     expect(space.pairs.length).toBe(count * (count - 1));
-    expect(Array.from(space.pairs.subarray(-2))).toEqual([count - 2, count - 1]);
+    let sum = 0;
+    for (const id of space.pairs) sum += id;
+    expect(sum).toBe((count - 1) * ((count * (count - 1)) / 2)); // each id is in a pair with all others
     space.setAll(identical(2, 2)).update().validate();
     expect(Array.from(space.pairs)).toEqual([0, 1]);
   });
