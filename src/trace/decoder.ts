@@ -1,15 +1,22 @@
 // Reads the bodies of frames, one after the other. A body is looked through before anything is made of it: memory is
-// taken only for boxes whose numbers are there, at most some 100 bytes for each byte of the file.
+// taken only for boxes whose numbers are there, at most some 100 bytes for each byte of the file. Time goes with the bytes
+// too: of what stays as it was nothing is touched, however many boxes there are.
 import { Cursor } from './bytes.ts';
 import { doublesFlag, type Frame, frameKind, maxBoxes, ruleBits, rulesFlag } from './format.ts';
 import { predict, takeDistance } from './numbers.ts';
-import { all, IdSet, TraceState } from './state.ts';
+import { all, grown, IdSet, TraceState } from './state.ts';
 
 export class FrameDecoder {
   readonly #state: TraceState;
-  readonly #seen = new IdSet();
-  /** The boxes once more as float32, while frames hold such. */
+  /** The ids of all boxes, and how many of them are not their place. */
+  readonly #taken = new IdSet();
+  #named = 0;
+  /** How many boxes have a rule of their own. */
+  #ruled = 0;
+  /** The boxes once more as float32. */
   #floats = new Float32Array();
+  /** Where boxes changed in the last frame: from, until, from, until, … */
+  #runs: number[] = [];
   #index = 0;
   /** What may be set in the first byte of a frame. */
   readonly #flags: number;
@@ -53,7 +60,7 @@ export class FrameDecoder {
     const had = snapshot ? 0 : state.count;
     const count = cursor.varint('the number of boxes', maxBoxes);
     const idsAt = cursor.at;
-    const renamed = skipIds(cursor, count);
+    skipIds(cursor, count);
     const rulesAt = cursor.at;
     if (flags & rulesFlag) skipRules(cursor, count);
     const runsAt = cursor.at;
@@ -61,31 +68,65 @@ export class FrameDecoder {
     const sizesAt = cursor.at;
     cursor.need((changed * width) / 2, 'the sizes of numbers');
 
+    this.#release(snapshot ? 0 : Math.min(count, had));
     if (snapshot) state.forget();
-    const shrank = count < state.count;
-    state.resize(count);
-    if (renamed > 0) this.#readIds(cursor, idsAt, renamed);
-    if (renamed > 0 || (state.named && (shrank || count > had))) this.#checkIds(cursor);
+    this.#readIds(cursor, idsAt, count);
     if (flags & rulesFlag) this.#readRules(cursor, rulesAt);
-    else if (shrank && state.ruled) state.lookAtRules();
+    state.ruled = this.#ruled > 0;
     cursor.at = sizesAt + (changed * width) / 2;
-    this.#readNumbers(cursor, runsAt, sizesAt, doubles);
+    this.#readNumbers(cursor, runsAt, sizesAt, doubles, had);
     this.#finish(cursor);
-    const boxes = doubles ? state.before.subarray(0, count * width) : this.#asFloats();
-    state.turn(had);
+    const boxes = (doubles ? state.was : this.#floats).subarray(0, count * width);
     const ids = state.named ? state.ids.subarray(0, count) : undefined;
     const rules = state.ruled ? state.rules.subarray(0, 3 * count) : undefined;
     return { index: this.#index++, count, ids, rules, boxes, changed };
   }
 
-  #readIds(cursor: Cursor, at: number, renamed: number): void {
-    cursor.at = at;
-    cursor.varint('', maxBoxes);
-    const { ids } = this.#state;
-    for (let k = 0, place = 0; k < renamed; k++, place++) {
-      place += cursor.varint('', maxBoxes);
-      ids[place] = cursor.varint('', maxBoxes);
+  /** Boxes from this place on go. */
+  #release(from: number): void {
+    const { rules, count } = this.#state;
+    for (let place = from; place < count; place++) {
+      this.#drop(place);
+      if (3 * place < rules.length) this.#ruled -= Number(isOwn(rules, place));
     }
+  }
+
+  #drop(place: number): void {
+    const id = this.#state.ids[place];
+    this.#taken.delete(id);
+    this.#named -= Number(id !== place);
+  }
+
+  #take(place: number, cursor: Cursor): void {
+    const id = this.#state.ids[place];
+    if (!this.#taken.add(id)) cursor.fail(`id ${id} is there twice`);
+    this.#named += Number(id !== place);
+  }
+
+  /** Makes room for so many boxes, with their ids. */
+  #readIds(cursor: Cursor, at: number, count: number): void {
+    const state = this.#state;
+    const kept = Math.min(state.count, count);
+    const each = (what: (place: number, id: number) => void) => {
+      cursor.at = at;
+      const renamed = cursor.varint('', maxBoxes);
+      for (let k = 0, place = 0; k < renamed; k++, place++) {
+        place += cursor.varint('', maxBoxes);
+        what(place, cursor.varint('', maxBoxes));
+      }
+    };
+    each((place) => {
+      if (place < kept) this.#drop(place);
+    });
+    state.resize(count);
+    each((place, id) => {
+      state.ids[place] = id;
+    });
+    each((place) => {
+      if (place < kept) this.#take(place, cursor);
+    });
+    for (let place = kept; place < count; place++) this.#take(place, cursor);
+    state.named = this.#named > 0;
   }
 
   #readRules(cursor: Cursor, at: number): void {
@@ -97,37 +138,34 @@ export class FrameDecoder {
       place += cursor.varint('', maxBoxes);
       const bits = cursor.byte('');
       const filtered = (bits & ruleBits.filter) !== 0;
+      this.#ruled -= Number(isOwn(state.rules, place));
       state.rules[3 * place] = filtered ? cursor.varint('', all) : all;
       state.rules[3 * place + 1] = filtered ? cursor.varint('', all) : all;
       state.rules[3 * place + 2] = bits & ruleBits.still ? 1 : 0;
+      this.#ruled += Number(isOwn(state.rules, place));
     }
-    state.lookAtRules();
   }
 
-  #checkIds(cursor: Cursor): void {
-    const { ids, count } = this.#state;
-    this.#state.lookAtIds();
-    if (!this.#state.named) return;
-    this.#seen.clear();
-    for (let k = 0; k < count; k++) if (!this.#seen.add(ids[k])) cursor.fail(`id ${ids[k]} is there twice`);
-  }
-
-  /** Fills `before`, whose numbers are needed no more once the prediction is made, with those of this frame. */
-  #readNumbers(cursor: Cursor, runsAt: number, sizesAt: number, doubles: boolean): void {
+  /** Brings `was` up to this frame and `before` up to the one before it; boxes that are new were at rest. */
+  #readNumbers(cursor: Cursor, runsAt: number, sizesAt: number, doubles: boolean, had: number): void {
     const { was, before, width, count } = this.#state;
     const { bytes } = cursor;
     const runs = new Cursor(bytes, this.#index, 0);
     runs.at = runsAt;
     const runCount = runs.varint('', maxBoxes);
     const largest = doubles ? 8 : 4;
+    if (was.length > this.#floats.length) this.#floats = grown(this.#floats, new Float32Array(was.length));
+    const floats = this.#floats;
+    const changed: number[] = [];
     let sizes = sizesAt;
     let box = 0;
     for (let run = 0; run < runCount; run++) {
-      const start = box + runs.varint('', maxBoxes);
-      before.set(was.subarray(box * width, start * width), box * width);
-      const end = start + runs.varint('', maxBoxes);
-      for (box = start; box < end; box++) {
+      box += runs.varint('', maxBoxes);
+      const end = box + runs.varint('', maxBoxes);
+      changed.push(box, end);
+      for (; box < end; box++) {
         const at = box * width;
+        // What stands in `before` is needed no more once the prediction is made: the new number takes its place.
         for (let k = 0; k < width; k++) {
           const size = k % 2 === 0 ? bytes[sizes] & 15 : bytes[sizes++] >> 4;
           if (size > largest) cursor.fail(`a number of box ${box} has ${size} bytes, expected at most ${largest}`);
@@ -140,18 +178,24 @@ export class FrameDecoder {
           if (before[k] <= before[k + width / 2]) continue;
           cursor.fail(`box ${box} is [${[...before.subarray(at, at + width)].join(', ')}], which is none`);
         }
+        for (let k = at; k < at + width; k++) {
+          const now = before[k];
+          before[k] = box < had ? was[k] : now;
+          was[k] = now;
+          floats[k] = now;
+        }
       }
     }
-    before.set(was.subarray(box * width, count * width), box * width);
-  }
-
-  #asFloats(): Float32Array {
-    const { before, width, count } = this.#state;
-    const length = count * width;
-    if (length > this.#floats.length) this.#floats = new Float32Array(before.length);
-    const floats = this.#floats.subarray(0, length);
-    floats.set(before.subarray(0, length));
-    return floats;
+    // What changed in the frame before, and not in this one, rests.
+    const last = this.#runs;
+    for (let k = 0, next = 0; k < last.length; k += 2) {
+      for (let place = last[k]; place < Math.min(last[k + 1], count); place++) {
+        while (changed[next + 1] <= place) next += 2;
+        if (changed[next] <= place) continue;
+        for (let n = place * width; n < (place + 1) * width; n++) before[n] = was[n];
+      }
+    }
+    this.#runs = changed;
   }
 
   #finish(cursor: Cursor): void {
@@ -159,8 +203,12 @@ export class FrameDecoder {
   }
 }
 
-/** Looks whether a list of new ids is sound; returns how many they are. */
-function skipIds(cursor: Cursor, count: number): number {
+/** Whether the box at this place has a rule of its own. */
+const isOwn = (rules: Uint32Array, place: number): boolean =>
+  rules[3 * place] !== all || rules[3 * place + 1] !== all || rules[3 * place + 2] !== 0;
+
+/** Looks whether a list of new ids is sound. */
+function skipIds(cursor: Cursor, count: number): void {
   const renamed = cursor.varint('the number of new ids', count);
   cursor.need(2 * renamed, 'the new ids');
   for (let k = 0, next = 0; k < renamed; k++) {
@@ -169,7 +217,6 @@ function skipIds(cursor: Cursor, count: number): number {
     cursor.varint('an id', maxBoxes - 1);
     next = place + 1;
   }
-  return renamed;
 }
 
 /** Looks whether a list of new rules is sound. */

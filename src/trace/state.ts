@@ -11,6 +11,8 @@ export class TraceState {
   /** Whether any box has a rule of its own; only then there are rules. */
   ruled = false;
   rules = new Uint32Array();
+  /** Whether `rules` are kept: from the first one on. */
+  #keepsRules = false;
   ids = new Uint32Array();
   /** The boxes of the frame before, and of the one before that. */
   was = new Float64Array();
@@ -36,7 +38,7 @@ export class TraceState {
       this.before = grown(this.before, new Float64Array(room * width));
     }
     for (let k = had; k < count; k++) this.ids[k] = k;
-    if (this.ruled) this.#meetAll(had, count);
+    if (this.#keepsRules) this.#meetAll(had, count);
     if (count > had) {
       this.was.fill(0, had * width, count * width);
       this.before.fill(0, had * width, count * width);
@@ -57,8 +59,9 @@ export class TraceState {
 
   /** Makes room for rules, where there were none. */
   startRules(): void {
-    if (this.ruled) return;
     this.ruled = true;
+    if (this.#keepsRules) return;
+    this.#keepsRules = true;
     this.#meetAll(0, this.count);
   }
 
@@ -78,16 +81,10 @@ export class TraceState {
       this.rules[k + 2] = 0;
     }
   }
-
-  /** Looks whether any id differs from its place. */
-  lookAtIds(): void {
-    const { ids, count } = this;
-    this.named = false;
-    for (let k = 0; k < count && !this.named; k++) this.named = ids[k] !== k;
-  }
 }
 
-function grown<Numbers extends Uint32Array | Float64Array>(from: Numbers, to: Numbers): Numbers {
+/** All numbers of an array in a longer one. */
+export function grown<Numbers extends Uint32Array | Float32Array | Float64Array>(from: Numbers, to: Numbers): Numbers {
   to.set(from);
   return to;
 }
@@ -105,6 +102,10 @@ export class IdSet {
     if (this.#bits[at] & bit) return false;
     this.#bits[at] |= bit;
     return true;
+  }
+
+  delete(id: number): void {
+    this.#bits[id >>> 5] &= ~(1 << (id & 31));
   }
 
   clear(): void {

@@ -4,6 +4,7 @@ import { gunzipSync } from 'node:zlib';
 import { openAny, openTrace, readTrace, TraceError, TraceWriter } from 'broadphase/trace';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { crc32 } from '../../src/trace/crc32.ts';
 import { runs, seed } from '../runs.ts';
 import { concat, factsOf, type GivenFrame, someFrames, write } from './arbitrary.ts';
 
@@ -256,4 +257,50 @@ test('a gzip bomb is stopped, and a broken gzip said to be', async () => {
   await expect(gunzip(zipped, 1_000_000)).rejects.toThrow('larger than 1000000 bytes');
   await expect(openAny(zipped.subarray(0, 2000))).rejects.toThrow('the gzip around it is broken');
   await expect(openAny(gzipSync(write(2, two)))).resolves.toMatchObject({ frames: 2, dimensions: 2 });
+});
+
+// Whoever sends a trace must not be able to keep its reader busy for longer than the bytes are worth.
+describe('many small frames after a large one are opened in time that goes with their bytes', () => {
+  const count = 2 ** 18;
+  const varint = (value: number): number[] => (value < 128 ? [value] : [(value & 127) | 128, ...varint(value >>> 7)]);
+  const large = varint(count);
+  const lastGone = varint(count - 1);
+  const kinds: Record<string, number[][]> = {
+    'nothing changes': [[2, ...large, 0, 0]],
+    'two boxes exchange their ids, and back': [
+      [2, ...large, 2, 0, 1, 0, 0, 0],
+      [2, ...large, 2, 0, 0, 0, 1, 0],
+    ],
+    'one box is static, and not': [
+      [0x22, ...large, 0, 1, 0, 1, 0],
+      [0x22, ...large, 0, 1, 0, 0, 0],
+    ],
+    'doubles and floats take turns': [
+      [0x12, ...large, 0, 1, 0, 1, 0, 0],
+      [2, ...large, 0, 0],
+    ],
+    'the last box goes, and comes back': [
+      [2, ...lastGone, 0, 0],
+      [2, ...large, 0, 1, ...lastGone, 1, 0, 0],
+    ],
+  };
+
+  test.each(Object.entries(kinds))('%s', (_, bodies) => {
+    const frames = 20_000;
+    const first = concat([Uint8Array.of(1, ...large, 0, 1, 0, ...large), new Uint8Array(2 * count)]);
+    const header = new TraceWriter(2).header();
+    let checksum = new DataView(header.buffer).getUint32(12, true);
+    const seal = (body: Uint8Array) => {
+      const length = le(body.length);
+      checksum = crc32(body, 0, body.length, crc32(length, 0, 4, checksum));
+      return concat([length, le(checksum), body]);
+    };
+    const pieces = [header, seal(first)];
+    for (let k = 0; k < frames; k++) pieces.push(seal(Uint8Array.from(bodies[k % bodies.length])));
+    pieces.push(seal(Uint8Array.of(0, ...varint(frames + 1))));
+    const bytes = concat(pieces);
+    const started = performance.now();
+    expect(openTrace(bytes).frames).toBe(frames + 1);
+    expect(performance.now() - started).toBeLessThan(2000);
+  });
 });
