@@ -67,6 +67,18 @@ template <int D> class SweptList {
   /// Appends the pairs of the items that were ordered last.
   void find(u32 count, Pairs& pairs) const { sweep<D>(lanes_, end_.data(), count, pairs); }
 
+  /// Puts some of the ordered items into `out`; gives their bounds.
+  Item<D> bounds(u32 from, u32 until, const ItemsAt<D>& out) const {
+    ItemsAt<D> ordered(ordered_, 0);
+    Item<D> all = ordered[from];
+    for (u32 k = from; k < until; k++) {
+      Item<D> item = ordered[k];
+      all = both(all, item);
+      out.put(k, item);
+    }
+    return all;
+  }
+
   /// Whether most of the tests that the sweep is about to make would be misses, by a sample of them.
   COLD bool wasteful(u32 count) const {
     LaneView<D> view = lanes_.view();

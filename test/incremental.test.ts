@@ -17,9 +17,11 @@ const runs = [
   { dimensions: 2, speed: 0, share: 1, huge: false, exact: true },
   { dimensions: 2, speed: 0.05, share: 1, huge: true, exact: true },
   { dimensions: 2, speed: 0.3, share: 0.1, huge: false, exact: false },
+  { dimensions: 2, speed: 0.3, share: 1, huge: true, exact: false },
   { dimensions: 2, speed: 3, share: 0.02, huge: true, exact: true },
   { dimensions: 3, speed: 0.05, share: 0.3, huge: true, exact: true },
   { dimensions: 3, speed: 0.3, share: 0.02, huge: false, exact: false },
+  { dimensions: 3, speed: 0.2, share: 0.8, huge: true, exact: true },
 ] as const;
 
 describe.each(runs)('incremental, $dimensions dimensions, speed $speed of $share, huge $huge', (run) => {
@@ -117,6 +119,52 @@ test('an update in which nothing has changed keeps the pairs and has no events',
     expect(space.began.length + space.ended.length).toBe(0);
   }
   expectKeys(space, referencePairs(boxes, 2));
+});
+
+test('where all move, what is found is kept, through bounces, new boxes, and a crowd that turns at once', () => {
+  const random = createRandom(11);
+  const space = new BroadPhase();
+  const boxes: number[] = [];
+  const steps: number[] = [];
+  const add = () => {
+    const [x, y] = [random() * 1000, random() * 1000];
+    boxes.push(x, y, x + 10, y + 10);
+    steps.push(random() - 0.5, random() - 0.5);
+  };
+  for (let id = 0; id < 2000; id++) add();
+  let kept = 0;
+  for (let frame = 0; frame < 200; frame++) {
+    if (frame > 50) add();
+    for (let id = 0; id < steps.length / 2; id++) {
+      if (frame === 120 && id < 500) steps[2 * id]! *= -3;
+      for (let k = 0; k < 4; k++) boxes[4 * id + k] = Math.fround(boxes[4 * id + k]! + steps[2 * id + (k % 2)]!);
+    }
+    space.boxes(boxes.length / 4).set(boxes);
+    space.update();
+    kept += Number(space.stats.technique === 'incremental');
+    expectKeys(space, referencePairs(boxes, 2));
+  }
+  expect(kept).toBeGreaterThan(100);
+});
+
+test('a box that jumps beside one that turns is not reported twice', () => {
+  const space = new BroadPhase();
+  const put = (id: number, x: number, y: number) => space.set(id, x, y, x + 10, y + 10);
+  for (let frame = 0; frame < 40; frame++) {
+    for (let id = 2; id < 300; id++) put(id, id * 50 + frame / 64, 500);
+    put(0, frame / 64, 0);
+    put(1, 45 + frame / 64, 0);
+    space.update();
+  }
+  expect(space.stats.reason).toMatch(/is kept/);
+  put(0, 6, 0); // both leave their fat boxes
+  put(1, 51, 0);
+  space.update();
+  put(0, 20, 9); // one leaves it again; its new one reaches where the other was before it jumped
+  put(1, 28, 15);
+  space.update();
+  expect(space.stats.reason).toMatch(/is kept/);
+  expect([...space.pairs]).toEqual([0, 1]);
 });
 
 test('auto says what it chose and why', () => {

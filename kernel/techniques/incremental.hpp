@@ -3,8 +3,8 @@
 // Idea: space is cut into cells of a few dozen boxes, once, by a k-d tree over a sample. A box that moves stands in
 // every cell it may come to in the next updates, as a fat box that reaches as far as its motion will take it. A cell
 // keeps the pairs of fat boxes that overlap in it: its candidates. While boxes stay in their fat ones, which one pass
-// over all that may have changed finds out, an update does nothing but test each candidate. Two boxes can be candidates in several cells; the cell
-// that holds the larger of their two lower corners reports them.
+// over all that may have changed finds out, an update does nothing but test each candidate. Two boxes can be candidates
+// in several cells; the cell that holds the larger of their two lower corners reports them.
 //   - Cells take turns: a few of them, in each update, give all their boxes new fat ones and collect their candidates
 //     anew. So nothing builds up, and no single update pays for all. A box that leaves its fat one before is served
 //     by itself.
@@ -12,17 +12,17 @@
 //     settled at the head of the list of pairs, which nobody touches until one of them moves.
 //   - Boxes that touch very many cells (the ground, a wall) stand in none and are tested against all that move.
 // All this is filled little by little, while strip-sweep gives the answers, and given up again where many boxes leave
-// their fat ones at once or where it does not pay.
-// Cost: where boxes move by a hundredth of their size in 2D, 0.6 of strip-sweep at 10,000, 0.8 at 100,000; where 5 %
-// move 8 to 12 ns a box, and with `set` only the movers count. While it is filled, an update costs a fifth to a third
-// more than strip-sweep, the two before it, which cut space into cells and line the boxes up, up to twice as much. Memory,
-// beside that of strip-sweep: about 120 (2D) or 210 (3D) bytes a box that moves, 100 or 150 one at rest.
-// Wins where boxes rest, or up to some 10,000 move slowly. Is strip-sweep where they jump.
-// From: candidates kept with a margin, L. Verlet, "Computer Experiments on Classical Fluids", 1967; fat boxes, as in
-// the dynamic trees of Bullet and Box2D; k-d tree, J. Bentley, 1975. The combination is ours.
+// their fat ones at once or where it does not pay. Where most boxes move, coherent.hpp has a cheaper way.
+// Cost: where all move by a hundredth of their size 0.25 to 0.35 of strip-sweep, by a tenth of it 0.7 in 2D; where 5 %
+// move 8 to 12 ns a box, and with `set` only the movers count. While cells are filled, an update costs a fifth to a
+// third more than strip-sweep, the two before it, which cut space into cells and line the boxes up, up to twice as much.
+// Memory, beside that of strip-sweep: about 120 (2D) or 210 (3D) bytes a box that moves, 100 or 150 one at rest.
+// Wins where boxes rest, or move slowly. Is strip-sweep where they jump.
+// From: candidates kept with a margin, L. Verlet, 1967 (see motion.hpp); k-d tree, J. Bentley, 1975. The combination
+// is ours.
 #pragma once
 #include "pair_order.hpp"
-#include "strip_sweep.hpp"
+#include "coherent.hpp"
 
 /// Fat boxes as structure of arrays that grow: minima, maxima, tags, then `more` rows of the owner's.
 /// Behind the last box the first row is NaN, which overlaps nothing, and no tag names a slot.
@@ -109,6 +109,7 @@ template <int D> class Incremental {
   static constexpr f32 least_period = 4, most_period = 64, growth = 1.15f;
   static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 watched = 256;        // boxes whose motion is looked at before anything is kept
+  static constexpr f64 most_movers = 0.5;    // a larger share of boxes that move is coherent motion
   static constexpr f64 worth = 0.7;          // keeping things must promise to cost this share of what it costs now
   static constexpr u32 first_pause = 8, longest_pause = 256;
   // What an update costs, in nanoseconds, to see whether keeping anything pays: an entry and a test of strip-sweep; a
@@ -137,6 +138,7 @@ template <int D> class Incremental {
   };
 
   StripSweep<D>& anew_;
+  Coherent<D> coherent_;
   Buffer<Cell> cells_;
   Buffer<f32> cuts_;     // inner nodes of the tree, as in a heap: node k has the children 2 k and 2 k + 1
   u8 axis_[32] = {};     // per level, along which axis it cuts
@@ -184,6 +186,7 @@ template <int D> class Incremental {
   /// The cells, or the strips.
   COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     if (!kept_) return anew_.structure(boxes, count, stats);
+    if (leaves_ == 0) return coherent_.structure(boxes, count);
     count = leaves_;
     boxes.reserve(u64(leaves_) * width);
     for (u32 k = 0; k < leaves_; k++) {
@@ -197,6 +200,7 @@ template <int D> class Incremental {
 
   COLD void release() {
     forget();
+    coherent_.release();
     cells_.release();
     cuts_.release();
     known_.release();
@@ -217,7 +221,9 @@ template <int D> class Incremental {
     u32 n = scene.count;
     now_++;
     if (leaves_ > 0 && (n < few || n > 2 * planned_ || 4 * n < planned_ || (count_ == 0 && n != planned_))) forget();
+    if (coherent_.begun() && (n < few || n > 2 * planned_ || 2 * n < planned_)) coherent_.forget();
     pairs.count = 0;
+    if (coherent_.begun()) return follow_motion(scene, options, pairs, stats);
     moving_ = candidates_ = turned_ = motion_ = 0;
     bool enlists = leaves_ > 0 && count_ == 0;  // another update than the one that made the cells: both take their time
     if (enlists) {
@@ -234,26 +240,31 @@ template <int D> class Incremental {
     kept_ = leaves_ > 0 && queued_ == 0;
     stats.reason = f64(u32(Reason::kept));
     if (kept_) return balance(f64(pairs.count - settled_.count));
+    find_anew(scene, options, pairs, stats);
+    if (leaves_ == 0 && n >= few) consider(scene, f64(pairs.count));
+    stats.reason = f64(u32(leaves_ > 0 || coherent_.begun() ? Reason::filling : Reason::moving));
+  }
+
+  void find_anew(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
     stats = Stats{};
     pairs.count = pairs.kept = 0;
     anew_.update(scene, options, pairs, stats);
     fresh_ = entry_cost * stats.entries + test_cost * stats.tests;
-    if (leaves_ == 0 && n >= few && steady(scene, f64(pairs.count))) plan(scene);
-    stats.reason = f64(u32(leaves_ > 0 ? Reason::filling : Reason::moving));
+  }
+
+  /// An update where nearly all boxes move.
+  void follow_motion(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+    kept_ = coherent_.update(scene, options, fresh_, pairs, stats);
+    if (!kept_) find_anew(scene, options, pairs, stats);
+    stats.reason = f64(u32(kept_ ? Reason::kept : coherent_.begun() ? Reason::filling : Reason::moving));
+    if (!coherent_.begun()) pause_ = pauses_ = smaller(longest_pause, pauses_ * 2);
+    else if (kept_) pauses_ = larger(first_pause, pauses_ - 1);
   }
 
   f32* last(u32 slot) const { return known_[slot].box; }
   static const f32* box_of(const Scene<D>& scene, u32 slot) { return scene.boxes + u64(slot) * width; }
   static u32 excluded_of(const Scene<D>& scene, u32 slot) { return scene.excluded ? scene.excluded[slot] : 0; }
 
-  static bool touch(const f32* one, const f32* other) {
-    u32 both = bitmask((load<f32x4>(one) <= load<f32x4>(other + D)) & (load<f32x4>(other) <= load<f32x4>(one + D)));
-    return !(~both & ((1 << D) - 1));
-  }
-  static bool inside(const f32* box, const f32* other) {
-    u32 low = bitmask(load<f32x4>(other) <= load<f32x4>(box)), high = bitmask(load<f32x4>(box + D) <= load<f32x4>(other + D));
-    return !(~(low & high) & ((1 << D) - 1));
-  }
   static bool equal(const f32* a, const f32* b) {
     u32 both = bitmask((load<f32x4>(a) == load<f32x4>(b)) & (load<f32x4>(a + D) == load<f32x4>(b + D)));
     return !(~both & ((1 << D) - 1));
@@ -272,11 +283,11 @@ template <int D> class Incremental {
     pause_ = pauses_ = smaller(longest_pause, pauses_ * 2);
   }
 
-  /// Whether boxes move so little from one update to the next that keeping things promises to pay, by a few of them.
-  COLD bool steady(const Scene<D>& scene, f64 hits) {
+  /// Looks at a few boxes, whether they move so little from one update to the next that keeping things promises to pay.
+  COLD void consider(const Scene<D>& scene, f64 hits) {
     if (pause_ > 0) {
       pause_--;
-      return false;
+      return;
     }
     u32 n = scene.count, many = smaller(n, watched), stride = n / many;
     f32* before = watched_.reserve(watched * width + padding);
@@ -284,17 +295,24 @@ template <int D> class Incremental {
     bool known = watching_ == n;
     for (u32 k = 0; k < many; k++) {
       const f32* box = box_of(scene, k * stride);
-      f64 step = known ? pace(box, before + k * width, 1) : 0;
+      f32 step = known ? pace<D>(box, before + k * width, 1) : 0;
       moved += step;
       movers += step > 0;
       __builtin_memcpy(before + k * width, box, width * sizeof(f32));
     }
     watching_ = n;
+    if (!known) return;
     f64 share = movers / many, speed = moved / larger(movers, 1.0);
+    if (share > most_movers) {
+      if (Coherent<D>::cost(n, hits, speed) > worth * fresh_) return;
+      planned_ = n;
+      watching_ = 0;
+      return coherent_.begin(n, hits, speed);
+    }
     period_ = target_ = best_period(n * share, hits * share, speed);
     f64 candidates = hits * share;
     for (int a = 0; a < D; a++) candidates *= 1 + speed * period_;
-    return known && cost(copies * n * share, candidates, period_) <= worth * fresh_;
+    if (cost(copies * n * share, candidates, period_) <= worth * fresh_) plan(scene);
   }
 
   /// Updates in which every cell should have one turn, given how far movers move in one as a share of their size: what
@@ -308,17 +326,6 @@ template <int D> class Incremental {
   /// What an update costs in which so much is kept.
   static f64 cost(f64 movers, f64 candidates, f64 period) {
     return ((mover_cost + turn_cost / period) * movers + candidate_cost * candidates) * (1 + movers / (movers + cached_movers));
-  }
-
-  /// How far a box moved in an update, as a share of its size, at most 1.
-  static f64 pace(const f32* box, const f32* low, u32 updates) {
-    f64 most = 0;
-    for (int a = 0; a < D; a++) {
-      f64 step = (f64(box[a]) - low[a]) / updates, size = f64(box[D + a]) - box[a];
-      if (step < 0) step = -step;
-      if (step > 0) most = larger(most, step < size ? step / size : 1);
-    }
-    return most;
   }
 
   // --- the cells ---
@@ -534,22 +541,6 @@ template <int D> class Incremental {
     cell.candidates[cell.candidate_count++] = pair_of(a, b);
   }
 
-  /// The fat box of a box: what its motion will cover in so many updates, given where it was so many ago.
-  void fatten(const f32* box, const f32* low, u32 updates, f32 until, f32 margin, f32* out) const {
-    f32 step[D], fastest = 0;
-    for (int a = 0; a < D; a++) {
-      f32 motion = (box[a] - low[a]) / f32(updates), size = box[D + a] - box[a];
-      step[a] = motion <= size && -motion <= size ? motion : 0;  // a jump says nothing about what comes
-      fastest = larger(fastest, larger(step[a], -step[a]));
-    }
-    f32 aside = margin > 0 ? margin : slack_ * fastest;
-    for (int a = 0; a < D; a++) {
-      f32 reach = margin > 0 ? 0 : until * step[a];
-      out[a] = smaller(box[a], box[a] + smaller(reach, 0.0f) - aside);
-      out[D + a] = larger(box[D + a], box[D + a] + larger(reach, 0.0f) + aside);
-    }
-  }
-
   /// How many updates fat boxes reach ahead: a little more than until their next turn.
   f32 reach() const { return period_ * growth + 1; }
 
@@ -612,7 +603,7 @@ template <int D> class Incremental {
     }
     for (u32 h = 0; h < huge_count_; h++) {
       u32 its = known_[huge_[h]].tag;
-      if ((its & rests) && !(its & tag & ~slot_mask) && touch(box, last(huge_[h]))) settle(slot, huge_[h]);
+      if ((its & rests) && !(its & tag & ~slot_mask) && touch<D>(box, last(huge_[h]))) settle(slot, huge_[h]);
     }
   }
 
@@ -688,7 +679,7 @@ template <int D> class Incremental {
     const f32* box = box_of(scene, slot);
     u32 excluded = excluded_of(scene, slot);
     if (known.tag == excluded) {
-      if (!inside(box, known.box)) add_late(slot);
+      if (!inside<D>(box, known.box)) add_late(slot);
     } else if (known.tag != (excluded | rests) || !equal(box, known.box)) {
       changed(scene, slot, sweeps);
     }
@@ -789,7 +780,7 @@ template <int D> class Incremental {
       u32 updates = now_ - known_[slot].since;
       bool still = updates > still_for && equal(box, last(slot));
       f32 fat[width + padding];
-      if (!still) fatten(box, last(slot), larger(updates, 1u), until, f32(options.margin), fat);
+      if (!still) fatten<D>(box, last(slot), larger(updates, 1u), until, slack_, options.margin, fat);
       Found found;
       cells_of(still ? box : fat, found);
       if (found.many() && !still) cells_of(box, found);
@@ -831,7 +822,7 @@ template <int D> class Incremental {
         take(cell, k);
         continue;
       }
-      f32 low[D], fat[width + padding];
+      f32 low[4], fat[width + padding];
       bool moved = false;
       for (int a = 0; a < D; a++) {
         low[a] = cell.movers.row(from_row + u32(a))[k];
@@ -847,8 +838,8 @@ template <int D> class Incremental {
           continue;
         }
       }
-      fatten(box, low, updates, reach(), f32(options.margin), fat);
-      motion_ += pace(box, low, updates);
+      fatten<D>(box, low, updates, reach(), slack_, options.margin, fat);
+      motion_ += pace<D>(box, low, updates);
       turned_ += 1;
       if (touches(cell, fat)) {
         cell.movers.write(k, fat);
@@ -897,18 +888,18 @@ template <int D> class Incremental {
       // While cells were filled nobody looked.
       late_count_ = 0;
       for (u32 slot = 0; slot < n; slot++) {
-        if (known_[slot].tag == excluded_of(scene, slot) && !inside(box_of(scene, slot), last(slot))) add_late(slot);
+        if (known_[slot].tag == excluded_of(scene, slot) && !inside<D>(box_of(scene, slot), last(slot))) add_late(slot);
       }
     }
     if (late_count_ > n / late_share + 64) return forget();
     for (u32 k = 0; k < late_count_; k++) {
       u32 slot = late_[k];
       const f32* box = box_of(scene, slot);
-      if (known_[slot].tag != excluded_of(scene, slot) || inside(box, last(slot))) continue;  // it has had its turn
+      if (known_[slot].tag != excluded_of(scene, slot) || inside<D>(box, last(slot))) continue;  // it has had its turn
       // Its motion is known where it is in a cell that it touches still.
       Found found;
       cells_of(box, found);
-      f32 low[D], fat[width + padding];
+      f32 low[4], fat[width + padding];
       __builtin_memcpy(low, box, D * sizeof(f32));
       u32 updates = 1;
       for (u32 c = 0; c < found.count; c++) {
@@ -919,7 +910,7 @@ template <int D> class Incremental {
         updates = larger(age(cell, at), 1u);
         break;
       }
-      fatten(box, low, updates, reach(), f32(options.margin), fat);
+      fatten<D>(box, low, updates, reach(), slack_, options.margin, fat);
       cells_of(fat, found);
       enter(scene, slot, fat, found, stats);
       if (leaves_ == 0) return;
@@ -964,7 +955,7 @@ template <int D> class Incremental {
   /// The pairs of huge boxes that are not settled.
   COLD void report_huge(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
     auto try_pair = [&](u32 h, u32 slot) {
-      if ((known_[h].tag & known_[slot].tag & ~slot_mask) || !touch(box_of(scene, h), box_of(scene, slot))) return;
+      if ((known_[h].tag & known_[slot].tag & ~slot_mask) || !touch<D>(box_of(scene, h), box_of(scene, slot))) return;
       pairs.room(pairs.list.data() + pairs.count, 1);
       pairs.list[pairs.count++] = pair_of(h, slot);
     };
@@ -1002,7 +993,7 @@ template <int D> class Incremental {
         for (u32 other = 0; other < count_; other++) {
           u32 its = known_[other].tag;
           if (other == slot || !(its & rests) || (its & known_[slot].tag & ~slot_mask)) continue;
-          if (touch(box, last(other))) settle(slot, other);
+          if (touch<D>(box, last(other))) settle(slot, other);
         }
       }
     }

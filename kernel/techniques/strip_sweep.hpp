@@ -24,6 +24,7 @@ template <int D> class StripSweep {
   static constexpr f64 least_items = 100;  // in a strip, on average: shorter ones cost more than they save
   static constexpr u32 few = 2000;  // boxes that are one strip where they have no more candidates than a strip may have
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
+  static constexpr u32 block_items = 16;  // entries whose bounds are kept together
   static constexpr u32 deepest = 6;
   // A strip is looked at again where it has this many candidates an item, and this many in all.
   static constexpr u64 again_factor = D == 2 ? 24 : 48, again_least = 8192;
@@ -37,6 +38,9 @@ template <int D> class StripSweep {
     u32 strips[D];
 
     u32 lists() const { return strips[1] * (D == 2 ? 1 : strips[D - 1]); }
+    // One more strip along each axis, which stays empty: there, what is counted by differences ends.
+    u32 across() const { return D == 2 ? 1 : strips[D - 1] + 1; }
+    u32 rows() const { return (strips[1] + 1) * across(); }
   };
 
   /// A part of the world, along the item's axes; unbounded at its borders.
@@ -73,8 +77,12 @@ template <int D> class StripSweep {
   Buffer<u32> offsets_[deepest + 1];  // per cut: where each strip's entries begin
   Buffer<Region> leaves_;  // the strips in use
   AxisOrder<D> order_ = {};
+  Cut cut_ = {};     // the outermost
   u32 boxes_ = 0;
   u32 entered_ = 0;  // entries of the outermost cut
+  bool in_parts_ = false;
+  u32 begun_ = 0, swept_lists_ = 0;  // entries and strips that are swept, of an update in parts
+  Items<D> blocks_;                  // bounds of each few entries
   Stats* stats_ = nullptr;
 
  public:
@@ -82,31 +90,72 @@ template <int D> class StripSweep {
     stats_ = &stats;
     boxes_ = entered_ = scene.count;
     if (scene.count < 2) return;
-    SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
-    Statistics<D> world;
-    bool one_strip = scene.count < few;
-    if (one_strip) {
-      world = glance<D>(plain, scene.count);
-      int a = world.longest();
-      one_strip = scene.count * world.size[a] <= again_factor * (world.high[a] - world.low[a]);
-    }
-    if (!one_strip) world = measure<D>(plain, scene.count);
-    order_ = AxisOrder<D>::make(world.longest());
+    bool cuts = cut_up(scene);
     SceneItems<D> items{scene, order_};
-    Region everywhere;
-    for (int a = 0; a < D; a++) {
-      everywhere.low[a] = -__builtin_inf();
-      everywhere.high[a] = __builtin_inf();
-    }
-    if (!one_strip) {
-      Cut cut = choose(world.in(order_), scene.count);
-      if (cut.lists() > 1 && divide(items, scene.count, cut, everywhere, 0, 0, pairs)) return;
-    }
+    if (cuts && divide(items, scene.count, cut_, everywhere(), 0, 0, pairs)) return;
     entries_.grow(scene.count, 0);
     ItemsAt<D> all(entries_, 0);
     for (u32 k = 0; k < scene.count; k++) all.put(k, items[k]);
     stats.entries = scene.count;
-    list(all, scene.count, everywhere, scene.count, 0, pairs);
+    list(all, scene.count, everywhere(), scene.count, 0, pairs);
+  }
+
+  // An update in parts, which need not all be of one moment: `begin`, `count` all boxes, `add_up`, `enter` all, and
+  // `sweep` until it says that all is done. A part reads only the boxes it is called for. Afterwards `each_near`
+  // answers: the entries stand in the order they were swept in, and of each few the bounds are known.
+
+  /// Chooses the strips.
+  COLD void begin(const Scene<D>& scene, Stats& stats) {
+    stats_ = &stats;
+    boxes_ = entered_ = scene.count;
+    stats = Stats{};
+    begun_ = swept_lists_ = 0;
+    in_parts_ = true;
+    cut_up(scene);
+    clear(cut_, 0);
+    ranges_.reserve(boxes_);
+  }
+  void count(const Scene<D>& scene, u32 from, u32 until) {
+    count(SceneItems<D>{scene, order_}, from, until, cut_, 0);
+  }
+  /// False where cutting does not pay.
+  COLD bool add_up() {
+    u64 total = 0;
+    if (!add_up(boxes_, cut_, 0, total)) return false;
+    entered_ = u32(total);
+    entries_.grow(total, 0);
+    stats_->entries = f64(total);
+    blocks_.grow(block_of(entered_, cut_.rows()) + 1, 0);
+    return true;
+  }
+  void enter(const Scene<D>& scene, u32 from, u32 until) { enter(SceneItems<D>{scene, order_}, from, until, cut_, 0); }
+  /// Sweeps strips, of at least so many entries; gives how many are left.
+  u32 sweep(u32 entries, Pairs& pairs) {
+    u32 until = smaller(entered_, begun_ + entries);
+    begun_ = sweep(cut_, everywhere(), 0, entered_, swept_lists_, begun_, until, pairs);
+    return entered_ - begun_;
+  }
+
+  /// Calls `what` with the slot of each box of the last update that overlaps this one, which may be any; each once.
+  template <class What> void each_near(const f32* box, What what) const {
+    Item<D> mine = SceneItems<D>{Scene<D>{box, 1, nullptr}, order_}[0];
+    Range range = range_of(lanes_of(cut_), mine);
+    const u32* ends = offsets_[0].data();
+    ItemsAt<D> entries(entries_, 0), bounds(blocks_, 0);
+    u32 first_2 = D == 2 ? 0 : range.first(2), last_2 = D == 2 ? 0 : range.last(2);
+    for (u32 s = range.first(1); s <= range.last(1); s++) {
+      for (u32 t = first_2; t <= last_2; t++) {
+        u32 l = s * cut_.across() + t, end = ends[l];
+        u32 met = (s > range.first(1) ? u32(continues_1) : 0) | (t > first_2 ? u32(continues_2) : 0);
+        u32 begin = l > 0 ? ends[l - 1] : 0, block = block_of(begin, l);
+        for (; begin < end; begin += block_items, block++) {
+          if (!overlap(bounds[block], mine)) continue;
+          for (u32 k = begin; k < smaller(begin + block_items, end); k++) {
+            if (overlap(entries[k], mine) && !(tag_at(k) & met)) what(tag_at(k) & slot_mask);
+          }
+        }
+      }
+    }
   }
 
   /// Calls `what` with the slot of each box of the last update once, those of a strip after those of the one before.
@@ -135,6 +184,7 @@ template <int D> class StripSweep {
     ranges_.release();
     for (auto& offsets : offsets_) offsets.release();
     leaves_.release();
+    blocks_.release();
   }
 
  private:
@@ -182,20 +232,70 @@ template <int D> class StripSweep {
     return cut;
   }
 
+  static Region everywhere() {
+    Region region;
+    for (int a = 0; a < D; a++) {
+      region.low[a] = -__builtin_inf();
+      region.high[a] = __builtin_inf();
+    }
+    return region;
+  }
+
+  /// Chooses the sweep axis and the outermost cut; false where it would leave all in one strip.
+  COLD bool cut_up(const Scene<D>& scene) {
+    SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
+    Statistics<D> world;
+    bool one_strip = scene.count < few;
+    if (one_strip) {
+      world = glance<D>(plain, scene.count);
+      int a = world.longest();
+      one_strip = scene.count * world.size[a] <= again_factor * (world.high[a] - world.low[a]);
+    }
+    if (!one_strip) world = measure<D>(plain, scene.count);
+    order_ = AxisOrder<D>::make(world.longest());
+    if (one_strip) {
+      for (int a = 0; a < D; a++) {
+        cut_.strips[a] = 1;
+        cut_.along[a] = Axis::make(0, 0, 1);
+      }
+      return false;
+    }
+    cut_ = choose(world.in(order_), scene.count);
+    return cut_.lists() > 1;
+  }
+
   /// Puts items into the strips of a cut, behind the `base` entries of the cuts further out, and sweeps each.
   /// Does nothing and returns false where the cut would not pay: boxes that overlap nearly all others enter every
   /// strip, and cutting strips again and again would multiply them without end.
   template <class Source>
-  bool divide(Source items, u32 count, const Cut& cut, const Region& region, u32 base, u32 depth, Pairs& pairs) {
-    // Counting by differences: +1 where an item's range of strips begins, -1 behind its end, then prefix sums.
-    // One more strip along each axis takes the -1 of the last; it stays empty.
-    u32 across = D == 2 ? 1 : cut.strips[D - 1] + 1;
-    u32 lists = (cut.strips[1] + 1) * across;
-    u32* offsets = offsets_[depth].reserve(lists);
-    __builtin_memset(offsets, 0, lists * sizeof(u32));
-    Range* ranges = ranges_.reserve(count);
+  bool divide(Source items, u32 size, const Cut& cut, const Region& region, u32 base, u32 depth, Pairs& pairs) {
+    clear(cut, depth);
+    ranges_.reserve(size);
+    count(items, 0, size, cut, depth);
+    u64 total = base;
+    if (!add_up(size, cut, depth, total)) return false;
+    if (base == 0) entered_ = u32(total);
+    size_t source = place(items);
+    entries_.grow(total, base);
+    move(items, source);
+    enter(items, 0, size, cut, depth);
+    stats_->entries += f64(total - base);
+    u32 first = 0;
+    sweep(cut, region, depth, u32(total), first, base, u32(total), pairs);
+    return true;
+  }
+
+  COLD void clear(const Cut& cut, u32 depth) {
+    __builtin_memset(offsets_[depth].reserve(cut.rows()), 0, cut.rows() * sizeof(u32));
+  }
+
+  /// Counting by differences: +1 where an item's range of strips begins, -1 behind its end, then prefix sums.
+  template <class Source> void count(Source items, u32 from, u32 until, const Cut& cut, u32 depth) {
+    u32 across = cut.across();
+    u32* offsets = offsets_[depth].data();
+    Range* ranges = ranges_.data();
     Axes axes = lanes_of(cut);
-    for (u32 k = 0; k < count; k++) {
+    for (u32 k = from; k < until; k++) {
       Range range = range_of(axes, items[k]);
       ranges[k] = range;
       u32 first = range.first(1), behind = range.last(1) + 1;
@@ -210,6 +310,12 @@ template <int D> class StripSweep {
         offsets[behind * across + behind_2]++;
       }
     }
+  }
+
+  /// Where each strip's entries begin, and how many there will be in all; whether that pays.
+  bool add_up(u32 size, const Cut& cut, u32 depth, u64& total) const {
+    u32 across = cut.across(), lists = cut.rows();
+    u32* offsets = offsets_[depth].data();
     if constexpr (D == 3) {
       ROLLED
       for (u32 l = 0; l < lists; l++) {
@@ -218,26 +324,28 @@ template <int D> class StripSweep {
     }
     ROLLED
     for (u32 l = across; l < lists; l++) offsets[l] += offsets[l - across];
-    u64 total = base;
+    u64 base = total;
     f64 tests = 0;  // relative to those of the uncut items
     ROLLED
     for (u32 l = 0; l < lists; l++) {
-      u32 size = offsets[l];
+      u32 here = offsets[l];
       offsets[l] = u32(total);
-      total += size;
-      tests += f64(size) * size;
+      total += here;
+      tests += f64(here) * here;
     }
     // It pays when it saves half of the tests, or when it copies little: then it closes in on a crowd, for the
     // next cut to spread it.
-    bool pays = tests * 2 < f64(count) * count || (total - base) * 2 < count * 3;
-    if (!pays || total > most_copies * boxes_) return false;
-    if (base == 0) entered_ = u32(total);
-    size_t source = place(items);
-    entries_.grow(total, base);
-    move(items, source);
+    bool pays = tests * 2 < f64(size) * size || (total - base) * 2 < size * 3;
+    return pays && total <= most_copies * boxes_;
+  }
 
+  /// Puts items into their strips.
+  template <class Source> void enter(Source items, u32 from, u32 until, const Cut& cut, u32 depth) {
+    u32 across = cut.across();
+    u32* offsets = offsets_[depth].data();
+    const Range* ranges = ranges_.data();
     ItemsAt<D> entries(entries_, 0);
-    for (u32 k = 0; k < count; k++) {
+    for (u32 k = from; k < until; k++) {
       Item<D> item = items[k];
       Range range = ranges[k];
       u32 first = range.first(1), last = range.last(1);
@@ -258,21 +366,22 @@ template <int D> class StripSweep {
         }
       }
     }
-    stats_->entries += f64(total - base);
+  }
 
-    // offsets[l] is now where list l ends.
-    u32 begin = base;
-    for (u32 l = 0; l < lists; l++) {
-      u32 end = offsets[l];
-      if (end > begin) {
-        Region part = region;
-        narrow(part, 1, cut, l / across);
-        if constexpr (D == 3) narrow(part, 2, cut, l % across);
-        list(ItemsAt<D>(entries_, begin), end - begin, part, u32(total), depth + 1, pairs);
-      }
+  /// Sweeps the strips of a cut from `list_at` on, where the entries from `begin` on stand, until those up to `until`
+  /// are done; gives where the next begin. `total`: where deeper cuts may stack theirs.
+  u32 sweep(const Cut& cut, const Region& region, u32 depth, u32 total, u32& list_at, u32 begin, u32 until, Pairs& pairs) {
+    u32 across = cut.across();
+    for (; begin < until; list_at++) {
+      u32 end = offsets_[depth][list_at];  // it has moved on from where the strip begins to where it ends
+      if (end == begin) continue;
+      Region part = region;
+      narrow(part, 1, cut, list_at / across);
+      if constexpr (D == 3) narrow(part, 2, cut, list_at % across);
+      list(ItemsAt<D>(entries_, begin), end - begin, part, total, depth + 1, pairs);
       begin = end;
     }
-    return true;
+    return begin;
   }
 
   u32 tag_at(u32 k) const {
@@ -299,6 +408,7 @@ template <int D> class StripSweep {
   /// Orders the items of one strip and sweeps them, or cuts them again where that saves work.
   void list(const ItemsAt<D>& items, u32 count, const Region& region, u32 base, u32 depth, Pairs& pairs) {
     u64 tests = swept_.order(items, count);
+    if (in_parts_ && depth == 1) bound(items, count);
     if (depth < deepest && tests > again_factor * count && tests > again_least && swept_.wasteful(count)) {
       Statistics<D> part = measure<D>(items, count);
       for (int a = 1; a < D; a++) {
@@ -313,6 +423,18 @@ template <int D> class StripSweep {
     stats_->cells++;
     note(region);
     swept_.find(count, pairs);
+  }
+
+  /// The first block of a strip: no two strips share one.
+  static u32 block_of(u32 begin, u32 strip) { return begin / block_items + strip; }
+
+  /// Keeps the items of a strip in the order they are swept in, and the bounds of each few.
+  void bound(const ItemsAt<D>& items, u32 count) {
+    u32 block = block_of(u32(place(items)), swept_lists_);
+    ItemsAt<D> bounds(blocks_, 0);
+    for (u32 from = 0; from < count; from += block_items, block++) {
+      bounds.put(block, swept_.bounds(from, smaller(from + block_items, count), items));
+    }
   }
 
   COLD void note(const Region& region) {
