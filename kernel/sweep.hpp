@@ -1,8 +1,11 @@
 // The one inner loop that every technique ends in.
 // Idea: a technique puts items in an order and says, for each, how far behind it an item can still overlap it
-// (`end`). Everything up to there is tested, one box against four at a time, on all axes, both ways, so the
-// order need not be a sorted one. Reading past `end` is harmless as long as what stands there cannot overlap.
-// Cost: one block of four for each started four candidates; no branch depends on what is hit.
+// (`end`). Everything up to there is tested, four at a time, on all axes, both ways, so the order need not be a sorted
+// one: four items in a row against the four that stand one further, then two, and so on; or one item against four,
+// where one of the four looks much further than the others. Reading past `end` is harmless as long as what stands there
+// cannot overlap.
+// Cost: one test of four against four for each candidate of the one of four items that has most, about 2 (2D) or 3
+// (3D) ns, pairs included; no branch depends on what is hit, and the loop ends once for four items.
 #pragma once
 #include "pairs.hpp"
 

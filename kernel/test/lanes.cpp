@@ -1,0 +1,18 @@
+// What stands behind the items of `Lanes`: sweeps read it.
+#include "box.hpp"
+#include "check.hpp"
+
+TEST("behind the lanes there is padding that overlaps nothing, whatever stood there before") {
+  Lanes<2> lanes;
+  Items<2> store;
+  store.grow(100, 0);
+  ItemsAt<2> items(store, 0);
+  for (u32 k = 0; k < 100; k++) items.put(k, {f32x4{0, 0, 1, 1}, k});
+  for (u32 count = 100; count > 60; count--) {
+    lanes.reserve(count);
+    lanes.fill(items, count);
+    for (u32 k = 0; k < count + Lanes<2>::padding; k++) CHECK((lanes.lo(0)[k] == lanes.lo(0)[k]) == (k < count));
+  }
+  lanes.release();
+  store.release();
+}
