@@ -119,7 +119,7 @@ template <int D> class Calls {
   void step() {
     u32 what = bytes_.below(32);
     // No questions are asked in a world that wraps around.
-    if (wraps() && what >= 27 && what <= 29) return update();
+    if (wraps() && (what == 23 || (what >= 27 && what <= 29))) return update();
     switch (what) {
       default: return set(id(), box());
       case 8: case 9: case 10: return remove(id());
@@ -133,7 +133,8 @@ template <int D> class Calls {
       case 18: return switch_technique();
       case 19: return look();
       case 20: return compare();
-      case 21: case 22: case 23: return update();
+      case 21: case 22: return update();
+      case 23: return ask_area(true);
       case 24: return filter();
       case 25: return save();
       case 26: return restore();
@@ -492,8 +493,27 @@ template <int D> class Calls {
     return ids;
   }
 
-  void ask_area() {
+  /// Makes it a question about a point.
+  void from_a_point(Question<D>& asks) {
+    for (u32 a = 0; a < D; a++) asks.lo[a] = asks.hi[a] = f64(bytes_.below(40));
+  }
+
+  /// From the point that is asked about to a box.
+  static f64 squared_distance(const Question<D>& asks, const Box<D>& box) {
+    f64 sum = 0;
+    for (u32 a = 0; a < D; a++) {
+      f64 apart = std::max({box[a] - asks.lo[a], asks.lo[a] - box[D + a], 0.0});
+      sum += apart * apart;
+    }
+    return sum;
+  }
+
+  void ask_area(bool is_circle = false) {
     Question<D> asks = question();
+    if (is_circle) {
+      from_a_point(asks);
+      asks.radius = bytes_.below(8) ? bytes_.below(200) * 0.25 : std::numeric_limits<f64>::infinity();
+    }
     std::vector<u32> answer;
     asked([&] {
       space_.question = asks;
@@ -512,7 +532,9 @@ template <int D> class Calls {
     }
     std::vector<u32> expected;
     for (u32 id : eligible(asks)) {
-      if (overlap(box.data(), seen_->at(id).data(), D)) expected.push_back(id);
+      const Box<D>& its = seen_->at(id);
+      bool within = is_circle ? squared_distance(asks, its) <= asks.radius * asks.radius : overlap(box.data(), its.data(), D);
+      if (within) expected.push_back(id);
     }
     std::sort(answer.begin(), answer.end());
     CHECK(answer == expected);
@@ -521,9 +543,9 @@ template <int D> class Calls {
   /// Up to rounding: the nearest, in order.
   void ask_near() {
     Question<D> asks = question();
-    for (u32 a = 0; a < D; a++) asks.lo[a] = asks.hi[a] = f64(bytes_.below(40));
+    from_a_point(asks);
     asks.limit = bytes_.below(2) ? std::numeric_limits<f64>::infinity() : f64(bytes_.next()) * 4;
-    u32 most = 1 + bytes_.below(12);
+    u32 most = 1 + bytes_.below(64);
     std::vector<Hit> hits;
     asked([&] {
       space_.question = asks;
@@ -533,15 +555,7 @@ template <int D> class Calls {
     CHECK(hits.size() <= most);
     bool good = true;
     std::map<u32, f64> distances;
-    for (u32 id : eligible(asks)) {
-      const Box<D>& box = seen_->at(id);
-      f64 sum = 0;
-      for (u32 a = 0; a < D; a++) {
-        f64 apart = std::max({box[a] - asks.lo[a], asks.lo[a] - box[D + a], 0.0});
-        sum += apart * apart;
-      }
-      distances[id] = sum;
-    }
+    for (u32 id : eligible(asks)) distances[id] = squared_distance(asks, seen_->at(id));
     for (size_t k = 0; k < hits.size(); k++) {
       good &= k == 0 || hits[k - 1] < hits[k];
       good &= distances.count(hits[k].id) > 0;
