@@ -23,6 +23,9 @@ template <int D> class Space {
   // Bytes a box, pairs included, that an update takes in ordinary scenes.
   static constexpr u32 usual_bytes = D == 2 ? 192 : 288;
 
+  // Bytes a pair that the tables take in which pairs are looked up.
+  static constexpr u32 bytes_to_look_up = 24;
+
   Ids& ids_;
   const Settings& options_;
   Buffer<f32> boxes_, staged_;
@@ -275,8 +278,9 @@ template <int D> class Space {
     table_.made = neighbours_made_ = false;
     updates++;
     stats.pairs = f64(pairs.count);
-    // Growing later would cut the views of the pairs off: what the ids take at the first gap is taken now.
-    heap::reach(u64(ids_.count()) * 2 * sizeof(u32) + (1 << 16));
+    // Growing later would cut the views of the pairs off, in the midst of a loop over them: what a few more boxes, the
+    // first filter, double or gap, and the first question take is taken now.
+    heap::reach(u64(ids_.count()) * usual_bytes + pairs.count * bytes_to_look_up + (1 << 16));
     stats.bytes = f64(heap::used);
     explain();
     return -1;

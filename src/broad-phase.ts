@@ -611,7 +611,7 @@ export class BroadPhase extends Queries {
   /**
    * Each overlapping pair of ids once, `[a0, b0, a1, b1, …]` with a < b, as of the last update. The order
    * depends only on the calls made. A view of the kernel's memory: valid until the next `update()`, or until adding
-   * boxes makes memory grow.
+   * many boxes at once makes memory grow; then its length is 0. There is room for some boxes, and for all questions.
    *
    * @example
    * const space = new BroadPhase();
@@ -635,7 +635,7 @@ export class BroadPhase extends Queries {
 
   /**
    * The pairs that the last update found and the one before did not, as in `pairs` and in their order: with `events:
-   * true` only. A view of the kernel's memory: valid until the next `update()`.
+   * true` only. A view of the kernel's memory: valid as long as `pairs`.
    *
    * A pair whose box was deleted has ended with the next update, and has begun with it too where the id was set again
    * and overlaps again: it is another box. Boxes that `setAll`, `boxes` and `clear` take away were deleted.

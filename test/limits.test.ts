@@ -3,6 +3,7 @@
 import { readFileSync } from 'node:fs';
 import { BroadPhase, init } from 'broadphase';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { setBox } from './set-box.ts';
 
 const mebibyte = 2 ** 20;
 const kernel = readFileSync(new URL('../build/kernel.wasm', import.meta.url));
@@ -277,6 +278,36 @@ describe('views of memory', () => {
     expect(Array.from(space.pairs)).toEqual([0, 1]);
     expect(space.stats.pairs).toBe(1);
   });
+
+  // What a game does with its pairs: boxes come and go meanwhile, and questions are asked.
+  test.each([2, 3] as const)(
+    'of pairs stay while a few boxes are added and questions asked, in %d dimensions',
+    (dimensions) => {
+      const calls: ((space: BroadPhase, count: number) => unknown)[] = [
+        (space, count) => setBox(space, count, Array(2 * dimensions).fill(count)),
+        (space, count) => setBox(space, 2 * count + 1, Array(2 * dimensions).fill(0.1)),
+        (space, count) => space.setFilter(count - 1, 1, 2),
+        (space) => space.isColliding(0, 1),
+        (space) => space.collisionsOf(0),
+        (space) => (space.queryPoint as (...point: number[]) => number[])(...Array(dimensions).fill(3)),
+        (space) => space.delete(0),
+      ];
+      for (let count = 2; count < 12_000; count += count < 20 ? 1 : Math.ceil(count / 5)) {
+        for (const step of [1, 0.1]) {
+          const boxes = Array.from({ length: count }, (_, k) =>
+            Array.from({ length: 2 * dimensions }, (_, n) => step * (k + Number(n >= dimensions))),
+          ).flat();
+          for (const first of calls) {
+            const space = new BroadPhase({ dimensions, events: true }).setAll(boxes).update();
+            const { pairs, began } = space;
+            for (const call of [first, ...calls]) call(space, count);
+            expect(pairs.length, `${count} boxes`).toBe(2 * space.pairCount);
+            expect(began.length).toBe(pairs.length);
+          }
+        }
+      }
+    },
+  );
 
   test('a bad box written in place is named by its id, though another was deleted since', () => {
     const space = new BroadPhase();
