@@ -20,13 +20,14 @@
 template <int D> class Coherent {
   static constexpr u32 width = 2 * D, padding = 4;
   static constexpr u32 struck = 1u << 31;  // a mark
-  static constexpr u32 late_share = 40;  // all is given up where one in so many leaves its fat box at once
+  static constexpr u32 late_share = 100;  // all is given up where one in so many leaves its fat box at once
   static constexpr f32 least_period = 4, most_period = 48, first_period = 12, growth = 1.15f;
   // What the work of a generation costs for each box, in nanoseconds: noting where it stands, making its fat box and
-  // counting it, entering it in its strip, sweeping that; and each update, a box and a candidate.
+  // counting it, entering it in its strip, sweeping that; and each update, a box, a candidate, and a box that is late.
   static constexpr f64 look_cost = 3, fatten_cost = D == 2 ? 12 : 18, enter_cost = D == 2 ? 6 : 12,
                        sweep_cost = D == 2 ? 14 : 40;
-  static constexpr f64 all_costs = fatten_cost + enter_cost + sweep_cost, box_cost = 2.5, candidate_cost = 3;
+  static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
+  static constexpr f64 all_costs = fatten_cost + enter_cost + sweep_cost, box_cost = 2.5, candidate_cost = 3, late_cost = 1500;
 
   enum class Stage : u32 { begin, look, fatten, enter, sweep };
 
@@ -66,10 +67,15 @@ template <int D> class Coherent {
   static u32 excluded_of(const Scene<D>& scene, u32 slot) { return scene.excluded ? scene.excluded[slot] : 0; }
 
  public:
-  /// What an update is going to cost for so many boxes and pairs, where boxes move so far as a share of their size.
-  static f64 cost(f64 boxes, f64 hits, f64 pace) {
-    f64 period = best_period(boxes, hits, pace), candidates = hits;
-    for (int a = 0; a < D; a++) candidates *= 1 + 2 * pace * period;
+  /// What an update is going to cost for so many boxes and pairs, where such a share of the boxes moves, so far as a
+  /// share of their size.
+  static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace) {
+    f64 period = best_period(boxes, hits * share, pace), one = 1, both = 1;
+    for (int a = 0; a < D; a++) {
+      one *= 1 + pace * period;
+      both *= 1 + 2 * pace * period;
+    }
+    f64 candidates = hits * (1 + 2 * share * (1 - share) * (one - 1) + share * share * (both - 1));
     return boxes * (box_cost + all_costs / period) + candidate_cost * candidates;
   }
 
@@ -410,7 +416,8 @@ template <int D> class Coherent {
     stage_ = Stage::begin;
     pace_ = f32(motion_ / boxes_);
     if (hits_ >= 0) {
-      if (boxes_ * (box_cost + all_costs / period_) + candidate_cost * f64(g.candidates.count) > fresh) return forget();
+      f64 cost = boxes_ * (box_cost + all_costs / period_) + candidate_cost * f64(g.candidates.count) + late_cost * lates_ / (age_ + 1);
+      if (cost > worth * fresh) return forget();
       // Not longer than by what fat boxes reach further.
       period_ = smaller(period_ * growth, best_period(boxes_, hits_, pace_));
       // Where boxes leave their fat ones too early, the next reach further to the sides.

@@ -109,14 +109,14 @@ template <int D> class Incremental {
   static constexpr f32 least_period = 4, most_period = 64, growth = 1.15f;
   static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 watched = 256;        // boxes whose motion is looked at before anything is kept
-  static constexpr f64 most_movers = 0.5;    // a larger share of boxes that move is coherent motion
-  static constexpr f64 worth = 0.7;          // keeping things must promise to cost this share of what it costs now
+  static constexpr f64 worth = 0.7;          // cells must promise to cost this share of what it costs now
   static constexpr u32 first_pause = 8, longest_pause = 256;
   // What an update costs, in nanoseconds, to see whether keeping anything pays: an entry and a test of strip-sweep; a
-  // mover, a candidate and a turn, all dearer where they are so many that they fill the caches.
-  static constexpr f64 entry_cost = 20, test_cost = D == 2 ? 1.2 : 1.8;
+  // box that may have moved; a mover, a candidate and a turn, all dearer where they are so many that they fill the caches.
+  static constexpr f64 entry_cost = D == 2 ? 13 : 22, test_cost = D == 2 ? 0.8 : 1.1, look_cost = 2;
   static constexpr f64 copies = D == 2 ? 1.25 : 1.6;  // cells that a mover stands in
-  static constexpr f64 mover_cost = 2.5, candidate_cost = 3, turn_cost = D == 2 ? 130 : 260, cached_movers = 40000;
+  static constexpr f64 mover_cost = 4, candidate_cost = 4.5, turn_cost = D == 2 ? 200 : 400, cached_movers = 40000;
+  static constexpr f64 patience = 1.25;      // cells take long to fill: they must be so much cheaper than generations
 
   // Rows of a fat box that moves: where the box stood when it was made, and in which update that was.
   static constexpr u32 from_row = width + 1, when_row = width + 1 + D;
@@ -303,16 +303,19 @@ template <int D> class Incremental {
     watching_ = n;
     if (!known) return;
     f64 share = movers / many, speed = moved / larger(movers, 1.0);
-    if (share > most_movers) {
-      if (Coherent<D>::cost(n, hits, speed) > worth * fresh_) return;
-      planned_ = n;
-      watching_ = 0;
-      return coherent_.begin(n, hits, speed);
-    }
     period_ = target_ = best_period(n * share, hits * share, speed);
     f64 candidates = hits * share;
     for (int a = 0; a < D; a++) candidates *= 1 + speed * period_;
-    if (cost(copies * n * share, candidates, period_) <= worth * fresh_) plan(scene);
+    bool listed = scene.changes && !scene.changes->all();
+    f64 by_cells = cost(copies * n * share, candidates, period_) + (listed ? 0 : look_cost * n);
+    f64 by_generations = Coherent<D>::cost(n, hits, share, speed);
+    if (by_generations <= smaller(fresh_, patience * by_cells)) {
+      planned_ = n;
+      watching_ = 0;
+      coherent_.begin(n, hits * share, speed);
+    } else if (by_cells <= worth * fresh_) {
+      plan(scene);
+    }
   }
 
   /// Updates in which every cell should have one turn, given how far movers move in one as a share of their size: what
