@@ -69,7 +69,7 @@ template <int D> class Coherent {
  public:
   /// What an update is going to cost for so many boxes and pairs, where such a share of the boxes moves, so far as a
   /// share of their size.
-  static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace) {
+  COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace) {
     f64 period = best_period(boxes, hits * share, pace), one = 1, both = 1;
     for (int a = 0; a < D; a++) {
       one *= 1 + pace * period;
@@ -81,7 +81,7 @@ template <int D> class Coherent {
 
   bool begun() const { return begun_; }
 
-  void begin(f64 boxes, f64 hits, f64 pace) {
+  COLD void begin(f64 boxes, f64 hits, f64 pace) {
     begun_ = true;
     pace_ = f32(pace);
     period_ = best_period(boxes, hits, pace);
@@ -93,7 +93,7 @@ template <int D> class Coherent {
   }
 
   /// Finds the pairs, where a generation is there to answer; else false. Gives up where that costs more than `fresh`.
-  bool update(const Scene<D>& scene, const Settings& options, f64 fresh, Pairs& pairs, Stats& stats) {
+  COLD bool update(const Scene<D>& scene, const Settings& options, f64 fresh, Pairs& pairs, Stats& stats) {
     now_++;
     bool answers = count_ > 0 && follow(scene, options);
     if (answers) report(scene, pairs, stats);
@@ -134,13 +134,13 @@ template <int D> class Coherent {
 
   /// Updates that a generation should answer: the work of making it balances its candidates, which are the more the
   /// further fat boxes reach, and they must reach twice as far: from when they are made until the next are.
-  static f32 best_period(f64 boxes, f64 hits, f64 pace) {
+  COLD static f32 best_period(f64 boxes, f64 hits, f64 pace) {
     f64 more = 2 * candidate_cost * larger(hits, boxes / 8) * D * larger(pace, 1e-4);
     return f32(larger(f64(least_period), smaller(f64(most_period), __builtin_sqrt(all_costs * boxes / more))));
   }
 
   /// Sees to it that fat boxes hold their boxes again; false where all is given up.
-  bool follow(const Scene<D>& scene, const Settings& options) {
+  NOINLINE bool follow(const Scene<D>& scene, const Settings& options) {
     Generation& g = current();
     u32 n = scene.count, had = count_, both = smaller(n, had);
     make_room(n, had);
@@ -192,7 +192,7 @@ template <int D> class Coherent {
   }
 
   /// Room for n slots, of which `had` are in use.
-  void make_room(u32 n, u32 had) {
+  COLD void make_room(u32 n, u32 had) {
     if (n > had) {
       Generation& g = current();
       g.fat.grow(u64(n) * width + padding, u64(had) * width);
@@ -322,7 +322,7 @@ template <int D> class Coherent {
   f32 left() const { return larger(0.0f, making() - f32(age_)); }
 
   /// Makes a slice of the next generation.
-  void build(const Scene<D>& scene, const Settings& options, f64 fresh) {
+  COLD void build(const Scene<D>& scene, const Settings& options, f64 fresh) {
     if (stage_ == Stage::begin) open(scene);
     else age_++;
     f64 budget = (known_ ? all_costs : all_costs + look_cost) * boxes_ / making();
@@ -344,7 +344,7 @@ template <int D> class Coherent {
   }
 
   /// Does work of the stage for about so many nanoseconds; gives how many.
-  f64 slice(const Scene<D>& scene, const Settings& options, f64 budget, f64 fresh) {
+  COLD f64 slice(const Scene<D>& scene, const Settings& options, f64 budget, f64 fresh) {
     Generation& g = next();
     f64 each = stage_ == Stage::look ? look_cost : stage_ == Stage::fatten ? fatten_cost : stage_ == Stage::enter ? enter_cost : sweep_cost * boxes_ / g.stats.entries;
     u32 many = u32(smaller(budget / each + 1, f64(max_slots))), until = smaller(boxes_, at_ + many), n = scene.count;
@@ -371,7 +371,7 @@ template <int D> class Coherent {
   }
 
   /// Fat boxes from `at_` on.
-  void make_fat(const Scene<D>& scene, const Settings& options, u32 until) {
+  NOINLINE void make_fat(const Scene<D>& scene, const Settings& options, u32 until) {
     Generation& g = next();
     f32 reach = left() + period_ * growth + 1;
     f32 fat[width + padding];

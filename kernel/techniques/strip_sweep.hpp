@@ -130,7 +130,7 @@ template <int D> class StripSweep {
   }
   void enter(const Scene<D>& scene, u32 from, u32 until) { enter(SceneItems<D>{scene, order_}, from, until, cut_, 0); }
   /// Sweeps strips, of at least so many entries; gives how many are left.
-  u32 sweep(u32 entries, Pairs& pairs) {
+  COLD u32 sweep(u32 entries, Pairs& pairs) {
     u32 until = smaller(entered_, begun_ + entries);
     begun_ = sweep(cut_, everywhere(), 0, entered_, swept_lists_, begun_, until, pairs);
     return entered_ - begun_;
@@ -232,7 +232,7 @@ template <int D> class StripSweep {
     return cut;
   }
 
-  static Region everywhere() {
+  COLD static Region everywhere() {
     Region region;
     for (int a = 0; a < D; a++) {
       region.low[a] = -__builtin_inf();
@@ -290,7 +290,7 @@ template <int D> class StripSweep {
   }
 
   /// Counting by differences: +1 where an item's range of strips begins, -1 behind its end, then prefix sums.
-  template <class Source> void count(Source items, u32 from, u32 until, const Cut& cut, u32 depth) {
+  template <class Source> NOINLINE void count(Source items, u32 from, u32 until, const Cut& cut, u32 depth) {
     u32 across = cut.across();
     u32* offsets = offsets_[depth].data();
     Range* ranges = ranges_.data();
@@ -313,7 +313,7 @@ template <int D> class StripSweep {
   }
 
   /// Where each strip's entries begin, and how many there will be in all; whether that pays.
-  bool add_up(u32 size, const Cut& cut, u32 depth, u64& total) const {
+  COLD bool add_up(u32 size, const Cut& cut, u32 depth, u64& total) const {
     u32 across = cut.across(), lists = cut.rows();
     u32* offsets = offsets_[depth].data();
     if constexpr (D == 3) {
@@ -340,7 +340,7 @@ template <int D> class StripSweep {
   }
 
   /// Puts items into their strips.
-  template <class Source> void enter(Source items, u32 from, u32 until, const Cut& cut, u32 depth) {
+  template <class Source> NOINLINE void enter(Source items, u32 from, u32 until, const Cut& cut, u32 depth) {
     u32 across = cut.across();
     u32* offsets = offsets_[depth].data();
     const Range* ranges = ranges_.data();
@@ -370,7 +370,7 @@ template <int D> class StripSweep {
 
   /// Sweeps the strips of a cut from `list_at` on, where the entries from `begin` on stand, until those up to `until`
   /// are done; gives where the next begin. `total`: where deeper cuts may stack theirs.
-  u32 sweep(const Cut& cut, const Region& region, u32 depth, u32 total, u32& list_at, u32 begin, u32 until, Pairs& pairs) {
+  COLD u32 sweep(const Cut& cut, const Region& region, u32 depth, u32 total, u32& list_at, u32 begin, u32 until, Pairs& pairs) {
     u32 across = cut.across();
     for (; begin < until; list_at++) {
       u32 end = offsets_[depth][list_at];  // it has moved on from where the strip begins to where it ends
@@ -429,7 +429,7 @@ template <int D> class StripSweep {
   static u32 block_of(u32 begin, u32 strip) { return begin / block_items + strip; }
 
   /// Keeps the items of a strip in the order they are swept in, and the bounds of each few.
-  void bound(const ItemsAt<D>& items, u32 count) {
+  NOINLINE void bound(const ItemsAt<D>& items, u32 count) {
     u32 block = block_of(u32(place(items)), swept_lists_);
     ItemsAt<D> bounds(blocks_, 0);
     for (u32 from = 0; from < count; from += block_items, block++) {
