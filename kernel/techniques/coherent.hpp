@@ -316,7 +316,7 @@ template <int D> class Coherent {
   }
 
   /// Updates in which a generation is made: the first one soon, though no update should pay much for it.
-  f32 making() const { return known_ ? period_ : smaller(period_, first_period); }
+  f32 making() const { return known_ ? period_ : first_period; }
 
   /// Updates until the generation that is being made is likely to be done.
   f32 left() const { return larger(0.0f, making() - f32(age_)); }

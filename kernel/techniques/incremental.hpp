@@ -257,7 +257,7 @@ template <int D> class Incremental {
     kept_ = coherent_.update(scene, options, fresh_, pairs, stats);
     if (!kept_) find_anew(scene, options, pairs, stats);
     stats.reason = f64(u32(kept_ ? Reason::kept : coherent_.begun() ? Reason::filling : Reason::moving));
-    if (!coherent_.begun()) pause_ = pauses_ = smaller(longest_pause, pauses_ * 2);
+    if (!coherent_.begun()) pause_ = pauses_ = smaller(longest_pause, pauses_ * 4);
     else if (kept_) pauses_ = larger(first_pause, pauses_ - 1);
   }
 
@@ -280,7 +280,7 @@ template <int D> class Incremental {
     leaves_ = count_ = queued_ = unseen_ = resting_ = huge_count_ = watching_ = 0;
     settled_.count = 0;
     any_woken_ = kept_ = unchecked_ = false;
-    pause_ = pauses_ = smaller(longest_pause, pauses_ * 2);
+    pause_ = pauses_ = smaller(longest_pause, pauses_ * 4);
   }
 
   /// Looks at a few boxes, whether they move so little from one update to the next that keeping things promises to pay.
