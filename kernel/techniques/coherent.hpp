@@ -9,8 +9,9 @@
 //   - The candidates of a box that has jumped, or may meet others than before, are struck out first.
 // All is given up where many boxes leave their fat ones at once, or where it does not pay.
 // Cost: a pass over the boxes and one over the candidates, some two to four times as many as pairs, and a share of a
-// strip sweep: 5 to 9 ns a box in 2D, 10 to 20 in 3D. While the first generation is made, an update costs an eighth more
-// than strip-sweep. Memory, beside that of strip-sweep: about 155 (2D) or 265 (3D) bytes a box.
+// strip sweep: 5 to 9 ns a box in 2D, 10 to 20 in 3D. In the twelve updates in which the first generation is made, one
+// costs a quarter to a third more than strip-sweep. Memory, beside that of strip-sweep: about 155 (2D) or 265 (3D) bytes
+// a box.
 // Part of `incremental`, which says when. From: L. Verlet, 1967; see motion.hpp. Making the next generation a slice at a
 // time is ours.
 #pragma once
