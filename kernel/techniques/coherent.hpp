@@ -50,7 +50,7 @@ template <int D> class Coherent {
   Buffer<u32> late_;
   Buffer<u32> grown_;      // slots whose fat boxes are not those that were entered any more
   Buffer<f32> grown_fat_;  // these
-  u32 late_count_ = 0, grown_count_ = 0;
+  u32 grown_count_ = 0;
   u32 now_ = 0;            // updates, counted
   // Of the generation that is being made: how far it is.
   Stage stage_ = Stage::begin;
@@ -145,7 +145,6 @@ template <int D> class Coherent {
     Generation& g = current();
     u32 n = scene.count, had = count_, both = smaller(n, had);
     make_room(n, had);
-    late_count_ = 0;
     const f32* fat = g.fat.data();
     const u32* excluded = g.excluded.data();
     u32* late = late_.reserve(u64(n) + 1);
@@ -163,7 +162,6 @@ template <int D> class Coherent {
       for (u32 slot = 0; slot < both; slot++) check(slot);
     }
     unchecked_ = false;
-    late_count_ = many;
     if (u64(many) + (n - both) > n / late_share + 64) {
       forget();
       return false;
@@ -178,17 +176,17 @@ template <int D> class Coherent {
       appear(scene, slot);
     }
     for (u32 slot = had; slot < n; slot++) {
-      late[late_count_++] = slot;
+      late[many++] = slot;
       appear(scene, slot);
     }
     count_ = n;
     if (strikes) strike(g.candidates, n);
     if (n < had) drop_grown(n);
-    for (u32 k = 0; k < late_count_; k++) {
+    for (u32 k = 0; k < many; k++) {
       marks_[late[k]] &= ~struck;
       grow(scene, options, late[k]);
     }
-    lates_ += late_count_;
+    lates_ += many;
     return true;
   }
 
