@@ -15,8 +15,8 @@ const garbageBudget = 60;
 const warmUp = 300;
 
 /** A process that does one thing at a time: `ask` gives its answer, or { error }. */
-export function start() {
-  const child = fork(script, { stdio: ['ignore', 'ignore', 'pipe', 'ipc'] });
+export function start(program = script) {
+  const child = fork(program, { stdio: ['ignore', 'ignore', 'pipe', 'ipc'] });
   let complaint = '';
   child.stderr.on('data', (text) => {
     complaint = `${complaint}${text}`.slice(-2000);

@@ -2,6 +2,7 @@
 // same questions.
 //   npm run bench -- --scenes uniform2d,mixed2d,uniform3d --n 100000
 //   npm run bench -- --queries                   questions instead of pairs, into results/<machine>-queries.json
+//   npm run bench -- --coherence                 what an update costs when little changes, into results/<machine>-coherence.json
 //   npm run bench -- --full                      all there is, within 35 minutes, into results/<machine>.json
 //   npm run bench -- --techniques all            every technique on every scene, within 20 minutes, no peers
 //   npm run bench -- --compare before.json after.json
@@ -15,6 +16,8 @@ import { parseArgs } from 'node:util';
 import { bundle } from '../scripts/bundle.mjs';
 import { compile } from '../scripts/compile.mjs';
 import { loadCases, questionCases } from './cases.mjs';
+import { coherence, rows } from './coherence.mjs';
+import { coherenceLine, coherenceMarkdown } from './coherence-table.mjs';
 import { compare } from './compare.mjs';
 import { libraryFigures } from './library-figures.mjs';
 import { machine, machineName } from './machine.mjs';
@@ -31,13 +34,14 @@ const { values: options, positionals } = parseArgs({
   options: {
     full: { type: 'boolean', default: false },
     queries: { type: 'boolean', default: false },
+    coherence: { type: 'boolean', default: false },
     minutes: { type: 'string' },
     scenes: { type: 'string' },
     n: { type: 'string' },
     techniques: { type: 'string' },
     peers: { type: 'string' },
     traces: { type: 'string' },
-    rounds: { type: 'string', default: '3' },
+    rounds: { type: 'string' },
     frames: { type: 'string', default: '200' },
     budget: { type: 'string', default: '500' },
     slowest: { type: 'string', default: '1000' },
@@ -49,7 +53,7 @@ const { values: options, positionals } = parseArgs({
 });
 /** Every technique on every scene, instead of against others. */
 const everyTechnique = options.techniques === 'all';
-const kind = everyTechnique ? '-techniques' : options.queries ? '-queries' : '';
+const kind = everyTechnique ? '-techniques' : options.queries ? '-queries' : options.coherence ? '-coherence' : '';
 const resultsFile = `${here}results/${machineName}${kind}.json`;
 const whole = options.full || everyTechnique;
 const list = (text) => text.split(',').filter(Boolean);
@@ -59,7 +63,7 @@ if (options.compare || options.markdown) {
   const files = positionals.length > 0 ? positionals : [resultsFile];
   if (options.compare && files.length !== 2) fail('--compare takes two files of results: before and after.');
   const [first, second] = files.map(read);
-  const show = first.everyTechnique ? techniqueTables : markdown;
+  const show = first.coherence ? coherenceMarkdown : first.everyTechnique ? techniqueTables : markdown;
   console.log(options.compare ? compare(first, second) : show(first, loadCases()));
   process.exit();
 }
@@ -80,7 +84,12 @@ if (!existsSync(`${here}node_modules`)) {
 await bundle('bench/library.ts', 'build/bench/library.mjs');
 writeFileSync(`${here}../build/bench/sort.wasm`, await compile('bench/floors/sort.cpp'));
 
-const [rounds, frames, slowest, seed] = [options.rounds, options.frames, options.slowest, options.seed].map(Number);
+const [frames, slowest, seed] = [options.frames, options.slowest, options.seed].map(Number);
+const rounds = Number(options.rounds ?? (options.coherence ? 5 : 3));
+if (options.coherence) {
+  await playAll();
+  process.exit();
+}
 const pairCases = loadCases(options.traces);
 const cases = new Map([...pairCases, ...questionCases()]);
 const headline = ['uniform2d', 'mixed2d', 'uniform3d'];
@@ -107,11 +116,27 @@ const races = await raceAll();
 const record = { date: new Date().toISOString(), machine, versions: versions(), settings, everyTechnique, races };
 if (options.full) record.library = await libraryFigures();
 if (everyTechnique) console.log(`${techniqueTables(record)}\n`);
-const output = options.json ?? (whole || options.queries ? resultsFile : undefined);
-if (output) {
+save(options.json ?? (whole || options.queries ? resultsFile : undefined), record);
+
+function save(output, record) {
+  if (!output) return;
   mkdirSync(dirname(output), { recursive: true });
   writeFileSync(output, `${JSON.stringify(record, rounded, 1)}\n`);
   console.log(`Written to ${output}`);
+}
+
+/** What an update costs when little changes; some rows alone are not written unless told where. */
+async function playAll() {
+  const all = rows(loadCases(), options.traces);
+  const wanted = (given, value) => !given || list(given).includes(String(value));
+  const chosen = all.filter(
+    ({ name, scene, count }) => wanted(options.scenes, scene ?? name) && wanted(options.n, count),
+  );
+  if (chosen.length === 0) fail(`No row is of scene "${options.scenes}" with ${options.n ?? 'any number of'} boxes.`);
+  const done = await coherence(chosen, { seed, playings: rounds }, (row) => console.log(coherenceLine(row)));
+  const record = { date: new Date().toISOString(), machine, settings: { rounds, seed }, coherence: done };
+  console.log(`\n${coherenceMarkdown(record)}\n`);
+  save(options.json ?? (chosen.length === all.length ? resultsFile : undefined), record);
 }
 
 /** Every contender that was asked for, each variant of a peer one of its own, with what it can do. */

@@ -3,9 +3,10 @@ import { readFileSync } from 'node:fs';
 import { gunzipSync } from 'node:zlib';
 import { createScene, readRecording } from '../build/bench/library.mjs';
 
-export function openScene({ scene, recording, still }, count, seed) {
+/** `speed` is the furthest a box moves in a frame, if not as the scenes have it. */
+export function openScene({ scene, recording, still, speed }, count, seed) {
   if (recording) return play(recording);
-  const made = createScene(scene, count, { seed });
+  const made = createScene(scene, count, speed === undefined ? { seed } : { seed, speed });
   if (still) made.step = () => {};
   return made;
 }

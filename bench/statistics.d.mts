@@ -12,3 +12,6 @@ export function change(
   before: Pick<Figures, 'median' | 'range'>,
   after: Pick<Figures, 'median' | 'range'>,
 ): { ratio: number; beyondNoise: boolean };
+export function leastOfEach(playings: readonly (readonly number[])[]): number[];
+export function spread(times: readonly number[]): { mean: number; p95: number; worst: number };
+export function against(times: readonly number[], others: readonly number[]): { ratio: number; worstRatio: number };

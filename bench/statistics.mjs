@@ -39,3 +39,18 @@ export function change(before, after) {
   const apart = after.range[0] > before.range[1] || before.range[0] > after.range[1];
   return { ratio, beyondNoise: apart && Math.abs(ratio - 1) > leastChange };
 }
+
+/** Of frames that were played several times, each time the same ones: the least that each took. */
+export function leastOfEach(playings) {
+  return playings[0].map((first, frame) => playings.reduce((least, times) => Math.min(least, times[frame]), first));
+}
+
+export function spread(times) {
+  return { mean: sum(times) / times.length, p95: quantile(times, 0.95), worst: Math.max(...times) };
+}
+
+/** How long frames took against the same frames of another: by the mean, and in the worst frame. */
+export function against(times, others) {
+  const worst = times.reduce((most, time, frame) => Math.max(most, time / others[frame]), 0);
+  return { ratio: sum(times) / sum(others), worstRatio: worst };
+}

@@ -1,7 +1,13 @@
-// The benchmark's own parts that a wrong figure could hide in: the fingerprint of a set of pairs, and the statistics.
-import { expect, test } from 'vitest';
+// The benchmark's own parts that a wrong figure could hide in: the fingerprint of a set of pairs, the statistics, what is
+// played where little changes.
+import { BroadPhase } from 'broadphase';
+import { describe, expect, test } from 'vitest';
+import { loadCases } from '../bench/cases.mjs';
+import { judge, phases, rows } from '../bench/coherence.mjs';
+import { coherenceGoals } from '../bench/coherence-table.mjs';
 import { fingerprint } from '../bench/fingerprint.mjs';
-import { change, summary } from '../bench/statistics.mjs';
+import { openPlay } from '../bench/plays.mjs';
+import { against, change, leastOfEach, spread, summary } from '../bench/statistics.mjs';
 import { autoAgainstBest } from '../bench/techniques.mjs';
 
 test('a fingerprint depends on the pairs, not on their order', () => {
@@ -48,4 +54,83 @@ test('auto is held against the best of our fixed techniques, with 10 % and 0.02 
   expect(autoAgainstBest({ results: results(1.11) })).toMatchObject({ best: 'b', within: true });
   expect(autoAgainstBest({ results: results(0.9) })).toMatchObject({ best: 'b', within: true });
   expect(autoAgainstBest({ results: [{ name: 'auto', peer: 'broadphase' }] })).toBeUndefined();
+});
+
+test('of a frame that was played several times the least counts, and a worst frame is held against the same of the other', () => {
+  const times = leastOfEach([
+    [1, 9, 3],
+    [2, 4, 3],
+  ]);
+  expect(times).toEqual([1, 4, 3]);
+  expect(spread(times)).toEqual({ mean: 8 / 3, p95: 4, worst: 4 });
+  expect(against(times, [2, 2, 4])).toEqual({ ratio: 1, worstRatio: 2 });
+});
+
+describe('what is played where little changes', () => {
+  const all = rows(loadCases());
+
+  const some = all.filter(
+    ({ name, recording }, k) => all.findIndex((row) => row.name === name) === k && (!recording || name === 'tumbler'),
+  );
+  const bytesOf = ({ buffer }: Float32Array) => Buffer.from(buffer);
+
+  test.each(some.map((row) => [row.name, row] as const))('%s: each time the same, and the right pairs', (_, row) => {
+    const small = row.count ? { ...row, count: 606, ...(row.marked && { marked: 606 }) } : row;
+    const players = (['strip-sweep', 'auto'] as const).map((technique) => {
+      const play = openPlay(small, 5);
+      const space = new BroadPhase({ dimensions: play.dimensions, technique });
+      play.start(space);
+      return { play, space };
+    });
+    const first = players[0].play.boxes.slice();
+    let [moved, most] = [false, 0];
+    for (let frame = 0; frame < 110; frame++) {
+      for (const { play, space } of players) {
+        play.move(space, frame);
+        play.ask(space, frame);
+        space.update();
+      }
+      const [{ play, space }, other] = players;
+      expect(bytesOf(play.boxes).equals(bytesOf(other.play.boxes))).toBe(true);
+      expect(fingerprint(other.space.pairs)).toBe(fingerprint(space.pairs));
+      moved ||= play.boxes.some((value, k) => value !== first[k]);
+      most = Math.max(most, space.pairCount);
+      expect([...space.get(0)!]).toEqual([...play.boxes.subarray(0, 2 * play.dimensions)]);
+    }
+    expect(moved).toBe(row.kind !== 'still');
+    expect(most > 0).toBe(row.marked === undefined);
+  });
+
+  test('no name stands twice for as many boxes', () => {
+    expect(new Set(all.map(({ name, count }) => `${name} ${count}`)).size).toBe(all.length);
+  });
+});
+
+test('a row of little change: the filling apart from what comes after, each against all anew', () => {
+  const frames = phases.settled + phases.steady;
+  const of = (filling: number, steady: number) => [
+    Array.from({ length: frames }, (_, k) => (k < phases.filling ? filling : k < phases.settled ? 1e9 : steady)),
+  ];
+  const facts = { count: 9, pairs: 3, kept: 1, playings: 1, bytes: { 'strip-sweep': 50, auto: 60, incremental: 70 } };
+  const { figures } = judge({ ...facts, times: [of(2, 4), of(3, 1), of(2, 8)] });
+  const even = (time: number) => ({ mean: time, p95: time, worst: time });
+  expect(figures).toEqual({
+    'strip-sweep': { ...even(4), filling: even(2), bytes: 50 },
+    auto: {
+      ...even(1),
+      ratio: 0.25,
+      worstRatio: 0.25,
+      filling: { ...even(3), ratio: 1.5, worstRatio: 1.5 },
+      bytes: 60,
+    },
+    incremental: { ...even(8), ratio: 2, worstRatio: 2, filling: { ...even(2), ratio: 1, worstRatio: 1 }, bytes: 70 },
+  });
+
+  const row = { name: 'static2d', kind: 'static', nativeMs: 2, ...facts, figures };
+  const goals = coherenceGoals([row, { ...row, name: 'another', nativeMs: 0.5 }]);
+  const met = Object.fromEntries(goals.map(({ goal, met }) => [goal, met]));
+  expect(met['5 % move: a quarter of all anew']).toBe(true);
+  const native = goals.find(({ goal }) => goal.startsWith('5 % move: the time'));
+  expect(native).toMatchObject({ figure: '1 of 2; the worst: 2.00x (another, 9)', met: false });
+  expect(met['100,000 still and 1,000 moving: 0.1 ms']).toBeUndefined();
 });

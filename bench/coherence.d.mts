@@ -1,0 +1,31 @@
+import type { SceneName } from '../src/scenes/index.ts';
+import type { Case } from './cases.mjs';
+
+export interface Row {
+  name: string;
+  kind: string;
+  scene?: SceneName;
+  recording?: string;
+  count?: number;
+  marked?: number;
+}
+export interface Times {
+  mean: number;
+  p95: number;
+  worst: number;
+  ratio?: number;
+  worstRatio?: number;
+}
+export type Figures = Record<string, Times & { filling: Times; bytes: number }>;
+export interface Played {
+  count: number;
+  pairs: number;
+  kept: number;
+  playings: number;
+  wrong?: { technique: string; frame: number };
+}
+export const phases: { filling: number; settled: number; steady: number };
+export function rows(cases: Map<string, Case>, traces?: string): Row[];
+export function judge(
+  answer: Played & { bytes: Record<string, number>; times: number[][][] },
+): Played & { figures: Figures };
