@@ -3,7 +3,8 @@ import { short, whole } from './table.mjs';
 
 const times = (ratio) => `${ratio.toFixed(2)}x`;
 
-const header = [
+/** The titles of the columns, and how a table in Markdown aligns them. */
+const columns = [
   ['what moves', '---'],
   ['boxes', '---:'],
   ['pairs', '---:'],
@@ -17,24 +18,30 @@ const header = [
   ['bytes a box: anew, `auto`, `incremental`', '---:'],
 ];
 
+/** The table as titles and rows of text. */
+export const coherenceCells = (rows) => ({ titles: columns.map(([title]) => title), rows: rows.map(cellsOf) });
+
+/** The goals as rows of text: what, the figure, whether it is met. */
+export const coherenceVerdicts = (rows) =>
+  coherenceGoals(rows).map(({ goal, figure, met }) => [
+    goal,
+    figure,
+    met === undefined ? 'not measured' : met ? 'yes' : 'no',
+  ]);
+
 export function coherenceMarkdown({ machine, date, coherence }) {
   const row = (cells) => `| ${cells.join(' | ')} |`;
-  const table = [
-    row(header.map(([title]) => title)),
-    row(header.map(([, rule]) => rule)),
-    ...coherence.map((each) => row(cellsOf(each))),
-  ];
-  const goals = coherenceGoals(coherence).map(({ goal, figure, met }) =>
-    row([goal, figure, met === undefined ? 'not measured' : met ? 'yes' : 'no']),
-  );
+  const { titles, rows } = coherenceCells(coherence);
   return [
     `Milliseconds per frame, one thread, on ${machine.cpu} (${machine.system}, Node ${machine.node}), ${date.slice(0, 10)}.`,
     '',
-    ...table,
+    row(titles),
+    row(columns.map(([, rule]) => rule)),
+    ...rows.map(row),
     '',
     '| goal | figure | met |',
     '| --- | --- | --- |',
-    ...goals,
+    ...coherenceVerdicts(coherence).map(row),
   ].join('\n');
 }
 

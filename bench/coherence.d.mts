@@ -7,7 +7,6 @@ export interface Row {
   scene?: SceneName;
   recording?: string;
   count?: number;
-  marked?: number;
 }
 export interface Times {
   mean: number;
@@ -22,7 +21,7 @@ export interface Played {
   pairs: number;
   kept: number;
   playings: number;
-  wrong?: { technique: string; frame: number };
+  wrong?: { technique: string; frame: number } | undefined;
 }
 export const phases: { filling: number; settled: number; steady: number };
 export function rows(cases: Map<string, Case>, traces?: string): Row[];

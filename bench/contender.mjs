@@ -4,6 +4,8 @@
 //                                 { fingerprints, wrong } or { unable } or { slow: milliseconds of a frame }
 //   { warmUp: milliseconds }  ->  { frames } that were run: for so long, and until what is kept has settled
 //   { round: { … } }          ->  { times } in milliseconds of each frame, and what its own profiler says, { own }
+//   { catchUp: frames }       ->  { played } frames in all, once it has run as many as that
+//   { turn: frames }          ->  { ms } on the processor, of a frame
 //   { finish: milliseconds }  ->  { garbage: bytes of JavaScript heap allocated per frame, peak: bytes of memory }
 // and any of them can be answered by { error }. The scene's own motion is never timed. Every contender goes through the
 // same seeded motion; a slow one gets less far. Who answers questions is made a contender of pairs by questions.mjs. `sink` keeps what the frames return from being optimised away.
@@ -26,8 +28,11 @@ let contender;
 /** Of the boxes as they are, as [a, b, …]: only to tell what is wrong. */
 let exactPairs;
 let sink = 0;
+/** Frames that were run, whatever for. */
+let played = 0;
 
 function timedFrame() {
+  played++;
   scene.step();
   const start = performance.now();
   sink += contender.update(scene.boxes);
@@ -91,6 +96,22 @@ const actions = {
       own += contender.own?.() ?? 0;
     }
     return { times, own: contender.own && own / times.length, sink };
+  },
+
+  catchUp(frames) {
+    while (played < frames) timedFrame();
+    return { played };
+  },
+
+  turn(frames) {
+    timedFrame(); // another has just been at work: the caches are his
+    const [before, start] = [process.cpuUsage(), performance.now()];
+    let spent = 0;
+    for (let frame = 0; frame < frames; frame++) spent += timedFrame();
+    // The clock tells short frames apart, but runs on while others have the processor: their share is taken out.
+    const { user, system } = process.cpuUsage(before);
+    const share = Math.min(1, (user + system) / 1000 / (performance.now() - start));
+    return { ms: (share * spent) / frames };
   },
 
   async finish(milliseconds) {

@@ -5,15 +5,14 @@ import { createRandom } from '../build/bench/library.mjs';
 import { openScene } from './scene.mjs';
 
 /**
- * @param row `by`: 'set', those that moved are set one by one; or all are written in place. `marked`: boxes that are set
- *   static before the first frame. `trick`: one of those below.
+ * Boxes that the scene knows to rest are set static before the first frame.
+ * @param row `by`: 'set', those that moved are set one by one; or all are written in place. `trick`: one of those below.
  */
 export function openPlay(row, seed) {
   const scene = openScene(row, row.count, seed);
-  const { dimensions, count, boxes } = scene;
+  const { dimensions, count, boxes, fixed = 0 } = scene;
   const trick = row.trick ? tricks[row.trick](scene, createRandom(seed)) : {};
   const { step = scene.step.bind(scene), ask: askMore = () => {} } = trick;
-  const marked = row.marked ?? scene.fixed ?? 0;
   const how = row.by === 'set' ? oneByOne(scene) : inPlace(scene);
   return {
     dimensions,
@@ -21,7 +20,7 @@ export function openPlay(row, seed) {
     boxes,
     start(space) {
       how.start(space);
-      for (let id = 0; id < marked; id++) space.setStatic(id);
+      for (let id = 0; id < fixed; id++) space.setStatic(id);
     },
     move(space, frame) {
       step(frame);

@@ -1,7 +1,8 @@
 // One case and number of boxes: every contender in a fresh process of its own, all started and checked, two at a time,
-// before any is timed; then timed in turns, one at a time, round after round.
+// before any is timed; then timed in turns, one at a time, round after round; at last `auto` meets those near it again.
 import { fork } from 'node:child_process';
 import { fileURLToPath } from 'node:url';
+import { duel } from './duel.mjs';
 import { checkedFrames } from './fingerprint.mjs';
 import { summary } from './statistics.mjs';
 
@@ -90,14 +91,20 @@ export async function race(contenders, setting, { rounds, frames, budget, slowes
     }
   }
 
-  await inTurns(atOnce, [...running], async ([result, { runner, rounds, own }]) => {
+  for (const [result, { rounds, own }] of running) {
     result.figures = summary(rounds);
     if (own.length > 0) result.own = own.sort((a, b) => a - b)[own.length >> 1];
+  }
+  const met = setting.item.question
+    ? undefined
+    : await duel(results, (result, action, value) => running.get(result).runner.ask(action, value));
+
+  await inTurns(atOnce, [...running], async ([result, { runner }]) => {
     const { garbage, peak } = await runner.ask('finish', garbageBudget);
     Object.assign(result, { garbage, peak });
     runner.stop();
   });
-  return { count, pairs: Number(expected[0].split(' ')[0]), results };
+  return { count, pairs: Number(expected[0].split(' ')[0]), duel: met, results };
 }
 
 /** Notes why a contender gave no answer; says whether it gave one. */

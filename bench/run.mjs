@@ -29,6 +29,8 @@ import { techniqueTables } from './techniques.mjs';
 const here = fileURLToPath(new URL('.', import.meta.url));
 /** How much of the time given may be overrun, as a share. */
 const grace = 0.15;
+/** Every technique is also held against the others with so few boxes. */
+const few = 100;
 const { values: options, positionals } = parseArgs({
   allowPositionals: true,
   options: {
@@ -106,7 +108,9 @@ const counts = options.n ? list(options.n).map(Number) : undefined;
 /** Boxes a case is run with, ascending, since what is too slow for few is not tried with more. */
 const countsOf = (item) => {
   if (item.recording) return [0];
-  return counts ?? (whole || item.question ? item.counts : [100_000]);
+  if (counts) return counts;
+  if (everyTechnique) return [...new Set([few, ...item.counts])];
+  return options.full || item.question ? item.counts : [100_000];
 };
 
 const contenders = await describeAll();

@@ -49,8 +49,11 @@ export function spread(times) {
   return { mean: sum(times) / times.length, p95: quantile(times, 0.95), worst: Math.max(...times) };
 }
 
+/** A frame of fewer milliseconds counts as one of so many, where others are held against it. */
+const leastFrame = 0.02;
+
 /** How long frames took against the same frames of another: by the mean, and in the worst frame. */
 export function against(times, others) {
-  const worst = times.reduce((most, time, frame) => Math.max(most, time / others[frame]), 0);
+  const worst = times.reduce((most, time, frame) => Math.max(most, time / Math.max(leastFrame, others[frame])), 0);
   return { ratio: sum(times) / sum(others), worstRatio: worst };
 }

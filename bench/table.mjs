@@ -50,8 +50,11 @@ export function table(race) {
       .join('  ')
       .trimEnd(),
   );
+  if (race.duel) lines.push(`auto again, in turns: ${race.duel.against.map(metBy).join(', ')}`);
   return [titleOf(race), ...lines].join('\n');
 }
+
+const metBy = ({ name, ratio }) => `${short(ratio)}x ${name}`;
 
 function titleOf({ scene, question, still, count, pairs }) {
   if (!question) return `${scene}: ${whole(count)} boxes, ${whole(pairs)} pairs`;

@@ -1,9 +1,16 @@
 export interface Result {
   name: string;
   peer: string;
-  figures?: { median: number };
+  figures?: { median: number; range?: [number, number] };
+}
+
+export interface Duel {
+  ms: number;
+  rounds: number;
+  against: { name: string; ms: number; ratio: number }[];
 }
 
 export function autoAgainstBest(race: {
+  duel?: Duel;
   results: Result[];
 }): { best: string; slower: number; within: boolean } | undefined;

@@ -5,15 +5,23 @@ import { short, whole } from './table.mjs';
 /** What `auto` may take longer than the best: a share of it, and in milliseconds the call itself. */
 const allowed = { share: 0.1, ms: 0.02 };
 
-/** The best fixed technique of a race and how much longer `auto` took; undefined where either has no figure. */
-export function autoAgainstBest({ results }) {
+/**
+ * The best fixed technique of a race and how much longer `auto` took; undefined where either has no figure. Those that
+ * came near have met again, which is to be trusted; where none did, `auto` was far ahead.
+ */
+export function autoAgainstBest({ duel, results }) {
+  if (duel) {
+    const [{ name: best, ratio }] = [...duel.against].sort((a, b) => b.ratio - a.ratio);
+    return judged(best, duel.ms, duel.ms / ratio);
+  }
   const timed = results.filter(({ peer, figures }) => peer === 'broadphase' && figures);
   const auto = timed.find(({ name }) => name === 'auto');
   const [best] = timed.filter(({ name }) => name !== 'auto').sort((a, b) => a.figures.median - b.figures.median);
-  if (!auto || !best) return undefined;
-  const slower = auto.figures.median / best.figures.median - 1;
-  const within = auto.figures.median <= best.figures.median * (1 + allowed.share) + allowed.ms;
-  return { best: best.name, slower, within };
+  return auto && best && judged(best.name, auto.figures.median, best.figures.median);
+}
+
+function judged(best, auto, other) {
+  return { best, slower: auto / other - 1, within: auto <= other * (1 + allowed.share) + allowed.ms };
 }
 
 export function techniqueTables({ races }) {

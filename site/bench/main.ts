@@ -1,4 +1,5 @@
 // The page of the benchmark: what bench/ has measured, drawn, and the same in the reader's own browser.
+import { coherenceCells, coherenceVerdicts, type PlayedRow } from '../../bench/coherence-table.mjs';
 import { formatCount } from '../shared/format.ts';
 import { growth, heat, times } from './charts.ts';
 import { fillMenu, find, make, table } from './elements.ts';
@@ -18,6 +19,10 @@ const [scene, note] = [find<HTMLSelectElement>('growth-scene'), find('note')];
 const known = new Map<string, { all?: Results; techniques?: Results }>();
 
 function learn(results: Results, name = nameOf(results)): void {
+  if (results.coherence) {
+    showCoherence(results, results.coherence);
+    return;
+  }
   const mine = known.get(name) ?? {};
   mine[results.everyTechnique ? 'techniques' : 'all'] = results;
   known.set(name, mine);
@@ -119,6 +124,16 @@ function showHeat(races: readonly Race[]): void {
   );
 }
 
+/** The table and the goals that the command prints. */
+function showCoherence(results: Results, rows: readonly PlayedRow[]): void {
+  find('coherence').hidden = false;
+  find('coherence-machine').textContent = nameOf(results);
+  const { titles, rows: cells } = coherenceCells(rows);
+  const plain = (text: string) => text.replaceAll('`', '');
+  find('coherence-table').replaceChildren(table(titles.map(plain), cells));
+  find('coherence-goals').replaceChildren(table(['goal', 'figure', 'met'], coherenceVerdicts(rows)));
+}
+
 for (const menu of [machine, dimensions, count]) menu.addEventListener('change', show);
 scene.addEventListener('change', () => {
   const mine = known.get(machine.value);
@@ -130,7 +145,7 @@ find<HTMLInputElement>('file').addEventListener('change', async ({ target }) => 
   if (!file) return;
   try {
     learn(readResults(await file.text()), `${file.name}`);
-    machine.value = file.name;
+    if (known.has(file.name)) machine.value = file.name;
     show();
   } catch (error) {
     note.textContent = `${file.name} was not read: ${(error as Error).message}`;

@@ -1,4 +1,5 @@
 // Files of results, as bench/run.mjs writes them and as this page's own run does, and what can be read out of them.
+import type { PlayedRow } from '../../bench/coherence-table.mjs';
 
 export interface Figures {
   median: number;
@@ -29,6 +30,8 @@ export interface Race {
 export interface Results {
   date: string;
   machine: { cpu: string; cores: number; system: string; node?: string };
+  /** What an update costs when little changes: such a file has no races. */
+  coherence?: PlayedRow[];
   /** Our techniques among themselves, on more scenes. */
   everyTechnique?: boolean;
   races: Race[];
@@ -57,6 +60,7 @@ export function reference(race: Race): Timed | undefined {
 /** Reads a file of results; says what is wrong with one that is none. */
 export function readResults(text: string): Results {
   const found = JSON.parse(text) as Results;
+  if (found.machine && Array.isArray(found.coherence)) return { ...found, races: [] };
   const good =
     Array.isArray(found.races) &&
     found.races.every(({ scene, count, results }) => typeof scene === 'string' && count >= 0 && Array.isArray(results));

@@ -5,6 +5,7 @@ import { fileURLToPath } from 'node:url';
 import { expect, type Page, test } from '@playwright/test';
 
 const file = fileURLToPath(new URL('../fixtures/bench-results.json', import.meta.url));
+const coherence = fileURLToPath(new URL('../fixtures/bench-coherence.json', import.meta.url));
 const { races } = JSON.parse(readFileSync(file, 'utf8'));
 
 let faults: string[] = [];
@@ -68,6 +69,17 @@ test('growth has a line and a power for each contender, the heat map advice', as
   await expect(page.locator('#advice')).toContainText('best, or within 10 %');
 });
 
+test('what an update costs when little changes is a table, with the goals', async ({ page }) => {
+  await page.goto('/bench/');
+  await page.getByLabel('Results of your own').setInputFiles(coherence);
+  const part = page.getByRole('region', { name: 'When little changes' });
+  await expect(part).toContainText('Measured on A machine, 2026-11-21');
+  const rows = part.getByRole('region', { name: 'Figures, scene by scene' }).locator('tbody tr');
+  await expect(rows).toHaveCount(3);
+  await expect(rows.first()).toContainText('0.320 / 0.384 / 0.448');
+  await expect(part.getByRole('region', { name: 'Goals' })).toContainText('0 of 1; the worst: 0.31xno');
+});
+
 test('a file that is none is refused in words', async ({ page }) => {
   await page.goto('/bench/');
   await page
@@ -110,6 +122,8 @@ for (const [name, width, colorScheme] of [
     await page.setViewportSize({ width, height: 900 });
     await page.emulateMedia({ colorScheme });
     await openResults(page);
+    await page.getByLabel('Results of your own').setInputFiles(coherence);
+    await expect(page.locator('#coherence')).toBeVisible();
     const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     expect(overflow).toBeLessThanOrEqual(0);
     await page.screenshot({ path: `test-results/screens/bench-${name}.png`, fullPage: true });
