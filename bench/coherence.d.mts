@@ -14,6 +14,8 @@ export interface Times {
   worst: number;
   ratio?: number;
   worstRatio?: number;
+  /** From the first frame of the phase. */
+  worstFrame?: number;
 }
 export type Figures = Record<string, Times & { filling: Times; bytes: number }>;
 export interface Played {

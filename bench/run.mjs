@@ -23,6 +23,7 @@ import { libraryFigures } from './library-figures.mjs';
 import { machine, machineName } from './machine.mjs';
 import { markdown } from './markdown.mjs';
 import { race, start } from './race.mjs';
+import { guessTime } from './statistics.mjs';
 import { table } from './table.mjs';
 import { techniqueTables } from './techniques.mjs';
 
@@ -134,7 +135,7 @@ async function playAll() {
   const all = rows(loadCases(), options.traces);
   const wanted = (given, value) => !given || list(given).includes(String(value));
   const chosen = all.filter(
-    ({ name, scene, count }) => wanted(options.scenes, scene ?? name) && wanted(options.n, count),
+    ({ name, scene, trick, count }) => wanted(options.scenes, trick ?? scene ?? name) && wanted(options.n, count),
   );
   if (chosen.length === 0) fail(`No row is of scene "${options.scenes}" with ${options.n ?? 'any number of'} boxes.`);
   const done = await coherence(chosen, { seed, playings: rounds }, (row) => console.log(coherenceLine(row)));
@@ -214,22 +215,24 @@ function dimensionsOf({ name }) {
   return name.includes('3d') ? 3 : 2;
 }
 
-/** Leaves out who, by its time for fewer boxes of the same scene, would take too long: time grows at least as they do. */
+/** Leaves out who, by its times for fewer boxes of the same scene, would take too long. */
 function sift(ready, item, count, done) {
   const entering = [];
   const left = [];
-  const before = done.findLast(({ scene }) => scene === item.name);
+  const before = done.filter(({ scene }) => scene === item.name);
   for (const contender of ready) {
     const { name, peer, variant } = contender;
-    const earlier = before?.results.find((result) => result.name === name);
-    const guess = earlier?.figures && (earlier.figures.median * count) / before.count;
+    const found = before.map((race) => race.results.find((result) => result.name === name));
+    const earlier = found.at(-1);
+    const points = before.map((race, k) => ({ count: race.count, ms: found[k]?.figures?.median }));
+    const guess = guessTime(points, count);
     if (earlier?.skipped) left.push({ name, peer, variant, skipped: earlier.skipped });
     else if (guess > slowest)
       left.push({
         name,
         peer,
         variant,
-        skipped: `over ${Math.round(guess / 100) / 10} s a frame, by its ${before.count.toLocaleString('en')}`,
+        skipped: `over ${Math.round(guess / 100) / 10} s a frame, by its ${before.at(-1).count.toLocaleString('en')}`,
       });
     else entering.push(contender);
   }

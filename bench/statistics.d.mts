@@ -14,4 +14,11 @@ export function change(
 ): { ratio: number; beyondNoise: boolean };
 export function leastOfEach(playings: readonly (readonly number[])[]): number[];
 export function spread(times: readonly number[]): { mean: number; p95: number; worst: number };
-export function against(times: readonly number[], others: readonly number[]): { ratio: number; worstRatio: number };
+export function against(
+  times: readonly number[],
+  others: readonly number[],
+): { ratio: number; worstRatio: number; worstFrame: number };
+export function guessTime(
+  points: readonly { count: number; ms: number | undefined }[],
+  count: number,
+): number | undefined;

@@ -52,8 +52,22 @@ export function spread(times) {
 /** A frame of fewer milliseconds counts as one of so many, where others are held against it. */
 const leastFrame = 0.02;
 
-/** How long frames took against the same frames of another: by the mean, and in the worst frame. */
+/** How long frames took against the same frames of another: by the mean, and in the worst frame, and which that is. */
 export function against(times, others) {
-  const worst = times.reduce((most, time, frame) => Math.max(most, time / Math.max(leastFrame, others[frame])), 0);
-  return { ratio: sum(times) / sum(others), worstRatio: worst };
+  const ratios = times.map((time, frame) => time / Math.max(leastFrame, others[frame]));
+  const worstRatio = Math.max(...ratios);
+  return { ratio: sum(times) / sum(others), worstRatio, worstFrame: ratios.indexOf(worstRatio) };
+}
+
+/** Times for few boxes are too short to tell how they grow. */
+const fewest = 1000;
+
+/** What more boxes will take at least, by the times for fewer, ascending: it grows as before, from n to n^2. */
+export function guessTime(points, count) {
+  const last = points.at(-1);
+  if (last?.ms === undefined) return undefined;
+  const before = points.at(-2);
+  const steps = before?.ms !== undefined && before.count >= fewest && Math.log(last.count / before.count);
+  const power = steps ? Math.log(last.ms / before.ms) / steps : 1;
+  return last.ms * (count / last.count) ** Math.min(2, Math.max(1, power));
 }

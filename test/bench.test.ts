@@ -8,7 +8,7 @@ import { coherenceGoals } from '../bench/coherence-table.mjs';
 import { duellists, verdict } from '../bench/duel.mjs';
 import { fingerprint } from '../bench/fingerprint.mjs';
 import { openPlay } from '../bench/plays.mjs';
-import { against, change, leastOfEach, spread, summary } from '../bench/statistics.mjs';
+import { against, change, guessTime, leastOfEach, spread, summary } from '../bench/statistics.mjs';
 import { autoAgainstBest } from '../bench/techniques.mjs';
 
 test('a fingerprint depends on the pairs, not on their order', () => {
@@ -34,6 +34,25 @@ test('the headline is the median of the rounds, the rest is over all frames', ()
     ]),
   ).toEqual({ median: 2, mean: 8, p95: 30, worst: 30, range: [2, 20], frames: 6 });
   expect(summary([[1], [3]]).median).toBe(2);
+});
+
+test('what more boxes will take: by how it grew before, at least as they do and at most as their square', () => {
+  const points = (...ms: (number | undefined)[]) => ms.map((each, k) => ({ count: 1000 * 10 ** k, ms: each }));
+  expect(guessTime(points(1, 50), 1e5)).toBeCloseTo(2500);
+  expect(guessTime(points(1, 500), 1e5)).toBeCloseTo(50_000);
+  expect(guessTime(points(1, 2), 1e5)).toBeCloseTo(20);
+  expect(guessTime(points(3), 10_000)).toBeCloseTo(30);
+  expect(guessTime(points(1, undefined), 1e5)).toBeUndefined();
+  expect(guessTime([], 1e5)).toBeUndefined();
+  expect(
+    guessTime(
+      [
+        { count: 100, ms: 1 },
+        { count: 1000, ms: 50 },
+      ],
+      10_000,
+    ),
+  ).toBeCloseTo(500);
 });
 
 test('a change is beyond the noise when no round of one lies among those of the other, and it is worth a mark', () => {
@@ -96,7 +115,7 @@ test('of a frame that was played several times the least counts, and a worst fra
   ]);
   expect(times).toEqual([1, 4, 3]);
   expect(spread(times)).toEqual({ mean: 8 / 3, p95: 4, worst: 4 });
-  expect(against(times, [2, 2, 4])).toEqual({ ratio: 1, worstRatio: 2 });
+  expect(against(times, [2, 2, 4])).toEqual({ ratio: 1, worstRatio: 2, worstFrame: 1 });
   expect(against([0.001, 0.01], [0.00001, 0.01])).toMatchObject({ worstRatio: 0.5 }); // far less than a frame
 });
 
@@ -148,16 +167,11 @@ test('a row of little change: the filling apart from what comes after, each agai
   const facts = { count: 9, pairs: 3, kept: 1, playings: 1, bytes: { 'strip-sweep': 50, auto: 60, incremental: 70 } };
   const { figures } = judge({ ...facts, times: [of(2, 4), of(3, 1), of(2, 8)] });
   const even = (time: number) => ({ mean: time, p95: time, worst: time });
+  const all = (ratio: number) => ({ ratio, worstRatio: ratio, worstFrame: 0 });
   expect(figures).toEqual({
     'strip-sweep': { ...even(4), filling: even(2), bytes: 50 },
-    auto: {
-      ...even(1),
-      ratio: 0.25,
-      worstRatio: 0.25,
-      filling: { ...even(3), ratio: 1.5, worstRatio: 1.5 },
-      bytes: 60,
-    },
-    incremental: { ...even(8), ratio: 2, worstRatio: 2, filling: { ...even(2), ratio: 1, worstRatio: 1 }, bytes: 70 },
+    auto: { ...even(1), ...all(0.25), filling: { ...even(3), ...all(1.5) }, bytes: 60 },
+    incremental: { ...even(8), ...all(2), filling: { ...even(2), ...all(1) }, bytes: 70 },
   });
 
   const row = { name: 'static2d', kind: 'static', nativeMs: 2, ...facts, figures };
