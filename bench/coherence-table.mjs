@@ -29,20 +29,10 @@ export const coherenceVerdicts = (rows) =>
     met === undefined ? 'not measured' : met ? 'yes' : 'no',
   ]);
 
-export function coherenceMarkdown({ machine, date, coherence }) {
+export function coherenceTable(played) {
   const row = (cells) => `| ${cells.join(' | ')} |`;
-  const { titles, rows } = coherenceCells(coherence);
-  return [
-    `Milliseconds per frame, one thread, on ${machine.cpu} (${machine.system}, Node ${machine.node}), ${date.slice(0, 10)}.`,
-    '',
-    row(titles),
-    row(columns.map(([, rule]) => rule)),
-    ...rows.map(row),
-    '',
-    '| goal | figure | met |',
-    '| --- | --- | --- |',
-    ...coherenceVerdicts(coherence).map(row),
-  ].join('\n');
+  const { titles, rows } = coherenceCells(played);
+  return [row(titles), row(columns.map(([, rule]) => rule)), ...rows.map(row)].join('\n');
 }
 
 /** A row while others are still being played. */

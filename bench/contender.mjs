@@ -3,7 +3,8 @@
 //   { prepare: { … } }        ->  makes the scene and the contender, runs and checks the first frames:
 //                                 { fingerprints, wrong } or { unable } or { slow: milliseconds of a frame }
 //   { warmUp: milliseconds }  ->  { frames } that were run: for so long, and until what is kept has settled
-//   { round: { … } }          ->  { times } in milliseconds of each frame, and what its own profiler says, { own }
+//   { round: { … } }          ->  { times } in milliseconds of each frame, the { share } of the time that the process had
+//                                 the processor, and what its own profiler says, { own }
 //   { catchUp: frames }       ->  { played } frames in all, once it has run as many as that
 //   { turn: frames }          ->  { ms } on the processor, of a frame
 //   { finish: milliseconds }  ->  { garbage: bytes of JavaScript heap allocated per frame, peak: bytes of memory }
@@ -37,6 +38,15 @@ function timedFrame() {
   const start = performance.now();
   sink += contender.update(scene.boxes);
   return performance.now() - start;
+}
+
+/** Starts a clock that says which share of the time since then the process had the processor: the rest is others'. */
+function shareClock() {
+  const [before, start] = [process.cpuUsage(), performance.now()];
+  return () => {
+    const { user, system } = process.cpuUsage(before);
+    return Math.min(1, (user + system) / 1000 / (performance.now() - start));
+  };
 }
 
 const actions = {
@@ -90,12 +100,13 @@ const actions = {
   round({ frames, budget }) {
     const times = [];
     let own = 0;
+    const share = shareClock();
     const end = performance.now() + budget;
     while (times.length === 0 || (times.length < frames && performance.now() < end)) {
       times.push(timedFrame());
       own += contender.own?.() ?? 0;
     }
-    return { times, own: contender.own && own / times.length, sink };
+    return { times, share: share(), own: contender.own && own / times.length, sink };
   },
 
   catchUp(frames) {
@@ -105,13 +116,10 @@ const actions = {
 
   turn(frames) {
     timedFrame(); // another has just been at work: the caches are his
-    const [before, start] = [process.cpuUsage(), performance.now()];
+    const share = shareClock();
     let spent = 0;
     for (let frame = 0; frame < frames; frame++) spent += timedFrame();
-    // The clock tells short frames apart, but runs on while others have the processor: their share is taken out.
-    const { user, system } = process.cpuUsage(before);
-    const share = Math.min(1, (user + system) / 1000 / (performance.now() - start));
-    return { ms: (share * spent) / frames };
+    return { ms: (share() * spent) / frames };
   },
 
   async finish(milliseconds) {

@@ -5,7 +5,7 @@
 import { median } from './statistics.mjs';
 
 /** Who took longer than `auto` by more than this is not asked again; of the others no more than so many. */
-const [near, most] = [2, 3];
+const [near, most] = [1.6, 4];
 const rounds = 15;
 /** After so many rounds and milliseconds it is enough. */
 const [least, patience] = [7, 3000];
@@ -13,17 +13,17 @@ const [least, patience] = [7, 3000];
 const turn = 20;
 const mostFrames = 5000;
 
-/** What a contender took in its best round: others may have disturbed the rest. */
-const bestRound = ({ figures }) => figures.range[0];
-
-/** `auto` and those it meets again, the fastest first; none where all others were far behind. */
+/**
+ * `auto` and those it meets again, the fastest first; none where all others were far behind.
+ * @param results of a race. `atWork`: milliseconds a frame that the process had the processor, in its best round
+ */
 export function duellists(results) {
   const timed = results.filter(({ peer, figures, wrong }) => peer === 'broadphase' && figures && !wrong);
   const auto = timed.find(({ name }) => name === 'auto');
   if (!auto) return [];
   const others = timed
-    .filter((each) => each !== auto && bestRound(each) <= near * bestRound(auto))
-    .sort((a, b) => bestRound(a) - bestRound(b))
+    .filter((each) => each !== auto && each.atWork <= near * auto.atWork)
+    .sort((a, b) => a.atWork - b.atWork)
     .slice(0, most);
   return others.length > 0 ? [auto, ...others] : [];
 }
@@ -36,7 +36,7 @@ export function duellists(results) {
 export async function duel(results, ask) {
   const entrants = duellists(results);
   if (entrants.length === 0) return undefined;
-  const frames = Math.max(1, Math.min(mostFrames, Math.round(turn / bestRound(entrants[0]))));
+  const frames = Math.max(1, Math.min(mostFrames, Math.round(turn / entrants[0].atWork)));
   // All go on from the frame that the fastest has reached.
   const reached = [];
   for (const entrant of entrants) reached.push((await ask(entrant, 'catchUp', 0)).played ?? 0);

@@ -87,6 +87,8 @@ export async function race(contenders, setting, { rounds, frames, budget, slowes
         continue;
       }
       rounds.push(answer.times);
+      const mean = answer.times.reduce((sum, time) => sum + time, 0) / answer.times.length;
+      result.atWork = Math.min(answer.share * mean, result.atWork ?? Infinity);
       if (answer.own !== undefined) own.push(answer.own);
     }
   }

@@ -6,7 +6,7 @@
 //   npm run bench -- --full                      all there is, within 35 minutes, into results/<machine>.json
 //   npm run bench -- --techniques all            every technique on every scene, within 20 minutes, no peers
 //   npm run bench -- --compare before.json after.json
-//   npm run bench -- --markdown [results.json]
+//   npm run bench -- --markdown [results.json]   its tables; or docs/figures.md, out of all this machine's results
 // One process per contender and case, pairs checked before anything is timed, rounds in turns. See README.md.
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
@@ -17,15 +17,14 @@ import { bundle } from '../scripts/bundle.mjs';
 import { compile } from '../scripts/compile.mjs';
 import { loadCases, questionCases } from './cases.mjs';
 import { coherence, rows } from './coherence.mjs';
-import { coherenceLine, coherenceMarkdown } from './coherence-table.mjs';
+import { coherenceLine } from './coherence-table.mjs';
 import { compare } from './compare.mjs';
 import { libraryFigures } from './library-figures.mjs';
 import { machine, machineName } from './machine.mjs';
-import { markdown } from './markdown.mjs';
+import { figures, markdown } from './markdown.mjs';
 import { race, start } from './race.mjs';
 import { guessTime } from './statistics.mjs';
 import { table } from './table.mjs';
-import { techniqueTables } from './techniques.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
 /** How much of the time given may be overrun, as a share. */
@@ -57,17 +56,22 @@ const { values: options, positionals } = parseArgs({
 /** Every technique on every scene, instead of against others. */
 const everyTechnique = options.techniques === 'all';
 const kind = everyTechnique ? '-techniques' : options.queries ? '-queries' : options.coherence ? '-coherence' : '';
-const resultsFile = `${here}results/${machineName}${kind}.json`;
+const fileOf = (ending) => `${here}results/${machineName}${ending}.json`;
+const resultsFile = fileOf(kind);
 const whole = options.full || everyTechnique;
 const list = (text) => text.split(',').filter(Boolean);
 const read = (file) => JSON.parse(readFileSync(file, 'utf8'));
+const readIfThere = (file) => (existsSync(file) ? read(file) : undefined);
 
-if (options.compare || options.markdown) {
-  const files = positionals.length > 0 ? positionals : [resultsFile];
-  if (options.compare && files.length !== 2) fail('--compare takes two files of results: before and after.');
-  const [first, second] = files.map(read);
-  const show = first.coherence ? coherenceMarkdown : first.everyTechnique ? techniqueTables : markdown;
-  console.log(options.compare ? compare(first, second) : show(first, loadCases()));
+if (options.compare) {
+  if (positionals.length !== 2) fail('--compare takes two files of results: before and after.');
+  console.log(compare(read(positionals[0]), read(positionals[1])));
+  process.exit();
+}
+if (options.markdown) {
+  const [full, techniques, coherence] = ['', '-techniques', '-coherence'].map(fileOf).map(readIfThere);
+  const given = positionals.map((file) => markdown(read(file), loadCases()));
+  console.log(given.length > 0 ? given.join('\n\n') : figures({ full, techniques, coherence }, loadCases()));
   process.exit();
 }
 
@@ -120,7 +124,7 @@ const minutes = Number(options.minutes ?? (everyTechnique ? 20 : options.full ? 
 const races = await raceAll();
 const record = { date: new Date().toISOString(), machine, versions: versions(), settings, everyTechnique, races };
 if (options.full) record.library = await libraryFigures();
-if (everyTechnique) console.log(`${techniqueTables(record)}\n`);
+if (everyTechnique) console.log(`${markdown(record, cases)}\n`);
 save(options.json ?? (whole || options.queries ? resultsFile : undefined), record);
 
 function save(output, record) {
@@ -140,7 +144,7 @@ async function playAll() {
   if (chosen.length === 0) fail(`No row is of scene "${options.scenes}" with ${options.n ?? 'any number of'} boxes.`);
   const done = await coherence(chosen, { seed, playings: rounds }, (row) => console.log(coherenceLine(row)));
   const record = { date: new Date().toISOString(), machine, settings: { rounds, seed }, coherence: done };
-  console.log(`\n${coherenceMarkdown(record)}\n`);
+  console.log(`\n${markdown(record, loadCases())}\n`);
   save(options.json ?? (chosen.length === all.length ? resultsFile : undefined), record);
 }
 

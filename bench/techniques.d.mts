@@ -1,7 +1,8 @@
 export interface Result {
   name: string;
   peer: string;
-  figures?: { median: number; range?: [number, number] };
+  figures?: { median: number };
+  atWork?: number;
 }
 
 export interface Duel {

@@ -33,7 +33,8 @@ export function techniqueTables({ races }) {
 }
 
 function tableOf(races) {
-  const names = [...new Set(races.flatMap(({ results }) => results.map(({ name }) => name)))];
+  const ours = races.flatMap(({ results }) => results.filter(({ peer }) => peer === 'broadphase'));
+  const names = [...new Set(ours.map(({ name }) => name))];
   const row = (cells) => `| ${cells.join(' | ')} |`;
   const lines = [
     `${races[0].dimensions}D: milliseconds per frame, mean / p95; the best in bold.`,

@@ -1,5 +1,6 @@
 // The benchmark's own parts that a wrong figure could hide in: the fingerprint of a set of pairs, the statistics, what is
-// played where little changes.
+// played where little changes, and the page that is made of it.
+import { readFileSync } from 'node:fs';
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { loadCases } from '../bench/cases.mjs';
@@ -7,6 +8,7 @@ import { judge, phases, rows } from '../bench/coherence.mjs';
 import { coherenceGoals } from '../bench/coherence-table.mjs';
 import { duellists, verdict } from '../bench/duel.mjs';
 import { fingerprint } from '../bench/fingerprint.mjs';
+import { figures } from '../bench/markdown.mjs';
 import { openPlay } from '../bench/plays.mjs';
 import { against, change, guessTime, leastOfEach, spread, summary } from '../bench/statistics.mjs';
 import { autoAgainstBest } from '../bench/techniques.mjs';
@@ -76,17 +78,13 @@ test('auto is held against the best of our fixed techniques, with 10 % and 0.02 
   expect(autoAgainstBest({ results: [{ name: 'auto', peer: 'broadphase' }] })).toBeUndefined();
 });
 
-test('who came near auto, or was ahead, meets it again: the fastest three', () => {
+test('who came near auto, or was ahead, meets it again: the fastest four', () => {
   const of = (times: Record<string, number>, peer = 'broadphase') =>
-    Object.entries(times).map(([name, ms]) => ({
-      name,
-      peer,
-      figures: { median: 9, range: [ms, 9] as [number, number] },
-    }));
+    Object.entries(times).map(([name, atWork]) => ({ name, peer, atWork, figures: { median: 9 } }));
   const met = (times: Record<string, number>) =>
     duellists([...of(times), ...of({ peer: 0.1 }, 'peer')]).map(({ name }) => name);
   expect(met({ a: 3, auto: 1, b: 1.3, c: 0.2 })).toEqual(['auto', 'c', 'b']);
-  expect(met({ a: 1, auto: 1, b: 1.3, c: 0.2, d: 0.9 })).toEqual(['auto', 'c', 'd', 'a']);
+  expect(met({ a: 1, e: 1.1, auto: 1, b: 1.3, c: 0.2, d: 0.9 })).toEqual(['auto', 'c', 'd', 'a', 'e']);
   expect(met({ a: 2.1, auto: 1 })).toEqual([]);
   expect(met({ a: 1 })).toEqual([]);
 });
@@ -181,4 +179,24 @@ test('a row of little change: the filling apart from what comes after, each agai
   const native = goals.find(({ goal }) => goal.startsWith('5 % move: the time'));
   expect(native).toMatchObject({ figure: '1 of 2; the worst: 2.00x (another, 9)', met: false });
   expect(met['100,000 still and 1,000 moving: 0.1 ms']).toBeUndefined();
+});
+
+test('the page of figures has the goals and tables of what there is, our own techniques alone side by side', () => {
+  const fixture = (name: string) =>
+    JSON.parse(readFileSync(new URL(`./fixtures/${name}.json`, import.meta.url), 'utf8'));
+  const full = fixture('bench-results');
+  const coherence = fixture('bench-coherence');
+  const page = figures({ full, coherence }, loadCases());
+  const titles = page.split('\n').filter((line) => line.startsWith('#'));
+  expect(titles).toEqual(['# Figures', '## Goals', '## Against packages', '## When little changes', '## Techniques']);
+  expect(page).toContain('| 100,000 still and 1,000 moving: 0.1 ms | 0 of 1; the worst: 0.320 ms | no |');
+  expect(page).toContain('| one huge mover | 100,000 | 5,000 | 2.20 | 0.300 / 0.360 / 0.420 | 0.14x |');
+  expect(page.split('## Techniques')[1]).not.toContain('tutorial');
+
+  const auto = { name: 'auto', peer: 'broadphase', figures: { median: 9, mean: 9, p95: 9 } };
+  const duel = { ms: 1, rounds: 15, against: [{ name: 'strip-sweep', ms: 1, ratio: 1 }] };
+  const races = [{ ...full.races[0], duel, results: [auto] }];
+  const goal = 'than the best technique | ';
+  expect(figures({ full, coherence, techniques: { ...full, races } }, loadCases())).toContain(`${goal}1 of 1 | yes |`);
+  expect(figures({ coherence }, loadCases())).not.toContain(goal);
 });
