@@ -61,8 +61,9 @@ template <> struct Item<3> {
   f32x4 low;   // min sweep, min binned 1, min binned 2, the tag's bits
   f32x4 high;  // max sweep, max binned 1, max binned 2, unused
 
-  f32x4 first() const { return low; }
-  f32x4 size() const { return high - low; }
+  /// The minima without the tag, which as a number is denormal: many processors calculate with those ten times as slowly.
+  f32x4 first() const { return bits<f32x4>(bits<u32x4>(low) & u32x4{~0u, ~0u, ~0u, 0}); }
+  f32x4 size() const { return high - first(); }
   f32 lo(int axis) const { return low[axis]; }
   f32 hi(int axis) const { return high[axis]; }
 };

@@ -83,7 +83,7 @@ template <int D> struct Grid {
       u32x4 cells = axes(item.box);
       return {cells, __builtin_shufflevector(cells, cells, 2, 3, 2, 3)};
     } else {
-      return {axes(item.low), axes(item.high)};
+      return {axes(item.first()), axes(item.high)};
     }
   }
 

@@ -22,9 +22,11 @@ template <int D> class LongSweep {
   Buffer<Near> near_;
 
  public:
-  /// Tests each item of [first, last), which stand in ascending order of their minima along axis 0 and are the last of
-  /// all, against those that start before it ends, and appends the pairs. Returns the number of tests.
-  NOINLINE u64 find(const Lanes<D>& from, const Statistics<D>& world, u32 first, u32 last, Pairs& pairs) {
+  /// Tests each item of [first, last), which are the last of all, against those behind it and before its `end`, and
+  /// appends the pairs. Where the items stand in ascending order of their minima along axis 0, `sorted`, no `end` is
+  /// needed: those are tested that start before it ends. Returns the number of tests, but only then.
+  template <bool sorted = true>
+  NOINLINE u64 find(const Lanes<D>& from, const Statistics<D>& world, u32 first, u32 last, Pairs& pairs, const u32* end = nullptr) {
     u32 stride = last - first + block + 8;
     i16* row = cells_.reserve(u64(stride) * 2 * (D - 1));
     const i16* least[D - 1];
@@ -45,7 +47,7 @@ template <int D> class LongSweep {
     u64 tests = 0;
     i32x4 counted = {};
     for (u32 i = first; i < last; i++) {
-      f32 end = lanes.hi[0][i];
+      f32 reach = lanes.hi[0][i];
       i16x8 low[D - 1], high[D - 1];
       for (int a = 0; a < D - 1; a++) {
         low[a] = splat(least[a][i]);
@@ -62,9 +64,11 @@ template <int D> class LongSweep {
         *out = {i, j, which};
         out += which != 0;
         j += block;
-      } while (lanes.lo[0][j - 1] <= end);
-      for (u32 k = j - block; k < j; k += 4) counted -= load<f32x4>(lanes.lo[0] + k) <= splat(end);
-      tests += j - block - i - 1;
+      } while (sorted ? lanes.lo[0][j - 1] <= reach : j < end[i]);
+      if constexpr (sorted) {
+        for (u32 k = j - block; k < j; k += 4) counted -= load<f32x4>(lanes.lo[0] + k) <= splat(reach);
+        tests += j - block - i - 1;
+      }
       if (out < near + enough) continue;
       test(lanes, near, out, pairs);
       out = near;
@@ -81,7 +85,7 @@ template <int D> class LongSweep {
 
  private:
   /// The cells of `count` coordinates, and of the padding behind them.
-  static void round(const Axis& axis, const f32* from, i16* to, u32 count) {
+  NOINLINE static void round(const Axis& axis, const f32* from, i16* to, u32 count) {
     Axes axes(axis, axis, axis, axis);
     for (u32 k = 0; k < count + block; k += 8) {
       u32x4 low = axes(load<f32x4>(from + k)) - splat(cells / 2), high = axes(load<f32x4>(from + k + 4)) - splat(cells / 2);

@@ -4,9 +4,8 @@
 // of a sort do. Where the cells turn out uneven (outliers, clusters) the list is radix-sorted instead.
 // Cost: about 10 ns an item, then the tests; 40 (2D) or 64 (3D) bytes an item of the longest list.
 #pragma once
+#include "long_sweep.hpp"
 #include "radix_sort.hpp"
-#include "statistics.hpp"
-#include "sweep.hpp"
 
 template <int D> class SweptList {
   // Cells hold one item on average; above this many squared they are given up for a sort.
@@ -18,6 +17,7 @@ template <int D> class SweptList {
   Buffer<u32> starts_;   // per cell, where its items begin, later: end
   Buffer<u32> end_;      // per ordered item, how far to look
   RadixSort sort_;
+  LongSweep<D> long_sweep_;
 
  public:
   /// Orders the items; returns the number of tests that `find` will make.
@@ -40,6 +40,7 @@ template <int D> class SweptList {
     for (u32 k = whole; k < count; k++) starts[cells[k] = axis(items[k].lo(0))]++;
     u32 at = 0;
     u64 crowd = 0;  // the sum of the squares: what the unsorted cells cost
+    ROLLED
     for (u32 c = 0; c < count; c++) {
       u32 size = starts[c];
       starts[c] = at;
@@ -47,6 +48,7 @@ template <int D> class SweptList {
       crowd += u64(size) * size;
     }
     ItemsAt<D> ordered(ordered_, 0);
+    ROLLED
     for (u32 k = 0; k < count; k++) ordered.put(starts[cells[k]]++, items[k]);
     lanes_.fill(ordered, count);
 
@@ -59,6 +61,7 @@ template <int D> class SweptList {
       u32x4 until = {starts[at[0]], starts[at[1]], starts[at[2]], starts[at[3]]};
       store(end + k, until);
     }
+    ROLLED
     for (u32 k = 0; k < count; k++) tests += end[k] - k - 1;
     if (crowd > uneven * count && 3 * crowd > tests) return order_by_sorting(items, count);
     return tests;
@@ -66,6 +69,11 @@ template <int D> class SweptList {
 
   /// Appends the pairs of the items that were ordered last.
   void find(u32 count, Pairs& pairs) const { sweep<D>(lanes_, end_.data(), count, pairs); }
+
+  /// The same where items look far and few of those they meet overlap. `world`: where most of them are.
+  COLD void find_few(const Statistics<D>& world, u32 count, Pairs& pairs) requires(D == 3) {
+    long_sweep_.template find<false>(lanes_, world, 0, count, pairs, end_.data());
+  }
 
   /// Puts some of the ordered items into `out`; gives their bounds.
   Item<D> bounds(u32 from, u32 until, const ItemsAt<D>& out) const {
@@ -79,20 +87,20 @@ template <int D> class SweptList {
     return all;
   }
 
-  /// Whether most of the tests that the sweep is about to make would be misses, by a sample of them.
-  COLD bool wasteful(u32 count) const {
+  /// Of the tests that the sweep is about to make, which share would hit, by a sample of them.
+  COLD f64 hits(u32 count) const {
     LaneView<D> view = lanes_.view();
-    u32 hits = 0, tried = 0;
+    u64 hits = 0, tried = 0;
     u32 stride = larger(1u, count / 32);
     for (u32 i = stride / 2; i < count; i += stride) {
       Probe<D> probe(view, i);
       u32 until = end_[i], step = larger(4u, (until - i) / 8);
       for (u32 j = i + 1; j + 4 <= until; j += step) {
-        hits += detail::bits_set[bitmask(probe.hits(view, j, load<u32x4>(view.tag + j)))];
-        tried += 4;
+        hits += u64(step) * detail::bits_set[bitmask(probe.hits(view, j, load<u32x4>(view.tag + j)))];
+        tried += u64(step) * 4;
       }
     }
-    return hits * 4 < tried;
+    return f64(hits) / larger(f64(tried), 1.0);
   }
 
   COLD void release() {
@@ -102,15 +110,18 @@ template <int D> class SweptList {
     starts_.release();
     end_.release();
     sort_.release();
+    long_sweep_.release();
   }
 
  private:
   /// The same by a full sort: for strips where cells of one size do not fit.
   u64 order_by_sorting(const ItemsAt<D>& items, u32 count) {
     sort_.begin(count);
+    ROLLED
     for (u32 k = 0; k < count; k++) sort_.put(k, items[k].lo(0));
     sort_.sort(count);
     ItemsAt<D> ordered(ordered_, 0);
+    ROLLED
     for (u32 k = 0; k < count; k++) ordered.put(k, items[sort_.index(k)]);
     lanes_.fill(ordered, count);
     const f32* lo = lanes_.lo(0);
@@ -139,6 +150,7 @@ template <int D> class SweptList {
   /// Cells along the sweep axis, as many as there are items, over the range of those that are finite.
   static Axis axis_of(const ItemsAt<D>& items, u32 count) {
     f32x4 least = items[0].first(), most = least;
+    ROLLED
     for (u32 k = 1; k < count; k++) {
       f32x4 x = items[k].first();
       least = min(least, x);
@@ -148,6 +160,7 @@ template <int D> class SweptList {
     if (!detail::is_finite(low) || !detail::is_finite(high)) {
       low = __builtin_inff();
       high = -low;
+      ROLLED
       for (u32 k = 0; k < count; k++) {
         f32 x = items[k].lo(0);
         if (!detail::is_finite(x)) continue;

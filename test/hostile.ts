@@ -77,6 +77,17 @@ export function hostileCases(dimensions: 2 | 3): Case[] {
       }),
     );
   }
+  add('needles along all axes, some of no end, and outliers', (random) => [
+    ...many(600, (k) =>
+      axes.map((axis) => {
+        const min = integer(random, 120);
+        return axis === k % dimensions ? extent(min - 200, 250) : extent(min, 0.5);
+      }),
+    ),
+    ...many(9, (k) => axes.map((axis) => (axis === k % dimensions ? everything : extent(integer(random, 120), 2)))),
+    cube(1e9, 1e9 + 1),
+    cube(-1e9, -1e9 + 1),
+  ]);
   add('one box over everything', (random) => [...spread(random, 1500, 0, 500, 10), cube(-1, 511)]);
   add('one small box among boxes in descending order', () => [
     cube(7.5, 7.6),

@@ -133,8 +133,7 @@ template <int D> class HierarchicalGrid {
       f32x4 turned = __builtin_shufflevector(item.box, item.box, 2, 3, 0, 1);
       most = max(magnitude(turned - item.box), magnitude(item.box * tiny));
     } else {
-      most = max(magnitude(item.high - item.low), max(magnitude(item.high * tiny), magnitude(item.low * tiny)));
-      most &= u32x4{~0u, ~0u, ~0u, 0};
+      most = max(magnitude(item.size()), max(magnitude(item.high * tiny), magnitude(item.first() * tiny)));
     }
     most = max(most, __builtin_shufflevector(most, most, 2, 3, 0, 1));
     return larger(most[0], most[1]) >> 23;

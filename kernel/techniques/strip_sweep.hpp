@@ -28,6 +28,8 @@ template <int D> class StripSweep {
   static constexpr u32 deepest = 6;
   // A strip is looked at again where it has this many candidates an item, and this many in all.
   static constexpr u64 again_factor = D == 2 ? 24 : 48, again_least = 8192;
+  // ... where no more than this share of them are hits. Where still fewer are, sixteen are tested at a time.
+  static constexpr f64 wasteful = 0.25, rare = 0.06;
   // A cut after which there would be more entries than this for each box is not made.
   static constexpr u64 most_copies = 8;
 
@@ -66,7 +68,7 @@ template <int D> class StripSweep {
       u32x4 strips = axes(item.box);
       return {strips[1] | strips[3] << 16};
     } else {
-      u32x4 strips = axes(item.low) | axes(item.high) << 8;
+      u32x4 strips = axes(item.first()) | axes(item.high) << 8;
       return {strips[1] | strips[2] << 16};
     }
   }
@@ -97,7 +99,7 @@ template <int D> class StripSweep {
     ItemsAt<D> all(entries_, 0);
     for (u32 k = 0; k < scene.count; k++) all.put(k, items[k]);
     stats.entries = scene.count;
-    list(all, scene.count, everywhere(), scene.count, 0, pairs);
+    list(all, scene.count, everywhere(), scene.count, cuts ? deepest : 0, pairs);
   }
 
   // An update in parts, which need not all be of one moment: `begin`, `count` all boxes, `add_up`, `enter` all, and
@@ -333,9 +335,9 @@ template <int D> class StripSweep {
       total += here;
       tests += f64(here) * here;
     }
-    // It pays when it saves half of the tests, or when it copies little: then it closes in on a crowd, for the
+    // It pays when it saves a third of the tests, or when it copies little: then it closes in on a crowd, for the
     // next cut to spread it.
-    bool pays = tests * 2 < f64(size) * size || (total - base) * 2 < size * 3;
+    bool pays = tests * 3 < 2 * f64(size) * size || (total - base) * 2 < size * 3;
     return pays && total <= most_copies * boxes_;
   }
 
@@ -409,19 +411,25 @@ template <int D> class StripSweep {
   void list(const ItemsAt<D>& items, u32 count, const Region& region, u32 base, u32 depth, Pairs& pairs) {
     u64 tests = swept_.order(items, count);
     if (in_parts_ && depth == 1) bound(items, count);
-    if (depth < deepest && tests > again_factor * count && tests > again_least && swept_.wasteful(count)) {
-      Statistics<D> part = measure<D>(items, count);
+    f64 hits = tests > again_factor * count && tests > again_least ? swept_.hits(count) : 1;
+    Statistics<D> part;
+    if (hits < wasteful) {
+      part = measure<D>(items, count);
       for (int a = 1; a < D; a++) {
         part.low[a] = larger(part.low[a], region.low[a]);
         part.high[a] = smaller(part.high[a], region.high[a]);
         part.size[a] = smaller(part.size[a], larger(0.0, part.high[a] - part.low[a]));
       }
       Cut cut = choose(part, count);
-      if (cut.lists() > 1 && divide(items, count, cut, region, base, depth, pairs)) return;
+      if (depth < deepest && cut.lists() > 1 && divide(items, count, cut, region, base, depth, pairs)) return;
     }
     stats_->tests += f64(tests);
     stats_->cells++;
     note(region);
+    // Not in 2D: strips that are narrow enough are always to be had there.
+    if constexpr (D == 3) {
+      if (hits < rare) return swept_.find_few(part, count, pairs);
+    }
     swept_.find(count, pairs);
   }
 
