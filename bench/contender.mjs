@@ -3,8 +3,8 @@
 //   { prepare: { … } }        ->  makes the scene and the contender, runs and checks the first frames:
 //                                 { fingerprints, wrong } or { unable } or { slow: milliseconds of a frame }
 //   { warmUp: milliseconds }  ->  { frames } that were run: for so long, and until what is kept has settled
-//   { round: { … } }          ->  { times } in milliseconds of each frame, the { share } of the time that the process had
-//                                 the processor, and what its own profiler says, { own }
+//   { round: { … } }          ->  { times } in milliseconds of each frame, and the means { atWork } on the processor and
+//                                 { own } of what its own profiler says
 //   { catchUp: frames }       ->  { played } frames in all, once it has run as many as that
 //   { turn: frames }          ->  { ms } on the processor, of a frame
 //   { finish: milliseconds }  ->  { garbage: bytes of JavaScript heap allocated per frame, peak: bytes of memory }
@@ -12,6 +12,7 @@
 // same seeded motion; a slow one gets less far. Who answers questions is made a contender of pairs by questions.mjs. `sink` keeps what the frames return from being optimised away.
 import { readFileSync } from 'node:fs';
 import { keysOf, referencePairs } from '../build/bench/library.mjs';
+import { clocked } from './clock.mjs';
 import { fingerprint } from './fingerprint.mjs';
 import { allocatedBy } from './garbage.mjs';
 import { asking, makeQuestions, naive } from './questions.mjs';
@@ -32,21 +33,12 @@ let sink = 0;
 /** Frames that were run, whatever for. */
 let played = 0;
 
-function timedFrame() {
+function clockedFrame() {
   played++;
   scene.step();
-  const start = performance.now();
-  sink += contender.update(scene.boxes);
-  return performance.now() - start;
-}
-
-/** Starts a clock that says which share of the time since then the process had the processor: the rest is others'. */
-function shareClock() {
-  const [before, start] = [process.cpuUsage(), performance.now()];
-  return () => {
-    const { user, system } = process.cpuUsage(before);
-    return Math.min(1, (user + system) / 1000 / (performance.now() - start));
-  };
+  return clocked(() => {
+    sink += contender.update(scene.boxes);
+  });
 }
 
 const actions = {
@@ -75,7 +67,7 @@ const actions = {
     let wrong;
     let spent = 0;
     for (let frame = 0; frame < checkedFrames && (!expected || frame < 2 || spent < enough); frame++) {
-      const time = timedFrame();
+      const time = clockedFrame().wall;
       spent += time;
       // The first frame builds what the others keep: it may take longer.
       if (time > slowest * (frame === 0 ? 4 : 1)) return { slow: time };
@@ -92,34 +84,34 @@ const actions = {
     for (; frames < mostWarmUp; frames++) {
       const spent = performance.now() - start;
       if (spent > mostSettling || (spent > milliseconds && frames >= settled)) break;
-      timedFrame();
+      clockedFrame();
     }
     return { frames };
   },
 
   round({ frames, budget }) {
     const times = [];
-    let own = 0;
-    const share = shareClock();
+    let [own, atWork] = [0, 0];
     const end = performance.now() + budget;
     while (times.length === 0 || (times.length < frames && performance.now() < end)) {
-      times.push(timedFrame());
+      const time = clockedFrame();
+      times.push(time.wall);
+      atWork += time.atWork;
       own += contender.own?.() ?? 0;
     }
-    return { times, share: share(), own: contender.own && own / times.length, sink };
+    return { times, atWork: atWork / times.length, own: contender.own && own / times.length, sink };
   },
 
   catchUp(frames) {
-    while (played < frames) timedFrame();
+    while (played < frames) clockedFrame();
     return { played };
   },
 
   turn(frames) {
-    timedFrame(); // another has just been at work: the caches are his
-    const share = shareClock();
-    let spent = 0;
-    for (let frame = 0; frame < frames; frame++) spent += timedFrame();
-    return { ms: (share() * spent) / frames };
+    clockedFrame(); // another has just been at work: the caches are his
+    let atWork = 0;
+    for (let frame = 0; frame < frames; frame++) atWork += clockedFrame().atWork;
+    return { ms: atWork / frames };
   },
 
   async finish(milliseconds) {

@@ -6,11 +6,11 @@ import { median } from './statistics.mjs';
 
 /** Who took longer than `auto` by more than this is not asked again; of the others no more than so many. */
 const [near, most] = [1.6, 4];
-const rounds = 15;
+const rounds = 31;
 /** After so many rounds and milliseconds it is enough. */
-const [least, patience] = [7, 3000];
+const [least, patience] = [9, 3000];
 /** A turn, in milliseconds. */
-const turn = 20;
+const turn = 10;
 const mostFrames = 5000;
 
 /**

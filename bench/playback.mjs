@@ -3,13 +3,12 @@
 //     ->  { count, pairs, kept, wrong, bytes, playings, times }, or { error }. The first playing is not timed: in it the pairs of all are compared, and the engine compiles what runs.
 // Of every other one the times of all frames are kept, in which techniques take turns, a few frames each.
 import { BroadPhase } from '../build/bench/library.mjs';
+import { clocked } from './clock.mjs';
 import { fingerprint } from './fingerprint.mjs';
 import { openPlay } from './plays.mjs';
 
 /** Frames that a technique plays before it is another's turn: what it keeps is then in the caches, as in a game. */
 const turn = 30;
-/** Fewer milliseconds are read from the clock alone, which nobody is likely to have interrupted. */
-const short = 0.05;
 
 /** A technique at work on a play. */
 function open(row, seed, technique) {
@@ -19,17 +18,13 @@ function open(row, seed, technique) {
   return { play, space };
 }
 
-/** The milliseconds of a frame that the process was at work: what others did meanwhile is not on its clock. */
 function timed({ play, space }, frame) {
   play.move(space, frame);
-  const before = process.cpuUsage();
-  const start = performance.now();
-  play.ask(space, frame);
-  space.update();
-  const wall = performance.now() - start;
-  if (wall < short) return wall;
-  const { user, system } = process.cpuUsage(before);
-  return Math.min(wall, (user + system) / 1000);
+  const { atWork } = clocked(() => {
+    play.ask(space, frame);
+    space.update();
+  });
+  return atWork;
 }
 
 /**

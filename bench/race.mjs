@@ -87,8 +87,7 @@ export async function race(contenders, setting, { rounds, frames, budget, slowes
         continue;
       }
       rounds.push(answer.times);
-      const mean = answer.times.reduce((sum, time) => sum + time, 0) / answer.times.length;
-      result.atWork = Math.min(answer.share * mean, result.atWork ?? Infinity);
+      result.atWork = Math.min(answer.atWork, result.atWork ?? Infinity);
       if (answer.own !== undefined) own.push(answer.own);
     }
   }

@@ -4,6 +4,7 @@ import { readFileSync } from 'node:fs';
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { loadCases } from '../bench/cases.mjs';
+import { clocked } from '../bench/clock.mjs';
 import { judge, phases, rows } from '../bench/coherence.mjs';
 import { coherenceGoals } from '../bench/coherence-table.mjs';
 import { duellists, verdict } from '../bench/duel.mjs';
@@ -87,6 +88,13 @@ test('who came near auto, or was ahead, meets it again: the fastest four', () =>
   expect(met({ a: 1, e: 1.1, auto: 1, b: 1.3, c: 0.2, d: 0.9 })).toEqual(['auto', 'c', 'd', 'a', 'e']);
   expect(met({ a: 2.1, auto: 1 })).toEqual([]);
   expect(met({ a: 1 })).toEqual([]);
+});
+
+test('time in which the process slept is not time at work', () => {
+  const asleep = new Int32Array(new SharedArrayBuffer(4));
+  const { wall, atWork } = clocked(() => Atomics.wait(asleep, 0, 0, 80));
+  expect(wall).toBeGreaterThan(75);
+  expect(atWork).toBeLessThan(40);
 });
 
 test('when they meet again, the ratio in a round counts, so a slow minute of the machine does not', () => {
