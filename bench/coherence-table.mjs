@@ -69,9 +69,9 @@ export function coherenceGoals(rows) {
     const found = chosen.map((row) => ({ row, value: value(row) })).sort((a, b) => b.value - a.value);
     if (found.length === 0) return { goal: text, figure: '' };
     const good = found.filter((entry) => entry.value <= limit).length;
-    const [{ row, value: worst }] = found;
+    const [{ row, value: highest }] = found;
     const where = found.length > 1 ? ` (${row.name}, ${whole(row.count)})` : '';
-    const figure = `${good} of ${found.length}; the worst: ${unit(worst)}${where}`;
+    const figure = `${good} of ${found.length}; the worst: ${unit(highest)}${where}`;
     return { goal: text, figure, met: good === found.length };
   };
   const mean = ({ figures }) => figures.auto.mean;
@@ -80,6 +80,9 @@ export function coherenceGoals(rows) {
   const moved = of('slow', 'fast');
   const native = ({ figures, nativeMs }) => figures.auto.mean / nativeMs;
   const tricks = of('adversarial');
+  const others = played.filter(({ kind }) => kind !== 'adversarial');
+  const worst = ({ figures }) => figures.auto.worstRatio;
+  const worstFilling = ({ figures }) => figures.auto.filling.worstRatio;
   const wrong = played.filter((row) => row.wrong);
   return [
     goal('100,000 still and 1,000 moving: 0.1 ms', of('tiles'), mean, 0.1, ms),
@@ -97,20 +100,9 @@ export function coherenceGoals(rows) {
       times,
     ),
     goal('a recorded scene asleep: 0.05 ms', of('asleep'), mean, 0.05, ms),
-    goal(
-      'what is meant to harm: no frame above 1.15 of all anew',
-      tricks,
-      ({ figures }) => figures.auto.worstRatio,
-      1.15,
-      times,
-    ),
-    goal(
-      'cold starts: no frame above 1.15 of all anew',
-      played,
-      ({ figures }) => figures.auto.filling.worstRatio,
-      1.15,
-      times,
-    ),
+    goal('what is meant to harm: no frame above 1.15 of all anew', tricks, worst, 1.15, times),
+    goal('anything else: no frame above 1.15 of all anew', others, worst, 1.15, times),
+    goal('cold starts: no frame above 1.15 of all anew', played, worstFilling, 1.15, times),
     {
       goal: 'the same pairs as all anew, in every frame compared',
       figure: played.length > 0 ? `${played.length - wrong.length} of ${played.length}` : '',
