@@ -58,7 +58,12 @@ template <int D> class SpatialGrid {
     // starts[c] is now where cell c ends.
     u32 k = 0;
     for (u32 c = 0; c < cells; c++) {
-      for (u32 until = starts[c]; k < until; k++) end[k] = until;
+      u32 until = starts[c];
+      do {
+        store(end + k, splat(until));  // what is too much, the next cells write over
+        k += 4;
+      } while (k < until);
+      k = until;
     }
     sweep<D, true>(lanes_, end, u32(total), pairs);
   }
