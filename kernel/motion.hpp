@@ -30,13 +30,25 @@ template <int D> void fatten(const f32* box, const f32* low, u32 updates, f32 un
   store(out + D, max(last + max(reach, none) + aside, last));
 }
 
+/// Of a box in 2D with the signs of its maxima turned round: then tests of two boxes are four comparisons of one kind.
+inline f32x4 turned(i32x4 box) { return bits<f32x4>(box ^ i32x4{0, 0, i32(1u << 31), i32(1u << 31)}); }
+
 template <int D> bool touch(const f32* one, const f32* other) {
-  u32 both = bitmask((load<f32x4>(one) <= load<f32x4>(other + D)) & (load<f32x4>(other) <= load<f32x4>(one + D)));
-  return !(~both & ((1 << D) - 1));
+  if constexpr (D == 2) {
+    i32x4 its = load<i32x4>(other);
+    return bitmask(turned(load<i32x4>(one)) <= turned(__builtin_shufflevector(its, its, 2, 3, 0, 1))) == 15;
+  } else {
+    u32 both = bitmask((load<f32x4>(one) <= load<f32x4>(other + D)) & (load<f32x4>(other) <= load<f32x4>(one + D)));
+    return !(~both & 7);
+  }
 }
 
 /// Whether a box is in another.
 template <int D> bool inside(const f32* box, const f32* other) {
-  u32 low = bitmask(load<f32x4>(other) <= load<f32x4>(box)), high = bitmask(load<f32x4>(box + D) <= load<f32x4>(other + D));
-  return !(~(low & high) & ((1 << D) - 1));
+  if constexpr (D == 2) {
+    return bitmask(turned(load<i32x4>(other)) <= turned(load<i32x4>(box))) == 15;
+  } else {
+    u32 both = bitmask((load<f32x4>(other) <= load<f32x4>(box)) & (load<f32x4>(box + D) <= load<f32x4>(other + D)));
+    return !(~both & 7);
+  }
 }

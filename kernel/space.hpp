@@ -32,7 +32,10 @@ template <int D> class Space {
   Buffer<f64> exact_, staged_exact_;  // the doubles given, while `rounding_`
   Buffer<u8> rounded_, staged_rounded_;  // per slot, while `rounding_`: whether float32 cannot hold the box
   bool rounding_ = false;
-  bool exposed_ = false;  // `boxes()` has handed out the memory: look for bad numbers at the next update
+  bool exposed_ = false;  // `boxes()` has handed out the memory: look at each update for what was written
+  Buffer<f32> before_;    // the boxes of the last update, while they are exposed and few of them change
+  u32 copied_ = 0;        // how many there are in it; 0: it is not in use
+  u32 blind_ = 0, pause_ = 1;  // updates until it is tried again; how many the next pause has
   Filters filters_;
   Changes changes_;  // since the last update, for the technique that asks
   Wrap wrap_;
@@ -83,6 +86,8 @@ template <int D> class Space {
       make_room(u64(ids_.count()) + 1, ids_.count());
       slot = ids_.insert(id);
       if (filters_.active()) filters_.insert(slot);
+    } else if (is_as_before(slot, low_high, box)) {
+      return;
     }
     changes_.note(slot);
     __builtin_memcpy(boxes_.data() + u64(slot) * width, low_high, sizeof(low_high));
@@ -126,6 +131,7 @@ template <int D> class Space {
     filters_.clear();
     changes_.note_all();
     exposed_ = rounding_ = false;
+    copied_ = 0;
   }
 
   /// Where everything stands, for a recorder: the ids (0: slots), the boxes, the doubles they were given as (0: none),
@@ -153,7 +159,8 @@ template <int D> class Space {
     bool rounded = false;
     i32 bad = doubles ? round_staged(count, rounded) : first_bad(staged_.data(), count);
     if (bad >= 0) return bad;
-    renumber(count);
+    if (!exposed_ && rounding_ == rounded && ids_.same() && ids_.count() == count) note_staged();
+    else renumber(count);
     take_staged(rounded);
     return -1;
   }
@@ -227,6 +234,7 @@ template <int D> class Space {
     i32 bad = doubles ? round_staged(head.count, rounded) : first_bad(staged_.data(), head.count);
     Events* kept = keeps_events ? &events : nullptr;
     if (bad >= 0 || !snapshot.check(filters_, kept) || !snapshot.take(ids_, filters_, kept)) return SnapshotFault::content;
+    changes_.note_all();
     take_staged(rounded);
     technique = head.technique == SnapshotHeader::automatic ? Technique::automatic : Technique(head.technique);
     restored_ = ordered_ = true;
@@ -235,11 +243,10 @@ template <int D> class Space {
 
   /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
   i32 update() {
-    i32 bad = bad_in_place();
-    if (bad >= 0) return bad;
     Technique chosen = choose();
     bool follows = chosen == Technique::incremental;
-    if (exposed_) changes_.note_all();
+    i32 bad = exposed_ && follows ? see_written() : bad_in_place();
+    if (bad >= 0) return bad;
     if (follows && chosen == ran_ && changes_.none() && ids_.count() == seen_ && !filters_.changed()) return rest();
     Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_};
     if (filters_.active()) {
@@ -348,6 +355,8 @@ template <int D> class Space {
     pairs.list.release();
     pairs.count = events.began.count = events.ended.count = 0;
     table_.made = neighbours_made_ = false;
+    before_.release();
+    copied_ = 0;
     wrap_.release();
     index_.release();
     answers.release();
@@ -425,9 +434,76 @@ template <int D> class Space {
     return bad < 0 ? -1 : i32(ids_.id(u32(bad)));  // since it was written, a removal may have moved it
   }
 
+  /// Looks at boxes written in place, notes those that have changed, and gives the id of the first bad one, or -1.
+  COLD i32 see_written() {
+    u32 n = ids_.count();
+    if (copied_ == n && !changes_.all()) {
+      constexpr u32 bytes = width * sizeof(f32);
+      u64 end = u64(n) * bytes, at = first_difference(boxes_.data(), before_.data(), 0, end);
+      while (at < end && !changes_.most(n)) {
+        u32 slot = u32(at / bytes);
+        const f32* box = boxes_.data() + u64(slot) * width;
+        if (first_bad(box, 1) >= 0) return i32(ids_.id(slot));  // not copied: it will be seen again, and what follows it
+        __builtin_memcpy(before_.data() + u64(slot) * width, box, bytes);
+        changes_.note(slot);
+        at = first_difference(boxes_.data(), before_.data(), u64(slot + 1) * bytes, end);
+      }
+      compared(at == end);
+      if (at == end) return -1;
+    }
+    copied_ = 0;
+    changes_.note_all();
+    i32 bad = bad_in_place();
+    if (bad >= 0 || !compares()) return bad;
+    before_.reserve(u64(n) * width);
+    __builtin_memcpy(before_.data(), boxes_.data(), u64(n) * width * sizeof(f32));
+    copied_ = n;
+    return -1;
+  }
+
+  /// Notes which of the boxes that were staged differ from those that stand.
+  COLD void note_staged() {
+    if (changes_.all() || !compares()) return changes_.note_all();
+    u32 n = ids_.count();
+    const void* now = staged_.data();
+    const void* before = boxes_.data();
+    u32 bytes = width * sizeof(f32);
+    if (rounding_) {
+      now = staged_exact_.data();
+      before = exact_.data();
+      bytes = width * sizeof(f64);
+    }
+    u64 end = u64(n) * bytes, at = first_difference(now, before, 0, end);
+    while (at < end && !changes_.most(n)) {
+      u32 slot = u32(at / bytes);
+      changes_.note(slot);
+      at = first_difference(now, before, u64(slot + 1) * bytes, end);
+    }
+    compared(!changes_.most(n));
+    if (changes_.most(n)) changes_.note_all();
+  }
+
+  /// Whether boxes are compared with those of before; not for a while where it was of no use.
+  bool compares() {
+    if (blind_ == 0) return true;
+    blind_--;
+    return false;
+  }
+
+  COLD void compared(bool useful) {
+    pause_ = useful ? 1 : smaller(64u, 2 * pause_);
+    blind_ = useful ? 0 : pause_;
+  }
+
+  /// Whether a box stands in a slot as it is given.
+  bool is_as_before(u32 slot, const f32* low_high, const f64* box) const {
+    u64 at = u64(slot) * width;
+    if (rounding_) return !differ<width * sizeof(f64)>(reinterpret_cast<const u8*>(exact_.data() + at), reinterpret_cast<const u8*>(box));
+    return !differ<width * sizeof(f32)>(reinterpret_cast<const u8*>(boxes_.data() + at), reinterpret_cast<const u8*>(low_high));
+  }
+
   /// What was staged is now what stands in the space; `rounded`: with doubles that float32 cannot hold.
   void take_staged(bool rounded) {
-    changes_.note_all();
     boxes_.swap(staged_);
     rounding_ = rounded;
     if (rounded) {
@@ -435,6 +511,7 @@ template <int D> class Space {
       rounded_.swap(staged_rounded_);
     }
     exposed_ = false;
+    copied_ = 0;
   }
 
   f64 number(u32 slot, u32 k) const {

@@ -7,30 +7,38 @@
 //   - A box that leaves its fat one too early gets one that covers both, and whoever overlaps that but not the old one
 //     becomes a candidate too. So two boxes are candidates, once, if and only if their fat ones overlap.
 //   - The candidates of a box that has jumped, or may meet others than before, are struck out first.
+//   - Before it takes over, those are seen to that have left their new fat boxes while the others' were made.
 // All is given up where many boxes leave their fat ones at once, or where it does not pay.
-// Cost: a pass over the boxes and one over the candidates, some two to four times as many as pairs, and a share of a
-// strip sweep: 5 to 9 ns a box in 2D, 10 to 20 in 3D. In the twelve updates in which the first generation is made, one
-// costs a quarter to a third more than strip-sweep. Memory, beside that of strip-sweep: about 155 (2D) or 265 (3D) bytes
-// a box.
+// Cost: a pass over the boxes that may have moved and one over the candidates, some two to four times as many as pairs,
+// and a share of two or three strip sweeps: 4 to 12 ns a box in 2D, 12 to 35 in 3D. The updates in which the first
+// generation is made cost a tenth to a third more than strip-sweep. Memory, beside that of strip-sweep: about 160 (2D) or
+// 270 (3D) bytes a box.
 // Part of `incremental`, which says when. From: L. Verlet, 1967; see motion.hpp. Making the next generation a slice at a
 // time is ours.
 #pragma once
+#include "../fat_rows.hpp"
 #include "../motion.hpp"
 #include "strip_sweep.hpp"
 
 template <int D> class Coherent {
   static constexpr u32 width = 2 * D, padding = 4;
   static constexpr u32 struck = 1u << 31;  // a mark
-  static constexpr u32 late_share = 100;  // all is given up where one in so many leaves its fat box at once
-  static constexpr f32 least_period = 4, most_period = 48, first_period = 12, growth = 1.15f;
+  static constexpr f64 late_share = 0.5;  // all is given up where boxes that leave their fat ones cost such a share of strip sweep
+  static constexpr f32 least_period = 3, most_period = 64, least_making = 2, most_making = 24;
+  static constexpr f32 spare_updates = 2;  // fat boxes reach so many further, for work that takes longer than planned
+  static constexpr f64 bearable = 0.12;  // what making the first generation may add to an update, as a share of strip sweep
+  static constexpr f32 making_share = 0.6f;  // of the updates of a generation, in so many the next is made
+  static constexpr f64 spread = D == 2 ? 0.75 : 0.67;  // of motion along an axis, to that along the fastest
   // What the work of a generation costs for each box, in nanoseconds: noting where it stands, making its fat box and
-  // counting it, entering it in its strip, sweeping that; and each update, a box, a candidate, and a box that is late.
-  static constexpr f64 look_cost = 3, fatten_cost = D == 2 ? 12 : 18, enter_cost = D == 2 ? 6 : 12,
-                       sweep_cost = D == 2 ? 14 : 40;
+  // counting it, entering it in its strip, sweeping that, and a last look; for each candidate; and what an update costs
+  // for each box, candidate, and box that is late.
+  static constexpr f64 look_cost = 1.5, fatten_cost = D == 2 ? 11 : 24, enter_cost = D == 2 ? 9 : 17,
+                       sweep_cost = D == 2 ? 11 : 25, mend_cost = D == 2 ? 2.5 : 4, hit_cost = D == 2 ? 3 : 7;
+  static constexpr f64 box_cost = 2.5, candidate_cost = D == 2 ? 2.5 : 3, late_cost = 1500;
+  static constexpr f64 all_costs = fatten_cost + enter_cost + sweep_cost + mend_cost;
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
-  static constexpr f64 all_costs = fatten_cost + enter_cost + sweep_cost, box_cost = 2.5, candidate_cost = 3, late_cost = 1500;
 
-  enum class Stage : u32 { begin, look, fatten, enter, sweep };
+  enum class Stage : u32 { begin, look, fatten, enter, sweep, mend };
 
   struct Generation {
     Buffer<f32> fat;       // per slot
@@ -38,6 +46,14 @@ template <int D> class Coherent {
     StripSweep<D> strips;
     Pairs candidates;
     Stats stats;
+    FatRows<D, 0> grown;  // the fat boxes that are not those that were entered any more
+    Buffer<u32> marks;    // per slot: one more than its place among them, and whether it is struck out
+
+    void drop_grown(u32 at) {
+      marks[grown.tags()[at] & slot_mask] = 0;
+      grown.take(at);
+      if (at < grown.count) marks[grown.tags()[at] & slot_mask] = at + 1;
+    }
   };
 
   Generation generations_[2];
@@ -46,57 +62,57 @@ template <int D> class Coherent {
   u32 count_ = 0;          // boxes that the current generation follows; 0: none answers yet
   bool unchecked_ = false; // no update has looked yet whether boxes are in the fat ones of this generation
   Buffer<f32> from_;       // per slot: its lower corner when it was given its last fat box, and in which update
-  Buffer<u32> marks_;      // per slot: one more than its place among the grown, and whether it is struck out
   Buffer<u32> late_;
-  Buffer<u32> grown_;      // slots whose fat boxes are not those that were entered any more
-  Buffer<f32> grown_fat_;  // these
-  u32 grown_count_ = 0;
   u32 now_ = 0;            // updates, counted
   // Of the generation that is being made: how far it is.
   Stage stage_ = Stage::begin;
   u32 at_ = 0, boxes_ = 0, age_ = 0;
   bool known_ = false;     // where boxes were is known from the generation before
-  f32 period_ = 16, slack_ = 0.5f;
+  f32 period_ = 16;        // updates that it is to answer
+  f32 making_ = 0;         // updates in which it is made
+  f32 lasts_ = 0;          // updates that the current one is to answer still
+  f32 slack_ = 0.5f;
   f32 pace_ = 0;           // how far boxes move in an update, as a share of their size, in the mean
   f64 motion_ = 0, lates_ = 0;
+  f64 found_ = 0, lost_ = 0;  // of the last one, for each box: candidates, and boxes that had left before it was done
   f64 hits_ = 0;           // pairs of the last update that was answered; less than 0: none was
 
   Generation& current() { return generations_[current_]; }
   Generation& next() { return generations_[1 - current_]; }
   f32* from(u32 slot) const { return from_.data() + u64(slot) * (D + 1); }
-  static const f32* box_of(const Scene<D>& scene, u32 slot) { return scene.boxes + u64(slot) * width; }
-  static u32 excluded_of(const Scene<D>& scene, u32 slot) { return scene.excluded ? scene.excluded[slot] : 0; }
 
  public:
   /// What an update is going to cost for so many boxes and pairs, where such a share of the boxes moves, so far as a
   /// share of their size.
-  COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace) {
-    f64 period = best_period(boxes, hits * share, pace), one = 1, both = 1;
-    for (int a = 0; a < D; a++) {
-      one *= 1 + pace * period;
-      both *= 1 + 2 * pace * period;
-    }
-    f64 candidates = hits * (1 + 2 * share * (1 - share) * (one - 1) + share * share * (both - 1));
-    return boxes * (box_cost + all_costs / period) + candidate_cost * candidates;
+  /// `listed`: it will be known which boxes have moved.
+  COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, bool listed) {
+    f64 period = best_period(boxes, hits, share, pace);
+    return cost(boxes, hits, share, pace, period, making_share * period) - (listed ? (1 - share) * box_cost * boxes : 0);
   }
 
   bool begun() const { return begun_; }
 
-  COLD void begin(f64 boxes, f64 hits, f64 pace) {
+  COLD void begin(f64 boxes, f64 hits, f64 pace, f64 fresh) {
     begun_ = true;
     pace_ = f32(pace);
-    period_ = best_period(boxes, hits, pace);
+    period_ = best_period(boxes, hits, 1, pace);
     stage_ = Stage::begin;
     known_ = unchecked_ = false;
     slack_ = 0.5f;
-    grown_count_ = 0;
+    lost_ = 0.02;
     hits_ = -1;
+    // The longer the first one takes, the less does an update pay for it, and the further must fat boxes reach.
+    making_ = making_share * period_;
+    do {
+      making_++;
+      found_ = candidates(boxes, hits, 1, pace, making_ + period_ + spare_updates) / boxes;
+    } while (making_ < most_making && work() * boxes > bearable * fresh * making_ && cost(boxes, hits, 1, pace, period_, making_) < fresh);
   }
 
   /// Finds the pairs, where a generation is there to answer; else false. Gives up where that costs more than `fresh`.
   COLD bool update(const Scene<D>& scene, const Settings& options, f64 fresh, Pairs& pairs, Stats& stats) {
     now_++;
-    bool answers = count_ > 0 && follow(scene, options);
+    bool answers = count_ > 0 && follow(scene, options, fresh);
     if (answers) report(scene, pairs, stats);
     if (begun_) build(scene, options, fresh);
     return answers;
@@ -109,9 +125,9 @@ template <int D> class Coherent {
 
   /// Gives up what is kept, but not the memory.
   COLD void forget() {
-    for (u32 k = 0; k < grown_count_; k++) marks_[grown_[k]] = 0;
+    for (Generation& each : generations_) forget_grown(each);
     begun_ = false;
-    count_ = grown_count_ = 0;
+    count_ = 0;
   }
 
   COLD void release() {
@@ -121,27 +137,51 @@ template <int D> class Coherent {
       each.excluded.release();
       each.strips.release();
       each.candidates.list.release();
+      each.marks.release();
+      each.grown.values.release();
+      each.grown.stride = 0;
     }
     from_.release();
-    marks_.release();
     late_.release();
-    grown_.release();
-    grown_fat_.release();
     marked_ = 0;
   }
 
  private:
   u32 marked_ = 0;  // slots that have marks
 
+  /// The same, where a generation is made in so many updates and then answers so many.
+  COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, f64 period, f64 making) {
+    f64 all = candidates(boxes, hits, share, pace, making + period + spare_updates);
+    return boxes * (box_cost + all_costs / period) + (candidate_cost + hit_cost / period) * all;
+  }
+
+  /// Candidates where fat boxes reach so many updates ahead.
+  COLD static f64 candidates(f64 boxes, f64 hits, f64 share, f64 pace, f64 updates) {
+    f64 one = 1, both = 1;
+    for (int a = 0; a < D; a++) {
+      one *= 1 + spread * pace * updates / 2;
+      both *= 1 + spread * pace * updates;
+    }
+    return larger(hits, boxes / 8) * (1 + 2 * share * (1 - share) * (one - 1) + share * share * (both - 1));
+  }
+
+  /// What making a generation costs for each box, going by the last one.
+  f64 work() const { return all_costs + hit_cost * found_ + late_cost * lost_; }
+
   /// Updates that a generation should answer: the work of making it balances its candidates, which are the more the
-  /// further fat boxes reach, and they must reach twice as far: from when they are made until the next are.
-  COLD static f32 best_period(f64 boxes, f64 hits, f64 pace) {
-    f64 more = 2 * candidate_cost * larger(hits, boxes / 8) * D * larger(pace, 1e-4);
-    return f32(larger(f64(least_period), smaller(f64(most_period), __builtin_sqrt(all_costs * boxes / more))));
+  /// further fat boxes reach: from when they are made until the next generation is.
+  COLD static f32 best_period(f64 boxes, f64 hits, f64 share, f64 pace) {
+    f64 best = least_period, least = __builtin_inf();
+    for (f64 period = best; period <= most_period; period *= 1.2) {
+      f64 costs = cost(boxes, hits, share, pace, period, making_share * period);
+      best = costs < least ? period : best;
+      least = smaller(costs, least);
+    }
+    return f32(best);
   }
 
   /// Sees to it that fat boxes hold their boxes again; false where all is given up.
-  NOINLINE bool follow(const Scene<D>& scene, const Settings& options) {
+  NOINLINE bool follow(const Scene<D>& scene, const Settings& options, f64 fresh) {
     Generation& g = current();
     u32 n = scene.count, had = count_, both = smaller(n, had);
     make_room(n, had);
@@ -150,7 +190,7 @@ template <int D> class Coherent {
     u32* late = late_.reserve(u64(n) + 1);
     u32 many = 0;
     auto check = [&](u32 slot) {
-      bool holds = inside<D>(box_of(scene, slot), fat + u64(slot) * width) && excluded[slot] == excluded_of(scene, slot);
+      bool holds = inside<D>(scene.box(slot), fat + u64(slot) * width) && excluded[slot] == scene.excluded_of(slot);
       late[many] = slot;
       many += !holds;
     };
@@ -162,7 +202,7 @@ template <int D> class Coherent {
       for (u32 slot = 0; slot < both; slot++) check(slot);
     }
     unchecked_ = false;
-    if (u64(many) + (n - both) > n / late_share + 64) {
+    if (late_cost * (u64(many) + (n - both)) > late_share * fresh + 64 * late_cost) {
       forget();
       return false;
     }
@@ -170,21 +210,21 @@ template <int D> class Coherent {
     for (u32 k = 0; k < many; k++) {
       u32 slot = late[k];
       f32* its = g.fat.data() + u64(slot) * width;
-      if (excluded[slot] == excluded_of(scene, slot) && touch<D>(box_of(scene, slot), its)) continue;
-      marks_[slot] |= struck;
-      strikes = true;
+      if (excluded[slot] == scene.excluded_of(slot) && touch<D>(scene.box(slot), its)) continue;
       appear(scene, slot);
+      g.marks[slot] |= struck;
+      strikes = true;
     }
     for (u32 slot = had; slot < n; slot++) {
       late[many++] = slot;
       appear(scene, slot);
     }
     count_ = n;
-    if (strikes) strike(g.candidates, n);
-    if (n < had) drop_grown(n);
+    if (strikes) strike(g, n);
+    if (n < had) forget_grown(g, n);
     for (u32 k = 0; k < many; k++) {
-      marks_[late[k]] &= ~struck;
-      grow(scene, options, late[k]);
+      g.marks[late[k]] &= ~struck;
+      grow(g, n, scene, options, late[k]);
     }
     lates_ += many;
     return true;
@@ -199,52 +239,47 @@ template <int D> class Coherent {
     }
     if (n <= marked_) return;
     from_.grow(u64(n) * (D + 1) + padding, u64(marked_) * (D + 1));
-    marks_.grow(n, marked_);
-    __builtin_memset(marks_.data() + marked_, 0, (n - marked_) * sizeof(u32));
+    for (Generation& each : generations_) {
+      each.marks.grow(n, marked_);
+      __builtin_memset(each.marks.data() + marked_, 0, (n - marked_) * sizeof(u32));
+    }
     marked_ = n;
   }
 
   /// A box is new, or as good as new: it has no fat box yet.
   COLD void appear(const Scene<D>& scene, u32 slot) {
     Generation& g = current();
-    u32 place = marks_[slot] & ~struck;
-    for (u32 k = 0; k < width; k++) {
-      g.fat[u64(slot) * width + k] = __builtin_nanf("");
-      if (place > 0) grown_fat(place - 1)[k] = __builtin_nanf("");
-    }
-    g.excluded[slot] = excluded_of(scene, slot);
+    u32 place = g.marks[slot];
+    if (place > 0) g.drop_grown(place - 1);
+    for (u32 k = 0; k < width; k++) g.fat[u64(slot) * width + k] = __builtin_nanf("");
+    g.excluded[slot] = scene.excluded_of(slot);
     note(scene, slot);
   }
 
   /// Notes where a box stands.
   void note(const Scene<D>& scene, u32 slot) const {
-    __builtin_memcpy(from(slot), box_of(scene, slot), D * sizeof(f32));
+    __builtin_memcpy(from(slot), scene.box(slot), D * sizeof(f32));
     from(slot)[D] = bits<f32>(now_);
   }
 
   /// Strikes out the candidates of boxes that are marked, and of slots from n on.
-  COLD void strike(Pairs& candidates, u32 n) const {
+  COLD static void strike(Generation& g, u32 n) {
+    Pairs& candidates = g.candidates;
     u64 left = 0;
     for (u64 k = 0; k < candidates.count; k++) {
       u64 pair = candidates.list[k];
       u32 a = u32(pair), b = u32(pair >> 32);
       candidates.list[left] = pair;
-      left += b < n && !((marks_[a] | marks_[b]) & struck);
+      left += b < n && !((g.marks[a] | g.marks[b]) & struck);
     }
     candidates.count = left;
   }
 
-  COLD void drop_grown(u32 n) {
-    u32 left = 0;
-    for (u32 k = 0; k < grown_count_; k++) {
-      u32 slot = grown_[k];
-      marks_[slot] = slot < n ? left + 1 : 0;
-      if (slot >= n) continue;
-      grown_[left] = slot;
-      __builtin_memcpy(grown_fat(left), grown_fat(k), width * sizeof(f32));
-      left++;
+  /// Leaves those that have grown only where they are among the first n slots.
+  COLD static void forget_grown(Generation& g, u32 n = 0) {
+    for (u32 k = g.grown.count; k-- > 0;) {
+      if ((g.grown.tags()[k] & slot_mask) >= n) g.drop_grown(k);
     }
-    grown_count_ = left;
   }
 
   /// How much longer a fat box is along an axis than the box; 0 where there is none.
@@ -252,18 +287,17 @@ template <int D> class Coherent {
     return larger(0.0f, (fat[D + a] - fat[a]) - (box[D + a] - box[a]));
   }
 
-  /// A larger fat box for one that has left its own, and the candidates that come with it.
-  COLD void grow(const Scene<D>& scene, const Settings& options, u32 slot) {
-    Generation& g = current();
+  /// A larger fat box for one that has left its own, among the first `count`, and the candidates that come with it.
+  COLD void grow(Generation& g, u32 count, const Scene<D>& scene, const Settings& options, u32 slot) const {
     f32* its = g.fat.data() + u64(slot) * width;
     f32 old[width + padding], fat[width + padding];
     __builtin_memcpy(old, its, width * sizeof(f32));
-    const f32* box = box_of(scene, slot);
+    const f32* box = scene.box(slot);
     for (int a = 0; a < D; a++) {
       // Where it goes now nobody knows, but about how fast.
       f32 size = box[D + a] - box[a], beyond = larger(0.0f, larger(old[a] - box[a], box[D + a] - old[D + a]));
       f32 reach = larger(spare(old, box, a), smaller(8 * beyond, size));
-      if (!(old[a] <= old[D + a])) reach = 2 * pace_ * size * (left() + 1);
+      if (!(old[a] <= old[D + a])) reach = 2 * pace_ * size * larger(1.0f, lasts_);
       if (options.margin > 0) reach = f32(options.margin);
       fat[a] = smaller(smaller(box[a], box[a] - reach), old[a]);
       fat[D + a] = larger(larger(box[D + a], box[D + a] + reach), old[D + a]);
@@ -276,19 +310,16 @@ template <int D> class Coherent {
       g.candidates.list[g.candidates.count++] = pair_of(slot, other);
     };
     g.strips.each_near(fat, [&](u32 other) {
-      if (other < count_ && marks_[other] == 0) meet(other, g.fat.data() + u64(other) * width);
+      if (other < count && g.marks[other] == 0) meet(other, g.fat.data() + u64(other) * width);
     });
-    for (u32 k = 0; k < grown_count_; k++) meet(grown_[k], grown_fat(k));
-    if (marks_[slot] == 0) {
-      grown_.grow(u64(grown_count_) + 1, grown_count_);
-      grown_fat_.grow((u64(grown_count_) + 1) * width + padding, u64(grown_count_) * width);
-      grown_[grown_count_++] = slot;
-      marks_[slot] = grown_count_;
-    }
-    __builtin_memcpy(grown_fat(marks_[slot] - 1), fat, width * sizeof(f32));
+    g.grown.each_hit(fat, g.excluded[slot], [&](u32 at) {
+      u32 other = g.grown.tags()[at] & slot_mask;
+      meet(other, g.fat.data() + u64(other) * width);
+    });
+    u32& mark = g.marks[slot];
+    if (mark > 0) g.grown.write(mark - 1, fat);
+    else mark = g.grown.put(fat, slot | (g.excluded[slot] & ~slot_mask)) + 1;
   }
-
-  f32* grown_fat(u32 k) const { return grown_fat_.data() + u64(k) * width; }
 
   /// Reports the candidates that overlap.
   NOINLINE void report(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
@@ -314,17 +345,16 @@ template <int D> class Coherent {
     stats.entries = current().stats.entries;
   }
 
-  /// Updates in which a generation is made: the first one soon, though no update should pay much for it.
-  f32 making() const { return known_ ? period_ : first_period; }
-
   /// Updates until the generation that is being made is likely to be done.
-  f32 left() const { return larger(0.0f, making() - f32(age_)); }
+  f32 left() const { return larger(0.0f, making_ - f32(age_)); }
 
   /// Makes a slice of the next generation.
   COLD void build(const Scene<D>& scene, const Settings& options, f64 fresh) {
-    if (stage_ == Stage::begin) open(scene);
-    else age_++;
-    f64 budget = (known_ ? all_costs : all_costs + look_cost) * boxes_ / making();
+    lasts_--;
+    if (stage_ != Stage::begin) age_++;
+    else if (!known_ || lasts_ <= making_ + 2) open(scene);
+    // Before the one that answers ends, all must be done.
+    f64 budget = known_ && lasts_ <= 1 ? __builtin_inf() : work() * boxes_ / making_;
     while (begun_ && budget > 0 && stage_ != Stage::begin) budget -= slice(scene, options, budget, fresh);
   }
 
@@ -338,14 +368,15 @@ template <int D> class Coherent {
     g.fat.reserve(u64(boxes_) * width + padding);
     g.excluded.reserve(boxes_);
     g.candidates.count = 0;
-    stage_ = known_ ? Stage::fatten : Stage::look;
+    stage_ = Stage::look;
     g.strips.begin(scene, g.stats);
   }
 
   /// Does work of the stage for about so many nanoseconds; gives how many.
   COLD f64 slice(const Scene<D>& scene, const Settings& options, f64 budget, f64 fresh) {
     Generation& g = next();
-    f64 each = stage_ == Stage::look ? look_cost : stage_ == Stage::fatten ? fatten_cost : stage_ == Stage::enter ? enter_cost : sweep_cost * boxes_ / g.stats.entries;
+    if (stage_ == Stage::mend) return mend(scene, options, budget, fresh);
+    f64 each = stage_ == Stage::look ? look_cost : stage_ == Stage::fatten ? fatten_cost : stage_ == Stage::enter ? enter_cost : (sweep_cost + hit_cost * found_) * boxes_ / g.stats.entries;
     u32 many = u32(smaller(budget / each + 1, f64(max_slots))), until = smaller(boxes_, at_ + many), n = scene.count;
     Scene<D> fat{g.fat.data(), boxes_, g.excluded.data()};
     if (stage_ == Stage::look) {
@@ -356,7 +387,7 @@ template <int D> class Coherent {
     } else if (stage_ == Stage::enter) {
       g.strips.enter(fat, at_, until);
     } else {
-      if (g.strips.sweep(many, g.candidates) == 0) take_over(scene, fresh);
+      if (g.strips.sweep(many, g.candidates) == 0) stage_ = Stage::mend;
       return many * each;
     }
     f64 spent = (until - at_) * each;
@@ -369,20 +400,38 @@ template <int D> class Coherent {
     return spent;
   }
 
+  /// Looks who has left its fat box before all was done.
+  COLD f64 mend(const Scene<D>& scene, const Settings& options, f64 budget, f64 fresh) {
+    Generation& g = next();
+    u32 until = smaller(boxes_, scene.count);
+    f64 spent = 0;
+    if (at_ == 0) lost_ = 0;
+    for (; at_ < until && spent < budget; at_++) {
+      const f32* box = scene.box(at_);
+      const f32* fat = g.fat.data() + u64(at_) * width;
+      spent += mend_cost;
+      if (inside<D>(box, fat) || !touch<D>(box, fat)) continue;
+      grow(g, until, scene, options, at_);
+      spent += late_cost;
+      lost_ += 1.0 / boxes_;
+    }
+    if (at_ >= until) take_over(scene, fresh);
+    return spent;
+  }
+
   /// Fat boxes from `at_` on.
   NOINLINE void make_fat(const Scene<D>& scene, const Settings& options, u32 until) {
     Generation& g = next();
-    f32 reach = left() + period_ * growth + 1;
+    f32 reach = left() + period_ + spare_updates;
     f32 fat[width + padding];
     for (u32 slot = at_; slot < until; slot++) {
       if (slot < scene.count) {
-        const f32* box = box_of(scene, slot);
+        const f32* box = scene.box(slot);
         u32 updates = now_ - bits<u32>(from(slot)[D]);
         fatten<D>(box, from(slot), larger(updates, 1u), reach, slack_, options.margin, fat);
-        if (updates == 0 || marks_[slot] > 0) surround(box, slot, reach, fat);
+        if (updates == 0 || current().marks[slot] > 0) surround(box, slot, reach, fat);
         motion_ += pace<D>(box, from(slot), larger(updates, 1u));
-        note(scene, slot);
-        g.excluded[slot] = excluded_of(scene, slot);
+        g.excluded[slot] = scene.excluded_of(slot);
       } else {
         for (u32 k = 0; k < width; k++) fat[k] = __builtin_nanf("");
         g.excluded[slot] = 0;
@@ -406,19 +455,25 @@ template <int D> class Coherent {
   COLD void take_over(const Scene<D>& scene, f64 fresh) {
     Generation& g = next();
     u32 n = scene.count;
-    for (u32 k = 0; k < grown_count_; k++) marks_[grown_[k]] = 0;
-    grown_count_ = 0;
+    forget_grown(current());
     current_ = 1 - current_;
     count_ = smaller(boxes_, n);
-    if (n < boxes_) strike(g.candidates, n);
+    if (n < boxes_) {
+      strike(g, n);
+      forget_grown(g, n);
+    }
+    lasts_ = making_ + period_ + spare_updates - 1 - f32(age_);
     unchecked_ = known_ = true;
+    found_ = f64(g.candidates.count) / boxes_;
     stage_ = Stage::begin;
     pace_ = f32(motion_ / boxes_);
+    making_ = larger(least_making, making_share * period_);
     if (hits_ >= 0) {
-      f64 cost = boxes_ * (box_cost + all_costs / period_) + candidate_cost * f64(g.candidates.count) + late_cost * lates_ / (age_ + 1);
+      f64 cost = boxes_ * (box_cost + (all_costs + late_cost * lost_) / period_ + (candidate_cost + hit_cost / period_) * found_) + late_cost * lates_ / (age_ + 1);
+      
       if (cost > worth * fresh) return forget();
-      // Not longer than by what fat boxes reach further.
-      period_ = smaller(period_ * growth, best_period(boxes_, hits_, pace_));
+      period_ = best_period(boxes_, hits_, 1, pace_);
+      making_ = larger(least_making, making_share * period_);
       // Where boxes leave their fat ones too early, the next reach further to the sides.
       slack_ = smaller(16.0f, larger(0.5f, slack_ * (lates_ > 0.1 * boxes_ ? 1.3f : 0.95f)));
     }

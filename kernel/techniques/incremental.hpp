@@ -11,11 +11,11 @@
 //   - A box that has not moved from one turn to the next rests. Pairs of boxes at rest are no candidates: they stand
 //     settled at the head of the list of pairs, which nobody touches until one of them moves.
 //   - Boxes that touch very many cells (the ground, a wall) stand in none and are tested against all that move.
-// All this is filled little by little, while strip-sweep gives the answers, and given up again where many boxes leave
-// their fat ones at once or where it does not pay. Where most boxes move, coherent.hpp has a cheaper way.
-// Cost: where all move by a hundredth of their size 0.25 to 0.35 of strip-sweep, by a tenth of it 0.7 in 2D; where 5 %
-// move 8 to 12 ns a box, and with `set` only the movers count. While cells are filled, an update costs a fifth to a
-// third more than strip-sweep, the two before it, which cut space into cells and line the boxes up, up to twice as much.
+// All this is filled little by little, and given up again where many boxes leave their fat ones at once or where it does
+// not pay. Meanwhile, and where most boxes move, the generations of coherent.hpp give the answers, which are sooner there;
+// until then strip-sweep does.
+// Cost: where all move by a hundredth of their size 0.25 of strip-sweep, by a tenth of it 0.6 (2D) or 0.75 (3D); where
+// 5 % move 0.1 to 0.2. The first twenty updates, in which the first generation is made, cost a sixth more.
 // Memory, beside that of strip-sweep: about 120 (2D) or 210 (3D) bytes a box that moves, 100 or 150 one at rest.
 // Wins where boxes rest, or move slowly. Is strip-sweep where they jump.
 // From: candidates kept with a margin, L. Verlet, 1967 (see motion.hpp); k-d tree, J. Bentley, 1975. The combination
@@ -23,75 +23,6 @@
 #pragma once
 #include "pair_order.hpp"
 #include "coherent.hpp"
-
-/// Fat boxes as structure of arrays that grow: minima, maxima, tags, then `more` rows of the owner's.
-/// Behind the last box the first row is NaN, which overlaps nothing, and no tag names a slot.
-template <int D, u32 more> struct FatRows {
-  static constexpr u32 width = 2 * D, height = width + 1 + more, padding = 8;
-  static constexpr u32 nowhere = 0xffffffff;
-  Buffer<f32> values;
-  u32 stride, count;
-
-  f32* row(u32 k) const { return values.data() + u64(k) * stride; }
-  u32* tags() const { return reinterpret_cast<u32*>(row(width)); }
-
-  LaneView<D> view() const {
-    LaneView<D> view;
-    for (int a = 0; a < D; a++) {
-      view.lo[a] = row(a);
-      view.hi[a] = row(D + a);
-    }
-    view.tag = tags();
-    return view;
-  }
-
-  void write(u32 at, const f32* box) const {
-    for (u32 k = 0; k < width; k++) row(k)[at] = box[k];
-  }
-
-  /// Adds a box; gives its place.
-  u32 put(const f32* box, u32 tag) {
-    if (count + padding >= stride) grow();
-    write(count, box);
-    tags()[count] = tag;
-    return count++;
-  }
-
-  /// Takes the box at a place away; the last one comes there.
-  void take(u32 at) {
-    u32 last = --count;
-    for (u32 k = 0; k < height; k++) row(k)[at] = row(k)[last];
-    row(0)[last] = __builtin_nanf("");
-    tags()[last] = slot_mask;
-  }
-
-  /// The place of a slot, or `nowhere`.
-  u32 find(u32 slot) const {
-    const u32* tag = tags();
-    for (u32 k = 0; k < count; k += 4) {
-      u32 same = bitmask(bits<i32x4>((load<u32x4>(tag + k) & splat(slot_mask)) == splat(slot)));
-      if (same) return k + u32(__builtin_ctz(same));
-    }
-    return nowhere;
-  }
-
- private:
-  COLD void grow() {
-    u32 wider = (count + count / 2 + 2 * padding + 3) & ~3u;
-    Buffer<f32> rows;
-    rows.reserve(u64(wider) * height);
-    for (u32 k = 0; k < height && count > 0; k++) {
-      __builtin_memcpy(rows.data() + u64(k) * wider, row(k), count * sizeof(f32));
-    }
-    for (u32 k = count; k < wider; k++) {
-      rows[k] = __builtin_nanf("");
-      rows[u64(width) * wider + k] = bits<f32>(slot_mask);  // no box has this slot
-    }
-    values.swap(rows);
-    rows.release();
-    stride = wider;
-  }
-};
 
 template <int D> class Incremental {
   static constexpr u32 width = 2 * D;
@@ -103,7 +34,7 @@ template <int D> class Incremental {
   static constexpr u32 samples_a_cell = 4, most_samples = 1 << 16;
   static constexpr u32 huge_cells = 32;      // boxes that touch more cells than this are huge
   static constexpr u32 most_huge = 64;
-  static constexpr u32 share = 90;           // one box in so many is served in an update while all is filled
+  static constexpr u32 filling = 90, filling_alone = 150;  // updates in which all is filled, while generations answer or not
   static constexpr u32 ahead = 8;            // its motion is known from so many updates
   static constexpr u32 late_share = 40;      // all is given up where one in so many leaves its fat box at once
   static constexpr f32 least_period = 4, most_period = 64, growth = 1.15f;
@@ -111,12 +42,12 @@ template <int D> class Incremental {
   static constexpr u32 watched = 256;        // boxes whose motion is looked at before anything is kept
   static constexpr f64 worth = 0.7;          // cells must promise to cost this share of what it costs now
   static constexpr u32 first_pause = 8, longest_pause = 256;
+  static constexpr u32 considered = 64;      // updates until cells are thought of again
   // What an update costs, in nanoseconds, to see whether keeping anything pays: an entry and a test of strip-sweep; a
   // box that may have moved; a mover, a candidate and a turn, all dearer where they are so many that they fill the caches.
   static constexpr f64 entry_cost = D == 2 ? 13 : 22, test_cost = D == 2 ? 0.8 : 1.1, look_cost = 2;
   static constexpr f64 copies = D == 2 ? 1.25 : 1.6;  // cells that a mover stands in
   static constexpr f64 mover_cost = 4, candidate_cost = 4.5, turn_cost = D == 2 ? 200 : 400, cached_movers = 40000;
-  static constexpr f64 patience = 1.25;      // cells take long to fill: they must be so much cheaper than generations
 
   // Rows of a fat box that moves: where the box stood when it was made, and in which update that was.
   static constexpr u32 from_row = width + 1, when_row = width + 1 + D;
@@ -148,6 +79,7 @@ template <int D> class Incremental {
   Buffer<Known> known_;  // per slot
   Buffer<u32> queue_;    // slots that wait to be put into cells
   u32 queued_ = 0, resting_ = 0;
+  u32 portion_ = 0;      // boxes put into cells in an update, where many wait
   u32 unseen_ = 0;       // of those that wait, so many have not even been looked at
   Buffer<u32> late_;     // movers that have left their fat boxes
   u32 late_count_ = 0;
@@ -158,7 +90,7 @@ template <int D> class Incremental {
   Buffer<u32> woken_;    // a bit per slot: it rested, and does no longer
   bool any_woken_ = false;
   bool unchecked_ = false;  // boxes may have changed that were not looked at since
-  bool kept_ = false;    // the last update was answered from what is kept
+  enum class By : u32 { strips, generations, cells } by_ = By::strips;  // what answered the last update
   u32 cursor_ = 0;       // the cell whose turn is next
   u32 now_ = 0;          // updates, counted
   f32 period_ = 16, target_ = 16;  // updates in which every cell has one turn, and what that is to become
@@ -185,8 +117,8 @@ template <int D> class Incremental {
 
   /// The cells, or the strips.
   COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
-    if (!kept_) return anew_.structure(boxes, count, stats);
-    if (leaves_ == 0) return coherent_.structure(boxes, count);
+    if (by_ == By::strips) return anew_.structure(boxes, count, stats);
+    if (by_ == By::generations) return coherent_.structure(boxes, count);
     count = leaves_;
     boxes.reserve(u64(leaves_) * width);
     for (u32 k = 0; k < leaves_; k++) {
@@ -223,26 +155,20 @@ template <int D> class Incremental {
     if (leaves_ > 0 && (n < few || n > 2 * planned_ || 4 * n < planned_ || (count_ == 0 && n != planned_))) forget();
     if (coherent_.begun() && (n < few || n > 2 * planned_ || 2 * n < planned_)) coherent_.forget();
     pairs.count = 0;
-    if (coherent_.begun()) return follow_motion(scene, options, pairs, stats);
-    moving_ = candidates_ = turned_ = motion_ = 0;
-    bool enlists = leaves_ > 0 && count_ == 0;  // another update than the one that made the cells: both take their time
-    if (enlists) {
-      enlist(scene);
-    } else if (leaves_ > 0) {
-      follow(scene, pairs);
-      serve(scene, options, stats);
-      if (leaves_ > 0 && queued_ == 0) {
-        take_turns(scene, options, stats);
-        if (leaves_ > 0) serve_late(scene, options, stats);
-        if (leaves_ > 0 && pays()) report(scene, pairs, stats);
-      }
+    if (leaves_ > 0) use_cells(scene, options, pairs, stats);
+    if (leaves_ > 0 && queued_ == 0) {
+      by_ = By::cells;
+      stats.reason = f64(u32(Reason::kept));
+      coherent_.forget();
+      return balance(f64(pairs.count - settled_.count));
     }
-    kept_ = leaves_ > 0 && queued_ == 0;
-    stats.reason = f64(u32(Reason::kept));
-    if (kept_) return balance(f64(pairs.count - settled_.count));
-    find_anew(scene, options, pairs, stats);
-    if (leaves_ == 0 && n >= few) consider(scene, f64(pairs.count));
-    stats.reason = f64(u32(leaves_ > 0 || coherent_.begun() ? Reason::filling : Reason::moving));
+    bool follows = coherent_.begun(), kept = follows && coherent_.update(scene, options, fresh_, pairs, stats);
+    by_ = kept ? By::generations : By::strips;
+    if (follows && !coherent_.begun()) pause_ = pauses_ = smaller(longest_pause, pauses_ * 4);
+    if (kept) pauses_ = larger(first_pause, pauses_ - 1);
+    else find_anew(scene, options, pairs, stats);
+    if (leaves_ == 0 && coherent_.begun() == kept && n >= few) consider(scene, f64(pairs.count));
+    stats.reason = f64(u32(kept ? Reason::kept : leaves_ > 0 || coherent_.begun() ? Reason::filling : Reason::moving));
   }
 
   void find_anew(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
@@ -252,18 +178,19 @@ template <int D> class Incremental {
     fresh_ = entry_cost * stats.entries + test_cost * stats.tests;
   }
 
-  /// An update where nearly all boxes move.
-  void follow_motion(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
-    kept_ = coherent_.update(scene, options, fresh_, pairs, stats);
-    if (!kept_) find_anew(scene, options, pairs, stats);
-    stats.reason = f64(u32(kept_ ? Reason::kept : coherent_.begun() ? Reason::filling : Reason::moving));
-    if (!coherent_.begun()) pause_ = pauses_ = smaller(longest_pause, pauses_ * 4);
-    else if (kept_) pauses_ = larger(first_pause, pauses_ - 1);
+  /// Finds the pairs in cells, or fills them a little further.
+  void use_cells(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+    moving_ = candidates_ = turned_ = motion_ = 0;
+    if (count_ == 0) return enlist(scene);  // another update than the one that made the cells: both take their time
+    follow(scene, pairs);
+    serve(scene, options, stats);
+    if (leaves_ == 0 || queued_ > 0) return;
+    take_turns(scene, options, stats);
+    if (leaves_ > 0) serve_late(scene, options, stats);
+    if (leaves_ > 0 && pays()) report(scene, pairs, stats);
   }
 
   f32* last(u32 slot) const { return known_[slot].box; }
-  static const f32* box_of(const Scene<D>& scene, u32 slot) { return scene.boxes + u64(slot) * width; }
-  static u32 excluded_of(const Scene<D>& scene, u32 slot) { return scene.excluded ? scene.excluded[slot] : 0; }
 
   static bool equal(const f32* a, const f32* b) {
     u32 both = bitmask((load<f32x4>(a) == load<f32x4>(b)) & (load<f32x4>(a + D) == load<f32x4>(b + D)));
@@ -279,7 +206,7 @@ template <int D> class Incremental {
     }
     leaves_ = count_ = queued_ = unseen_ = resting_ = huge_count_ = watching_ = 0;
     settled_.count = 0;
-    any_woken_ = kept_ = unchecked_ = false;
+    any_woken_ = unchecked_ = false;
     pause_ = pauses_ = smaller(longest_pause, pauses_ * 4);
   }
 
@@ -294,13 +221,13 @@ template <int D> class Incremental {
     f64 moved = 0, movers = 0;
     bool known = watching_ == n;
     for (u32 k = 0; k < many; k++) {
-      const f32* box = box_of(scene, k * stride);
+      const f32* box = scene.box(k * stride);
       f32 step = known ? pace<D>(box, before + k * width, 1) : 0;
       moved += step;
       movers += step > 0;
       __builtin_memcpy(before + k * width, box, width * sizeof(f32));
     }
-    watching_ = n;
+    watching_ = known ? 0 : n;
     if (!known) return;
     f64 share = movers / many, speed = moved / larger(movers, 1.0);
     period_ = target_ = best_period(n * share, hits * share, speed);
@@ -308,11 +235,14 @@ template <int D> class Incremental {
     for (int a = 0; a < D; a++) candidates *= 1 + speed * period_;
     bool listed = scene.changes && !scene.changes->all();
     f64 by_cells = cost(copies * n * share, candidates, period_) + (listed ? 0 : look_cost * n);
-    f64 by_generations = Coherent<D>::cost(n, hits, share, speed);
-    if (by_generations <= smaller(fresh_, patience * by_cells)) {
+    f64 by_generations = Coherent<D>::cost(n, hits, share, speed, listed);
+    // Generations are soon there, and answer while cells are filled.
+    if (by_ == By::generations) {
+      if (by_cells <= worth * by_generations) plan(scene);
+      else pause_ = considered;
+    } else if (by_generations <= fresh_) {
       planned_ = n;
-      watching_ = 0;
-      coherent_.begin(n, hits * share, speed);
+      coherent_.begin(n, hits, share * speed, fresh_);
     } else if (by_cells <= worth * fresh_) {
       plan(scene);
     }
@@ -356,7 +286,7 @@ template <int D> class Incremental {
     u32 samples = smaller(n, smaller(leaves * samples_a_cell, most_samples));
     f32* sample = sample_.reserve(u64(samples) * D);
     detail::Sampling sampling(n, samples);
-    for (u32 k = 0; k < samples; k++) __builtin_memcpy(sample + k * D, box_of(scene, sampling.next()), D * sizeof(f32));
+    for (u32 k = 0; k < samples; k++) __builtin_memcpy(sample + k * D, scene.box(sampling.next()), D * sizeof(f32));
     cuts_.reserve(leaves);
     cells_.reserve(leaves);
     __builtin_memset(static_cast<void*>(cells_.data()), 0, leaves * sizeof(Cell));
@@ -377,15 +307,21 @@ template <int D> class Incremental {
     u32 n = count_ = scene.count;
     u64 room = u64(n) + n / 4;
     known_.reserve(room);
-    queue_.reserve(room);
+    queue_.reserve(room + 1);
     settled_.list.reserve(Pairs::slack);
     woken_.reserve(room / 32 + 1);
     __builtin_memset(woken_.data(), 0, (room / 32 + 1) * sizeof(u32));
-    for (u32 slot = 0; slot < n; slot++) known_[slot].tag = waiting | excluded_of(scene, slot);
+    for (u32 slot = 0; slot < n; slot++) known_[slot].tag = waiting | scene.excluded_of(slot);
     // In an order in which those of a cell come soon after one another: cells then stay in the cache.
-    anew_.each_in_order([&](u32 slot) { queue_[queued_++] = slot; });
+    auto put = [&](u32 slot) {
+      queue_[queued_] = slot;
+      queued_ += slot < n;
+    };
+    anew_.each_in_order(put);
+    for (u32 slot = anew_.boxes(); slot < n; slot++) put(slot);  // they came while generations answered
     unseen_ = n;
-    see(scene, ahead * portion(n));
+    portion_ = n / (coherent_.begun() ? filling : filling_alone) + 1;
+    see(scene, ahead * portion_);
   }
 
   /// Notes where some of those stand that wait to be put into cells, to know their motion when it is their turn.
@@ -394,13 +330,13 @@ template <int D> class Incremental {
   }
 
   void note(const Scene<D>& scene, u32 slot) {
-    __builtin_memcpy(last(slot), box_of(scene, slot), width * sizeof(f32));
+    __builtin_memcpy(last(slot), scene.box(slot), width * sizeof(f32));
     known_[slot].since = now_;
   }
 
   /// A new box waits to be put into cells.
   void expect(const Scene<D>& scene, u32 slot) {
-    known_[slot].tag = waiting | excluded_of(scene, slot);
+    known_[slot].tag = waiting | scene.excluded_of(slot);
     note(scene, slot);
     queue_[queued_++] = slot;
   }
@@ -509,34 +445,14 @@ template <int D> class Incremental {
     purge(cell, slot);
   }
 
-  /// Calls `what` with the place of each of `rows` whose fat box overlaps this one and may meet this tag.
-  template <class Rows, class What> static void each_hit(const Rows& rows, const f32* fat, u32 tag, What what) {
-    if (rows.count == 0) return;
-    LaneView<D> lanes = rows.view();
-    f32x4 lo[D], hi[D];
-    for (int a = 0; a < D; a++) {
-      lo[a] = splat(fat[a]);
-      hi[a] = splat(fat[D + a]);
-    }
-    u32x4 excluded = splat(tag & ~slot_mask);
-    for (u32 j = 0; j < rows.count; j += 4) {
-      i32x4 all = bits<i32x4>((load<u32x4>(lanes.tag + j) & excluded) == u32x4{});
-      for (int a = 0; a < D; a++) {
-        all &= load<f32x4>(lanes.lo[a] + j) <= hi[a];
-        all &= load<f32x4>(lanes.hi[a] + j) >= lo[a];
-      }
-      for (u32 hits = bitmask(all); hits; hits &= hits - 1) what(j + u32(__builtin_ctz(hits)));
-    }
-  }
-
   /// Collects the candidates of the mover at a place, which has none.
   NOINLINE static void meet(Cell& cell, u32 at, const f32* fat, Stats& stats) {
     u32 tag = cell.movers.tags()[at], slot = tag & slot_mask;
     stats.tests += cell.movers.count + cell.stills.count;
-    each_hit(cell.movers, fat, tag, [&](u32 other) {
+    cell.movers.each_hit(fat, tag, [&](u32 other) {
       if (other != at) add_candidate(cell, slot, cell.movers.tags()[other] & slot_mask);
     });
-    each_hit(cell.stills, fat, tag, [&](u32 other) { add_candidate(cell, slot, cell.stills.tags()[other] & slot_mask); });
+    cell.stills.each_hit(fat, tag, [&](u32 other) { add_candidate(cell, slot, cell.stills.tags()[other] & slot_mask); });
   }
 
   COLD static void add_candidate(Cell& cell, u32 a, u32 b) {
@@ -550,7 +466,7 @@ template <int D> class Incremental {
   /// Puts a mover into all cells that its new fat box touches, `found`, where it is not in already with one that still
   /// holds it: then its candidates hold for as long as it is in both.
   void enter(const Scene<D>& scene, u32 slot, const f32* fat, Found& found, Stats& stats) {
-    const f32* box = box_of(scene, slot);
+    const f32* box = scene.box(slot);
     if (found.many()) {
       fat = box;
       cells_of(box, found);
@@ -596,8 +512,8 @@ template <int D> class Incremental {
       u32 at = cell.movers.find(slot);
       if (at != Movers::nowhere) take(cell, at);
       stats.tests += cell.movers.count + cell.stills.count;
-      each_hit(cell.movers, box, tag, [&](u32 other) { add_candidate(cell, slot, cell.movers.tags()[other] & slot_mask); });
-      each_hit(cell.stills, box, tag, [&](u32 other) {
+      cell.movers.each_hit(box, tag, [&](u32 other) { add_candidate(cell, slot, cell.movers.tags()[other] & slot_mask); });
+      cell.stills.each_hit(box, tag, [&](u32 other) {
         u32 its = cell.stills.tags()[other] & slot_mask;
         // One that has woken, and waits, is no longer where it rested.
         if (!(known_[its].tag & waiting) && reports(cell, box, last(its))) settle(slot, its);
@@ -634,9 +550,6 @@ template <int D> class Incremental {
 
   // --- an update ---
 
-  /// How many boxes that wait are served in an update.
-  static u32 portion(u32 n) { return n / share + 1; }
-
   /// Finds out who is new, who is gone, and who rests no longer.
   COLD void follow(const Scene<D>& scene, Pairs& pairs) {
     u32 n = scene.count, had = count_, both = smaller(n, had);
@@ -658,14 +571,14 @@ template <int D> class Incremental {
     }
     if (n < had) unqueue(n);
     // While cells are filled nobody asks who has moved, but for the last of these updates.
-    bool listed = scene.changes && !scene.changes->all(), filling = queued_ > 2 * portion(n);
-    if (filling && !listed) unchecked_ = true;
+    bool listed = scene.changes && !scene.changes->all(), fills = queued_ > 2 * portion_;
+    if (fills && !listed) unchecked_ = true;
     if (listed && !unchecked_) {
       const u32* list = scene.changes->list();
       for (u32 k = 0; k < scene.changes->count(); k++) {
         if (list[k] < both) check(scene, list[k], sweeps);
       }
-    } else if (!filling) {
+    } else if (!fills) {
       for (u32 slot = 0; slot < both; slot++) check(scene, slot, sweeps);
       unchecked_ = false;
     }
@@ -679,8 +592,8 @@ template <int D> class Incremental {
   /// one with another tag is put in anew.
   void check(const Scene<D>& scene, u32 slot, bool& sweeps) {
     const Known& known = known_[slot];
-    const f32* box = box_of(scene, slot);
-    u32 excluded = excluded_of(scene, slot);
+    const f32* box = scene.box(slot);
+    u32 excluded = scene.excluded_of(slot);
     if (known.tag == excluded) {
       if (!inside<D>(box, known.box)) add_late(slot);
     } else if (known.tag != (excluded | rests) || !equal(box, known.box)) {
@@ -694,10 +607,10 @@ template <int D> class Incremental {
   }
 
   COLD void changed(const Scene<D>& scene, u32 slot, bool& sweeps) {
-    u32 tag = known_[slot].tag, excluded = excluded_of(scene, slot);
+    u32 tag = known_[slot].tag, excluded = scene.excluded_of(slot);
     bool same = (tag & ~slot_mask) == excluded;
     if ((tag & rests) && !(tag & waiting)) {
-      if (same && equal(box_of(scene, slot), last(slot))) return;
+      if (same && equal(scene.box(slot), last(slot))) return;
       if (tag & is_huge) {
         woken_[slot / 32] |= 1u << slot % 32;
         any_woken_ = true;
@@ -712,7 +625,7 @@ template <int D> class Incremental {
       if (tag & (waiting | is_huge)) return;
       known_[slot].tag |= waiting;
       known_[slot].since = now_;
-      __builtin_memcpy(last(slot), box_of(scene, slot), width * sizeof(f32));
+      __builtin_memcpy(last(slot), scene.box(slot), width * sizeof(f32));
       queue_[queued_++] = slot;
       sweeps = true;
     }
@@ -770,16 +683,15 @@ template <int D> class Incremental {
 
   /// Puts boxes that wait into cells: all that are few, else a share of them.
   COLD void serve(const Scene<D>& scene, const Settings& options, Stats& stats) {
-    u32 n = scene.count;
-    u32 many = queued_ <= 2 * portion(n) ? queued_ : portion(n);
+    u32 many = queued_ <= 2 * portion_ ? queued_ : portion_;
     // While all is filled, little by little, the first must reach further ahead than the last.
-    f32 until = reach() + f32(queued_ - many) / f32(portion(n));
+    f32 until = reach() + f32(queued_ - many) / f32(portion_);
     see(scene, many);
     for (; many > 0; many--) {
       u32 slot = queue_[--queued_];
       if (known_[slot].tag & rests) leave_rest(slot);
-      known_[slot].tag = excluded_of(scene, slot);
-      const f32* box = box_of(scene, slot);
+      known_[slot].tag = scene.excluded_of(slot);
+      const f32* box = scene.box(slot);
       u32 updates = now_ - known_[slot].since;
       bool still = updates > still_for && equal(box, last(slot));
       f32 fat[width + padding];
@@ -819,7 +731,7 @@ template <int D> class Incremental {
   void turn(Cell& cell, const Scene<D>& scene, const Settings& options, Stats& stats) {
     for (u32 k = cell.movers.count; k-- > 0;) {
       u32 slot = cell.movers.tags()[k] & slot_mask, tag = known_[slot].tag;
-      const f32* box = box_of(scene, slot);
+      const f32* box = scene.box(slot);
       if (tag & rests) {
         cell.candidate_count = 0;  // it rests elsewhere; all candidates are to be collected anyway
         take(cell, k);
@@ -887,18 +799,18 @@ template <int D> class Incremental {
   /// Gives movers that have left their fat boxes new ones.
   COLD void serve_late(const Scene<D>& scene, const Settings& options, Stats& stats) {
     u32 n = scene.count;
-    if (!kept_) {
+    if (by_ != By::cells) {
       // While cells were filled nobody looked.
       late_count_ = 0;
       for (u32 slot = 0; slot < n; slot++) {
-        if (known_[slot].tag == excluded_of(scene, slot) && !inside<D>(box_of(scene, slot), last(slot))) add_late(slot);
+        if (known_[slot].tag == scene.excluded_of(slot) && !inside<D>(scene.box(slot), last(slot))) add_late(slot);
       }
     }
     if (late_count_ > n / late_share + 64) return forget();
     for (u32 k = 0; k < late_count_; k++) {
       u32 slot = late_[k];
-      const f32* box = box_of(scene, slot);
-      if (known_[slot].tag != excluded_of(scene, slot) || inside<D>(box, last(slot))) continue;  // it has had its turn
+      const f32* box = scene.box(slot);
+      if (known_[slot].tag != scene.excluded_of(slot) || inside<D>(box, last(slot))) continue;  // it has had its turn
       // Its motion is known where it is in a cell that it touches still.
       Found found;
       cells_of(box, found);
@@ -958,7 +870,7 @@ template <int D> class Incremental {
   /// The pairs of huge boxes that are not settled.
   COLD void report_huge(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
     auto try_pair = [&](u32 h, u32 slot) {
-      if ((known_[h].tag & known_[slot].tag & ~slot_mask) || !touch<D>(box_of(scene, h), box_of(scene, slot))) return;
+      if ((known_[h].tag & known_[slot].tag & ~slot_mask) || !touch<D>(scene.box(h), scene.box(slot))) return;
       pairs.room(pairs.list.data() + pairs.count, 1);
       pairs.list[pairs.count++] = pair_of(h, slot);
     };
@@ -966,7 +878,7 @@ template <int D> class Incremental {
       const Cell& cell = cells_[c];
       for (u32 k = 0; k < cell.movers.count; k++) {
         u32 slot = cell.movers.tags()[k] & slot_mask;
-        const f32* box = box_of(scene, slot);
+        const f32* box = scene.box(slot);
         if ((known_[slot].tag & rests) || !reports(cell, box, box)) continue;
         for (u32 h = 0; h < huge_count_; h++) try_pair(huge_[h], slot);
       }
@@ -974,7 +886,7 @@ template <int D> class Incremental {
     stats.tests += moving_ * huge_count_;
     for (u32 h = 0; h < huge_count_; h++) {
       u32 slot = huge_[h];
-      const f32* box = box_of(scene, slot);
+      const f32* box = scene.box(slot);
       bool still = known_[slot].tag & rests;
       for (u32 g = 0; g < h; g++) {
         if (!(still && (known_[huge_[g]].tag & rests))) try_pair(slot, huge_[g]);

@@ -160,6 +160,8 @@ template <int D> class StripSweep {
     }
   }
 
+  u32 boxes() const { return boxes_; }
+
   /// Calls `what` with the slot of each box of the last update once, those of a strip after those of the one before.
   template <class What> void each_in_order(What what) const {
     for (u32 k = 0; k < entered_; k++) {

@@ -1,0 +1,96 @@
+// Boxes that come all at once, by `boxes()` or `setAll`, of which few change: the library finds out which by comparing.
+// In between come what could mislead it: bad numbers, all changing at once, `set`, doubles, another way of giving them.
+import { BroadPhase, findPairs } from 'broadphase';
+import { describe, expect, test } from 'vitest';
+import { createRandom } from '../src/scenes/random.ts';
+import { keysOf } from './reference.ts';
+import { setBox } from './set-box.ts';
+
+const ways = ['boxes', 'floats', 'doubles', 'mixed'] as const;
+
+describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
+  test.each(ways)('what has changed is found, given by %s', (way) => {
+    const random = createRandom(dimensions);
+    const width = 2 * dimensions;
+    const count = 700;
+    const world = 10 * (count / 0.2) ** (1 / dimensions);
+    const space = new BroadPhase({ dimensions });
+    const boxes = new Float64Array(count * width);
+    const rounded = (x: number) => (way === 'doubles' ? x : Math.fround(x));
+    const place = (id: number) => {
+      for (let axis = 0; axis < dimensions; axis++) {
+        const low = random() * world;
+        const size = 10 * random();
+        boxes[id * width + axis] = rounded(low);
+        boxes[id * width + dimensions + axis] = rounded(low + size);
+      }
+    };
+    const creep = (id: number, frame: number) => {
+      const step = frame % 50 < 25 ? 0.125 : -0.125;
+      for (let k = 0; k < width; k++) boxes[id * width + k] = rounded(boxes[id * width + k]! + step);
+    };
+    for (let id = 0; id < count; id++) place(id);
+    let little = 0;
+    for (let frame = 0; frame < 260; frame++) {
+      const share = frame === 150 ? 1 : frame === 200 ? 0.6 : 0;
+      for (let id = 0; id < count; id++) {
+        if (random() < share) place(id);
+        else if (id % 30 === 0) creep(id, frame);
+      }
+      const how = way === 'mixed' ? ways[Math.floor(random() * 3)] : way;
+      const give = () => {
+        if (how === 'boxes') space.boxes(count).set(boxes);
+        else space.setAll(how === 'floats' ? new Float32Array(boxes) : boxes);
+      };
+      if (frame % 20 === 7) {
+        const at = Math.floor(random() * count) * width + Math.floor(random() * width);
+        const good = boxes[at]!;
+        boxes[at] = NaN;
+        const bad = () => {
+          give();
+          space.update();
+        };
+        expect(bad, `frame ${frame}`).toThrow(String(Math.floor(at / width)));
+        boxes[at] = good;
+      }
+      give();
+      if (frame % 7 === 3) {
+        const id = Math.floor(random() * count);
+        place(id);
+        setBox(space, id, Array.from(boxes.subarray(id * width, (id + 1) * width)));
+      }
+      space.update();
+      const expected = findPairs(way === 'doubles' ? boxes : new Float32Array(boxes), { dimensions });
+      expect(keysOf(space.pairs), `frame ${frame}`).toEqual(keysOf(expected));
+      if (space.stats.reason.startsWith('what was found is kept')) little++;
+      space.validate();
+    }
+    expect(little, 'updates answered from what is kept').toBeGreaterThan(40);
+  });
+
+  test('boxes that are given again as they were cost nothing', () => {
+    const random = createRandom(7);
+    const count = 2000;
+    const boxes = Float32Array.from({ length: count * 2 * dimensions }, (_, k) =>
+      k % (2 * dimensions) < dimensions ? random() * 300 : 310,
+    );
+    const space = new BroadPhase({ dimensions });
+    for (const give of [
+      () => space.setAll(boxes),
+      () => space.boxes(count).set(boxes),
+      () => {
+        for (let id = 0; id < count; id++) {
+          setBox(space, id, Array.from(boxes.subarray(2 * dimensions * id, 2 * dimensions * (id + 1))));
+        }
+      },
+    ]) {
+      for (let k = 0; k < 3; k++) {
+        give();
+        space.update();
+      }
+      const { pairs } = space.stats;
+      expect(space.stats.tests).toBe(0);
+      expect(pairs).toBe(findPairs(boxes, { dimensions }).length / 2);
+    }
+  });
+});
