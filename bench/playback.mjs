@@ -1,7 +1,8 @@
 // One play of plays.mjs, in a process of its own: every technique plays it, the same frames, as often as is asked for.
 //   { play: { row, seed, techniques, frames, settled, playings, every, patience } }
-//     ->  { count, pairs, kept, wrong, bytes, playings, times }, or { error }. The first playing is not timed: in it the pairs of all are compared, and the engine compiles what runs.
-// Of every other one the times of all frames are kept, in which techniques take turns, a few frames each.
+//     ->  { count, pairs, kept, wrong, bytes, playings, times }, or { error }
+// The first playing is not timed: in it the pairs of all are compared, and the engine compiles what runs. Of every other
+// one the times of all frames are kept, in which techniques take turns, a few frames each.
 import { BroadPhase } from '../build/bench/library.mjs';
 import { clocked } from './clock.mjs';
 import { fingerprint } from './fingerprint.mjs';
