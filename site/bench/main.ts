@@ -140,9 +140,17 @@ scene.addEventListener('change', () => {
   showGrowth((mine?.all ?? mine?.techniques)?.races ?? []);
 });
 
+const loaded = Promise.all(
+  Object.values(files).map(async (url) => {
+    const response = await fetch(url);
+    if (response.ok) learn(readResults(await response.text()));
+  }),
+);
+
 find<HTMLInputElement>('file').addEventListener('change', async ({ target }) => {
   const [file] = (target as HTMLInputElement).files ?? [];
   if (!file) return;
+  await loaded; // what is said of the file must not be overwritten
   try {
     learn(readResults(await file.text()), `${file.name}`);
     if (known.has(file.name)) machine.value = file.name;
@@ -160,11 +168,6 @@ addEventListener('resize', () => {
 });
 
 setUpRun();
-await Promise.all(
-  Object.values(files).map(async (url) => {
-    const response = await fetch(url);
-    if (response.ok) learn(readResults(await response.text()));
-  }),
-);
+await loaded;
 show();
 if (known.size === 0) note.textContent = 'No results are in the repository yet: npm run bench -- --full makes them.';
