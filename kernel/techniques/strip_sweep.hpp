@@ -26,10 +26,12 @@ template <int D> class StripSweep {
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
   static constexpr u32 block_items = 16;  // entries whose bounds are kept together
   static constexpr u32 deepest = 6;
-  // A strip is looked at again where it has this many candidates an item, and this many in all.
+  // A strip is cut again where it has this many candidates an item, and this many in all.
   static constexpr u64 again_factor = D == 2 ? 24 : 48, again_least = 8192;
-  // ... where no more than this share of them are hits. Where still fewer are, sixteen are tested at a time.
+  // ... and no more than this share of them are hits. Where still fewer are, sixteen are tested at a time, in 3D, from
+  // so many an item on: in 2D, strips that are narrow enough are always to be had.
   static constexpr f64 wasteful = 0.25, rare = 0.06;
+  static constexpr u64 look_factor = D == 2 ? again_factor : 32;
   // A cut after which there would be more entries than this for each box is not made.
   static constexpr u64 most_copies = 8;
 
@@ -413,7 +415,7 @@ template <int D> class StripSweep {
   void list(const ItemsAt<D>& items, u32 count, const Region& region, u32 base, u32 depth, Pairs& pairs) {
     u64 tests = swept_.order(items, count);
     if (in_parts_ && depth == 1) bound(items, count);
-    f64 hits = tests > again_factor * count && tests > again_least ? swept_.hits(count) : 1;
+    f64 hits = tests > look_factor * count && tests > again_least ? swept_.hits(count) : 1;
     Statistics<D> part;
     if (hits < wasteful) {
       part = measure<D>(items, count);
@@ -423,12 +425,12 @@ template <int D> class StripSweep {
         part.size[a] = smaller(part.size[a], larger(0.0, part.high[a] - part.low[a]));
       }
       Cut cut = choose(part, count);
-      if (depth < deepest && cut.lists() > 1 && divide(items, count, cut, region, base, depth, pairs)) return;
+      bool again = depth < deepest && tests > again_factor * count && cut.lists() > 1;
+      if (again && divide(items, count, cut, region, base, depth, pairs)) return;
     }
     stats_->tests += f64(tests);
     stats_->cells++;
     note(region);
-    // Not in 2D: strips that are narrow enough are always to be had there.
     if constexpr (D == 3) {
       if (hits < rare) return swept_.find_few(part, count, pairs);
     }
