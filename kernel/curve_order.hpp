@@ -47,7 +47,7 @@ template <int D> class HilbertCurve {
     }
     for (int a = 1; a < D; a++) at[a] ^= at[a - 1];
     u32x4 turns = at[D - 1] >> 1;  // to the parity of all higher bits
-    for (u32 step = 1; step < 16; step *= 2) turns ^= turns >> step;
+    ROLLED for (u32 step = 1; step < 16; step *= 2) turns ^= turns >> step;
     u32x4 key = {};
     for (int a = 0; a < D; a++) key |= spread(at[a] ^ turns) << u32(D - 1 - a);
     return key;

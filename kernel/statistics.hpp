@@ -238,16 +238,9 @@ struct Axis {
     axis.last = magic + f32(cells - 1);
     return axis;
   }
-
-  u32 operator()(f32 x) const {
-    f32 at = (x - low) * shrink * scale + magic;
-    at = at > magic ? at : magic;  // NaN, from infinity times a scale of 0, too
-    at = at < last ? at : last;
-    return bits<u32>(at) - bits<u32>(magic);
-  }
 };
 
-/// The same for four coordinates at once, each lane along an axis of its own.
+/// The cells of four coordinates at once, each lane along an axis of its own.
 struct Axes {
   f32x4 low, shrink, scale, last;
 
@@ -260,7 +253,7 @@ struct Axes {
 
   u32x4 operator()(f32x4 x) const {
     f32x4 at = (x - low) * shrink * scale + splat(Axis::magic);
-    at = min(max(at, splat(Axis::magic)), last);
+    at = min(max(at, splat(Axis::magic)), last);  // NaN, from infinity times a scale of 0, becomes cell 0
     return bits<u32x4>(at) - splat(bits<u32>(Axis::magic));
   }
 };

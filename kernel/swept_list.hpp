@@ -37,7 +37,7 @@ template <int D> class SweptList {
       for (int lane = 0; lane < 4; lane++) starts[at[lane]]++;
     }
     ROLLED
-    for (u32 k = whole; k < count; k++) starts[cells[k] = axis(items[k].lo(0))]++;
+    for (u32 k = whole; k < count; k++) starts[cells[k] = axes(splat(items[k].lo(0)))[0]]++;
     u32 at = 0;
     u64 crowd = 0;  // the sum of the squares: what the unsorted cells cost
     ROLLED
