@@ -34,7 +34,9 @@ template <int D> class Coherent {
   // for each box, candidate, and box that is late.
   static constexpr f64 look_cost = 1.5, fatten_cost = D == 2 ? 11 : 24, enter_cost = D == 2 ? 9 : 17,
                        sweep_cost = D == 2 ? 11 : 25, mend_cost = D == 2 ? 2.5 : 4, hit_cost = D == 2 ? 3 : 7;
-  static constexpr f64 box_cost = 2.5, candidate_cost = D == 2 ? 2.5 : 3, late_cost = 1500;
+  static constexpr f64 box_cost = 2.5, late_cost = 1500;
+  // A candidate costs five times as much where the boxes of a scene are far more than the cache holds.
+  static constexpr f64 cached_cost = D == 2 ? 2.5 : 3, uncached_cost = 4 * cached_cost, cached_boxes = 4e5;
   static constexpr f64 all_costs = fatten_cost + enter_cost + sweep_cost + mend_cost;
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
 
@@ -152,7 +154,11 @@ template <int D> class Coherent {
   /// The same, where a generation is made in so many updates and then answers so many.
   COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, f64 period, f64 making) {
     f64 all = candidates(boxes, hits, share, pace, making + period + spare_updates);
-    return boxes * (box_cost + all_costs / period) + (candidate_cost + hit_cost / period) * all;
+    return boxes * (box_cost + all_costs / period) + (candidate_cost(boxes) + hit_cost / period) * all;
+  }
+
+  static f64 candidate_cost(f64 boxes) {
+    return cached_cost + uncached_cost * boxes * boxes / (boxes * boxes + cached_boxes * cached_boxes);
   }
 
   /// Candidates where fat boxes reach so many updates ahead.
@@ -469,7 +475,7 @@ template <int D> class Coherent {
     pace_ = f32(motion_ / boxes_);
     making_ = larger(least_making, making_share * period_);
     if (hits_ >= 0) {
-      f64 cost = boxes_ * (box_cost + (all_costs + late_cost * lost_) / period_ + (candidate_cost + hit_cost / period_) * found_) + late_cost * lates_ / (age_ + 1);
+      f64 cost = boxes_ * (box_cost + (all_costs + late_cost * lost_) / period_ + (candidate_cost(boxes_) + hit_cost / period_) * found_) + late_cost * lates_ / (age_ + 1);
       
       if (cost > worth * fresh) return forget();
       period_ = best_period(boxes_, hits_, 1, pace_);
