@@ -159,7 +159,7 @@ template <int D> class Incremental {
     if (leaves_ > 0 && queued_ == 0) {
       by_ = By::cells;
       stats.reason = f64(u32(Reason::kept));
-      coherent_.forget();
+      if (coherent_.begun()) coherent_.release();
       return balance(f64(pairs.count - settled_.count));
     }
     bool follows = coherent_.begun(), kept = follows && coherent_.update(scene, options, fresh_, pairs, stats);
