@@ -24,9 +24,9 @@ template <int D> class Coherent {
   static constexpr u32 width = 2 * D, padding = 4;
   static constexpr u32 struck = 1u << 31;  // a mark
   static constexpr f64 late_share = 0.5;  // all is given up where boxes that leave their fat ones cost such a share of strip sweep
-  static constexpr f32 least_period = 3, most_period = 64, least_making = 2, most_making = 24;
+  static constexpr f32 least_period = 3, most_period = 64, least_making = 2, most_making = 32;
   static constexpr f32 spare_updates = 2;  // fat boxes reach so many further, for work that takes longer than planned
-  static constexpr f64 bearable = 0.12;  // what making the first generation may add to an update, as a share of strip sweep
+  static constexpr f64 bearable = 0.09;  // what making the first generation may add to an update, as a share of strip sweep
   static constexpr f32 making_share = 0.6f;  // of the updates of a generation, in so many the next is made
   static constexpr f64 spread = D == 2 ? 0.75 : 0.67;  // of motion along an axis, to that along the fastest
   // What the work of a generation costs for each box, in nanoseconds: noting where it stands, making its fat box and
@@ -38,6 +38,7 @@ template <int D> class Coherent {
   // A candidate costs five times as much where the boxes of a scene are far more than the cache holds.
   static constexpr f64 cached_cost = D == 2 ? 2.5 : 3, uncached_cost = 4 * cached_cost, cached_boxes = 4e5;
   static constexpr f64 all_costs = fatten_cost + enter_cost + sweep_cost + mend_cost;
+  static constexpr u32 sampled = 4;  // of so many boxes one is asked how fast it is
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
 
   enum class Stage : u32 { begin, look, fatten, enter, sweep, mend };
@@ -96,18 +97,19 @@ template <int D> class Coherent {
 
   COLD void begin(f64 boxes, f64 hits, f64 pace, f64 fresh) {
     begun_ = true;
+    make_room(u32(boxes), u32(boxes));  // not in the update that first looks at all of them
     pace_ = f32(pace);
     period_ = best_period(boxes, hits, 1, pace);
     stage_ = Stage::begin;
     known_ = unchecked_ = false;
     slack_ = 0.5f;
-    lost_ = 0.02;
     hits_ = -1;
     // The longer the first one takes, the less does an update pay for it, and the further must fat boxes reach.
     making_ = making_share * period_;
     do {
       making_++;
       found_ = candidates(boxes, hits, 1, pace, making_ + period_ + spare_updates) / boxes;
+      lost_ = 0.01 * pace * making_;
     } while (making_ < most_making && work() * boxes > bearable * fresh * making_ && cost(boxes, hits, 1, pace, period_, making_) < fresh);
   }
 
@@ -429,20 +431,20 @@ template <int D> class Coherent {
   NOINLINE void make_fat(const Scene<D>& scene, const Settings& options, u32 until) {
     Generation& g = next();
     f32 reach = left() + period_ + spare_updates;
-    f32 fat[width + padding];
     for (u32 slot = at_; slot < until; slot++) {
+      // Written in place, in order: what is written beyond a fat box is where the next one comes.
+      f32* fat = g.fat.data() + u64(slot) * width;
       if (slot < scene.count) {
         const f32* box = scene.box(slot);
         u32 updates = now_ - bits<u32>(from(slot)[D]);
         fatten<D>(box, from(slot), larger(updates, 1u), reach, slack_, options.margin, fat);
         if (updates == 0 || current().marks[slot] > 0) surround(box, slot, reach, fat);
-        motion_ += pace<D>(box, from(slot), larger(updates, 1u));
+        if (slot % sampled == 0) motion_ += pace<D>(box, from(slot), larger(updates, 1u));
         g.excluded[slot] = scene.excluded_of(slot);
       } else {
         for (u32 k = 0; k < width; k++) fat[k] = __builtin_nanf("");
         g.excluded[slot] = 0;
       }
-      __builtin_memcpy(g.fat.data() + u64(slot) * width, fat, width * sizeof(f32));
     }
   }
 
@@ -472,7 +474,7 @@ template <int D> class Coherent {
     unchecked_ = known_ = true;
     found_ = f64(g.candidates.count) / boxes_;
     stage_ = Stage::begin;
-    pace_ = f32(motion_ / boxes_);
+    pace_ = f32(motion_ * sampled / boxes_);
     making_ = larger(least_making, making_share * period_);
     if (hits_ >= 0) {
       f64 cost = boxes_ * (box_cost + (all_costs + late_cost * lost_) / period_ + (candidate_cost(boxes_) + hit_cost / period_) * found_) + late_cost * lates_ / (age_ + 1);
