@@ -11,7 +11,7 @@
 // All is given up where many boxes leave their fat ones at once, or where it does not pay.
 // Cost: a pass over the boxes that may have moved and one over the candidates, some two to four times as many as pairs,
 // and a share of two or three strip sweeps: 4 to 12 ns a box in 2D, 12 to 35 in 3D. The updates in which the first
-// generation is made cost a tenth to a third more than strip-sweep. Memory, beside that of strip-sweep: about 160 (2D) or
+// generation is made cost a fifth to a third more than strip-sweep, where motion is fast up to twice as much. Memory, beside that of strip-sweep: about 160 (2D) or
 // 270 (3D) bytes a box.
 // Part of `incremental`, which says when. From: L. Verlet, 1967; see motion.hpp. Making the next generation a slice at a
 // time is ours.
@@ -34,9 +34,9 @@ template <int D> class Coherent {
   // for each box, candidate, and box that is late.
   static constexpr f64 look_cost = 1.5, fatten_cost = D == 2 ? 11 : 24, enter_cost = D == 2 ? 9 : 17,
                        sweep_cost = D == 2 ? 11 : 25, mend_cost = D == 2 ? 2.5 : 4, hit_cost = D == 2 ? 3 : 7;
-  static constexpr f64 box_cost = 2.5, late_cost = 1500;
+  static constexpr f64 box_cost = D == 2 ? 2 : 3, late_cost = 1500;
   // A candidate costs five times as much where the boxes of a scene are far more than the cache holds.
-  static constexpr f64 cached_cost = D == 2 ? 2.5 : 3, uncached_cost = 4 * cached_cost, cached_boxes = 4e5;
+  static constexpr f64 cached_cost = D == 2 ? 2 : 4.2, uncached_cost = 4 * cached_cost, cached_boxes = 4e5;
   static constexpr f64 all_costs = fatten_cost + enter_cost + sweep_cost + mend_cost;
   static constexpr u32 sampled = 4;  // of so many boxes one is asked how fast it is
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
