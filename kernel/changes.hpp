@@ -7,7 +7,9 @@
 #include "heap.hpp"
 
 /// Whether so many bytes differ, at least 16.
-template <u32 bytes> bool differ(const u8* a, const u8* b) {
+template <u32 bytes> bool differ(const void* one, const void* other) {
+  const u8* a = static_cast<const u8*>(one);
+  const u8* b = static_cast<const u8*>(other);
   i32x4 different = {};
   for (u32 k = 0; k < bytes; k += 16) {
     u32 at = smaller(k, bytes - 16);

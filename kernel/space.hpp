@@ -425,6 +425,8 @@ template <int D> class Space {
     updates++;
     stats.tests = 0;
     stats.bytes = f64(heap::used);
+    stats.reason = f64(u32(Reason::kept));
+    explain();
     return -1;
   }
 
@@ -498,8 +500,8 @@ template <int D> class Space {
   /// Whether a box stands in a slot as it is given.
   bool is_as_before(u32 slot, const f32* low_high, const f64* box) const {
     u64 at = u64(slot) * width;
-    if (rounding_) return !differ<width * sizeof(f64)>(reinterpret_cast<const u8*>(exact_.data() + at), reinterpret_cast<const u8*>(box));
-    return !differ<width * sizeof(f32)>(reinterpret_cast<const u8*>(boxes_.data() + at), reinterpret_cast<const u8*>(low_high));
+    if (rounding_) return !differ<width * sizeof(f64)>(exact_.data() + at, box);
+    return !differ<width * sizeof(f32)>(boxes_.data() + at, low_high);
   }
 
   /// What was staged is now what stands in the space; `rounded`: with doubles that float32 cannot hold.

@@ -23,7 +23,7 @@
 template <int D> class Coherent {
   static constexpr u32 width = 2 * D, padding = 4;
   static constexpr u32 struck = 1u << 31;  // a mark
-  static constexpr f64 late_share = 0.5;  // all is given up where boxes that leave their fat ones cost such a share of strip sweep
+  static constexpr f64 late_share = 0.5;  // all is given up where those that leave their fat ones cost this share of fresh
   static constexpr f32 least_period = 3, most_period = 64, least_making = 2, most_making = 32;
   static constexpr f32 spare_updates = 2;  // fat boxes reach so many further, for work that takes longer than planned
   static constexpr f64 bearable = 0.09;  // what making the first generation may add to an update, as a share of strip sweep
@@ -86,8 +86,7 @@ template <int D> class Coherent {
 
  public:
   /// What an update is going to cost for so many boxes and pairs, where such a share of the boxes moves, so far as a
-  /// share of their size.
-  /// `listed`: it will be known which boxes have moved.
+  /// share of their size. `listed`: it will be known which have moved.
   COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, bool listed) {
     f64 period = best_period(boxes, hits, share, pace);
     return cost(boxes, hits, share, pace, period, making_share * period) - (listed ? (1 - share) * box_cost * boxes : 0);
@@ -110,7 +109,8 @@ template <int D> class Coherent {
       making_++;
       found_ = candidates(boxes, hits, 1, pace, making_ + period_ + spare_updates) / boxes;
       lost_ = 0.01 * pace * making_;
-    } while (making_ < most_making && work() * boxes > bearable * fresh * making_ && cost(boxes, hits, 1, pace, period_, making_) < fresh);
+    } while (making_ < most_making && work() * boxes > bearable * fresh * making_ &&
+             cost(boxes, hits, 1, pace, period_, making_) < fresh);
   }
 
   /// Finds the pairs, where a generation is there to answer; else false. Gives up where that costs more than `fresh`.
@@ -384,7 +384,10 @@ template <int D> class Coherent {
   COLD f64 slice(const Scene<D>& scene, const Settings& options, f64 budget, f64 fresh) {
     Generation& g = next();
     if (stage_ == Stage::mend) return mend(scene, options, budget, fresh);
-    f64 each = stage_ == Stage::look ? look_cost : stage_ == Stage::fatten ? fatten_cost : stage_ == Stage::enter ? enter_cost : (sweep_cost + hit_cost * found_) * boxes_ / g.stats.entries;
+    f64 each = (sweep_cost + hit_cost * found_) * boxes_ / g.stats.entries;
+    if (stage_ == Stage::look) each = look_cost;
+    if (stage_ == Stage::fatten) each = fatten_cost;
+    if (stage_ == Stage::enter) each = enter_cost;
     u32 many = u32(smaller(budget / each + 1, f64(max_slots))), until = smaller(boxes_, at_ + many), n = scene.count;
     Scene<D> fat{g.fat.data(), boxes_, g.excluded.data()};
     if (stage_ == Stage::look) {
@@ -477,9 +480,8 @@ template <int D> class Coherent {
     pace_ = f32(motion_ * sampled / boxes_);
     making_ = larger(least_making, making_share * period_);
     if (hits_ >= 0) {
-      f64 cost = boxes_ * (box_cost + (all_costs + late_cost * lost_) / period_ + (candidate_cost(boxes_) + hit_cost / period_) * found_) + late_cost * lates_ / (age_ + 1);
-      
-      if (cost > worth * fresh) return forget();
+      f64 each = box_cost + work() / period_ + candidate_cost(boxes_) * found_;
+      if (boxes_ * each + late_cost * lates_ / (age_ + 1) > worth * fresh) return forget();
       period_ = best_period(boxes_, hits_, 1, pace_);
       making_ = larger(least_making, making_share * period_);
       // Where boxes leave their fat ones too early, the next reach further to the sides.
