@@ -441,17 +441,19 @@ template <int D> class Space {
     u32 n = ids_.count();
     if (copied_ == n && !changes_.all()) {
       constexpr u32 bytes = width * sizeof(f32);
-      u64 end = u64(n) * bytes, at = first_difference(boxes_.data(), before_.data(), 0, end);
-      while (at < end && !changes_.most(n)) {
+      u64 at = 0, end = u64(n) * bytes;
+      bool little = alike(boxes_.data(), before_.data(), n, bytes);
+      while (little && (at = first_difference(boxes_.data(), before_.data(), at, end)) < end) {
         u32 slot = u32(at / bytes);
         const f32* box = boxes_.data() + u64(slot) * width;
         if (first_bad(box, 1) >= 0) return i32(ids_.id(slot));  // not copied: it will be seen again, and what follows it
         __builtin_memcpy(before_.data() + u64(slot) * width, box, bytes);
         changes_.note(slot);
-        at = first_difference(boxes_.data(), before_.data(), u64(slot + 1) * bytes, end);
+        little = !changes_.most(n);
+        at = u64(slot + 1) * bytes;
       }
-      compared(at == end);
-      if (at == end) return -1;
+      compared(little);
+      if (little) return -1;
     }
     copied_ = 0;
     changes_.note_all();
@@ -475,14 +477,26 @@ template <int D> class Space {
       before = exact_.data();
       bytes = width * sizeof(f64);
     }
-    u64 end = u64(n) * bytes, at = first_difference(now, before, 0, end);
-    while (at < end && !changes_.most(n)) {
+    u64 at = 0, end = u64(n) * bytes;
+    bool little = alike(now, before, n, bytes);
+    while (little && (at = first_difference(now, before, at, end)) < end) {
       u32 slot = u32(at / bytes);
       changes_.note(slot);
-      at = first_difference(now, before, u64(slot + 1) * bytes, end);
+      little = !changes_.most(n);
+      at = u64(slot + 1) * bytes;
     }
-    compared(!changes_.most(n));
-    if (changes_.most(n)) changes_.note_all();
+    compared(little);
+    if (!little) changes_.note_all();
+  }
+
+  /// Whether of a sample of n items most are what they were.
+  COLD static bool alike(const void* now, const void* before, u32 n, u32 bytes) {
+    u32 sample = smaller(n, 64u), different = 0;
+    for (u32 k = 0; k < sample; k++) {
+      u64 at = u64(n) * k / sample * bytes;
+      different += first_difference(now, before, at, at + bytes) < at + bytes;
+    }
+    return different <= sample / 2;
   }
 
   /// Whether boxes are compared with those of before; not for a while where it was of no use.

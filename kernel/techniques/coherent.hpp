@@ -98,7 +98,7 @@ template <int D> class Coherent {
     begun_ = true;
     make_room(u32(boxes), u32(boxes));  // not in the update that first looks at all of them
     pace_ = f32(pace);
-    period_ = best_period(boxes, hits, 1, pace);
+    period_ = best_period(boxes, hits, 1, pace) + spare_updates;  // the first takes longest
     stage_ = Stage::begin;
     known_ = unchecked_ = false;
     slack_ = 0.5f;
@@ -356,13 +356,15 @@ template <int D> class Coherent {
   /// Updates until the generation that is being made is likely to be done.
   f32 left() const { return larger(0.0f, making_ - f32(age_)); }
 
+  bool hurries() const { return known_ && lasts_ <= 0; }
+
   /// Makes a slice of the next generation.
   COLD void build(const Scene<D>& scene, const Settings& options, f64 fresh) {
     lasts_--;
     if (stage_ != Stage::begin) age_++;
-    else if (!known_ || lasts_ <= making_ + 2) open(scene);
+    else if (!known_ || lasts_ <= making_ + 3) open(scene);
     // Before the one that answers ends, all must be done.
-    f64 budget = known_ && lasts_ <= 1 ? __builtin_inf() : work() * boxes_ / making_;
+    f64 budget = hurries() ? __builtin_inf() : work() * boxes_ / making_;
     while (begun_ && budget > 0 && stage_ != Stage::begin) budget -= slice(scene, options, budget, fresh);
   }
 
@@ -417,7 +419,7 @@ template <int D> class Coherent {
     u32 until = smaller(boxes_, scene.count);
     f64 spent = 0;
     if (at_ == 0) lost_ = 0;
-    for (; at_ < until && spent < budget; at_++) {
+    for (; at_ < until && spent < smaller(budget, fresh / 2); at_++) {
       const f32* box = scene.box(at_);
       const f32* fat = g.fat.data() + u64(at_) * width;
       spent += mend_cost;
@@ -426,7 +428,8 @@ template <int D> class Coherent {
       spent += late_cost;
       lost_ += 1.0 / boxes_;
     }
-    if (at_ >= until) take_over(scene, fresh);
+    if (lost_ * boxes_ * late_cost > fresh) forget();
+    else if (at_ >= until || hurries()) take_over(scene, fresh);
     return spent;
   }
 
