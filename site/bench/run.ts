@@ -27,6 +27,7 @@ export function setUpRun(): void {
     'uniform2d',
   );
   scene.addEventListener('change', enable);
+  enable(); // nobody can run a race before it is known who there is
 
   /** The worker says first who there is: the page itself does without the library. */
   function open(): Worker {
