@@ -24,6 +24,7 @@ template <int D> class Coherent {
   static constexpr u32 width = 2 * D, padding = 4;
   static constexpr u32 struck = 1u << 31;  // a mark
   static constexpr f64 late_share = 0.5;  // all is given up where those that leave their fat ones cost this share of fresh
+  static constexpr f64 few_late = 128;  // so many are no reason
   static constexpr f32 least_period = 3, most_period = 64, least_making = 2, most_making = 32;
   static constexpr f32 spare_updates = 2;  // fat boxes reach so many further, for work that takes longer than planned
   static constexpr f64 bearable = 0.09;  // what making the first generation may add to an update, as a share of strip sweep
@@ -210,7 +211,7 @@ template <int D> class Coherent {
       for (u32 slot = 0; slot < both; slot++) check(slot);
     }
     unchecked_ = false;
-    if (late_cost * (u64(many) + (n - both)) > late_share * fresh + 64 * late_cost) {
+    if (late_cost * (f64(many) + (n - both) - few_late) > late_share * fresh) {
       forget();
       return false;
     }
@@ -428,7 +429,7 @@ template <int D> class Coherent {
       spent += late_cost;
       lost_ += 1.0 / boxes_;
     }
-    if (lost_ * boxes_ * late_cost > fresh) forget();
+    if (late_cost * (lost_ * boxes_ - few_late) > fresh) forget();
     else if (at_ >= until || hurries()) take_over(scene, fresh);
     return spent;
   }

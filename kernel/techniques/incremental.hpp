@@ -242,14 +242,14 @@ template <int D> class Incremental {
     if (by_ == By::generations) {
       if (by_cells <= worth * by_generations) plan(scene);
       else pause_ = considered;
-    } else if (by_generations <= worth_trying * fresh_) {
-      planned_ = n;
-      coherent_.begin(n, hits, share * speed, fresh_);
-    } else if (by_cells <= worth * fresh_) {
-      plan(scene);
-    } else {
-      pause_ = first_pause;
+      return;
     }
+    bool generations_pay = by_generations <= worth_trying * fresh_;
+    f64 otherwise = generations_pay ? smaller(fresh_, by_generations) : fresh_;
+    if (generations_pay) coherent_.begin(n, hits, share * speed, fresh_);
+    if (by_cells <= worth * otherwise) plan(scene);
+    else if (!generations_pay) pause_ = first_pause;
+    planned_ = n;
   }
 
   /// Updates in which every cell should have one turn, given how far movers move in one as a share of their size: what
