@@ -7,6 +7,8 @@ export interface Row {
   scene?: SceneName;
   recording?: string;
   count?: number;
+  by?: 'set' | undefined;
+  cold?: boolean;
 }
 export interface Times {
   mean: number;

@@ -21,7 +21,10 @@ const every = 10;
 /** How far a box moves in a frame, at most, in a physics scene and where all is fast: boxes are 10 wide. */
 const [slow, fast] = [0.2, 2];
 
-/** What is played, in order. `kind` is what goals are set for. `nativeMs`: the best native library, by its earlier figure. */
+/**
+ * What is played, in order. `kind` is what goals are set for. `nativeMs`: the best native library, by its earlier figure.
+ * `cold`: between two updates the caches are filled with other things.
+ */
 export function rows(cases, traces) {
   const moving = ['uniform2d', 'uniform3d'].flatMap((scene) =>
     [10_000, 100_000].flatMap((count) => [
@@ -29,10 +32,12 @@ export function rows(cases, traces) {
       { name: `${scene}, up to ${fast} a frame`, kind: 'fast', scene, count, speed: fast },
     ]),
   );
+  const tiles = { kind: 'tiles', scene: 'tile-map', count: 101_000, by: 'set' };
   const still = { kind: 'still', scene: 'uniform2d', count: 100_000, speed: 0, by: 'set' };
   const world = { kind: 'adversarial', scene: 'uniform2d', count: 100_000 };
   return [
-    { name: 'tile-map, 1,000 walkers set', kind: 'tiles', scene: 'tile-map', count: 101_000, by: 'set' },
+    { name: 'tile-map, 1,000 walkers set', ...tiles },
+    { name: 'tile-map, 1,000 walkers set, cold caches', ...tiles, kind: 'cold', cold: true },
     { name: 'nothing moves', ...still },
     { name: 'nothing moves, 100,000 of them static', ...still, scene: 'tile-map', count: 101_000 },
     { name: 'static2d, movers set', kind: 'static', scene: 'static2d', count: 10_000, by: 'set', nativeMs: 0.2 },

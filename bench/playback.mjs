@@ -6,20 +6,36 @@
 import { BroadPhase } from '../build/bench/library.mjs';
 import { clocked } from './clock.mjs';
 import { fingerprint } from './fingerprint.mjs';
-import { openPlay } from './plays.mjs';
+import { preparePlay } from './plays.mjs';
 
-/** Frames that a technique plays before it is another's turn: what it keeps is then in the caches, as in a game. */
+/**
+ * Frames that a technique plays before it is another's turn: what it keeps is then in the caches, as in a game. In the
+ * first of them it is not, so turns begin with other frames in each playing.
+ */
 const turn = 30;
 
+/**
+ * What else a game reads and writes in a frame: enough to take the place of all that is in the caches of one core, which
+ * hold a megabyte or two, while what the cores share may keep it.
+ */
+const otherData = new Uint8Array(8 * 2 ** 20);
+/** No processor moves less than so many bytes between memory and caches. */
+const cacheLine = 64;
+
+function doOtherThings() {
+  for (let at = 0; at < otherData.length; at += cacheLine) otherData[at]++;
+}
+
 /** A technique at work on a play. */
-function open(row, seed, technique) {
-  const play = openPlay(row, seed);
+function open(openPlay, technique) {
+  const play = openPlay();
   const space = new BroadPhase({ dimensions: play.dimensions, technique });
   play.start(space);
   return { play, space };
 }
 
-function timed({ play, space }, frame) {
+function timed({ play, space }, frame, cold) {
+  if (cold) doOtherThings();
   play.move(space, frame);
   const { atWork } = clocked(() => {
     play.ask(space, frame);
@@ -32,8 +48,8 @@ function timed({ play, space }, frame) {
  * Plays all side by side, and compares their pairs with those of the first in every so many frames. `kept` is the share
  * of the frames once all has settled in which `auto` answered by what it keeps.
  */
-function check({ row, seed, techniques, frames, settled, every }) {
-  const players = techniques.map((technique) => open(row, seed, technique));
+function check(openPlay, { techniques, frames, settled, every }) {
+  const players = techniques.map((technique) => open(openPlay, technique));
   const bytes = {};
   let [pairs, kept, wrong] = [0, 0, undefined];
   for (let frame = 0; frame < frames; frame++) {
@@ -58,13 +74,15 @@ function check({ row, seed, techniques, frames, settled, every }) {
   return { count, pairs, kept: kept / (frames - settled), wrong, bytes };
 }
 
-/** Plays all frames once with each technique. */
-function playing({ row, seed, techniques, frames }, backwards) {
-  const players = techniques.map((technique) => ({ ...open(row, seed, technique), times: [] }));
-  const order = backwards ? [...players].reverse() : players;
-  for (let from = 0; from < frames; from += turn) {
+/** Plays all frames once with each technique; `played` is how often they were before. */
+function playing(openPlay, { row, techniques, frames, playings }, played) {
+  const players = techniques.map((technique) => ({ ...open(openPlay, technique), times: [] }));
+  const order = played % 2 === 1 ? [...players].reverse() : players;
+  const early = Math.floor((turn * played) / playings);
+  for (let from = -early; from < frames; from += turn) {
     for (const player of order) {
-      for (let frame = from; frame < Math.min(frames, from + turn); frame++) player.times.push(timed(player, frame));
+      for (let frame = Math.max(0, from); frame < Math.min(frames, from + turn); frame++)
+        player.times.push(timed(player, frame, row.cold));
     }
   }
   for (const { space } of players) space.dispose();
@@ -72,13 +90,14 @@ function playing({ row, seed, techniques, frames }, backwards) {
 }
 
 function play(order) {
-  const { techniques, playings, patience } = order;
-  const checked = check(order);
+  const { row, seed, frames, techniques, playings, patience } = order;
+  const openPlay = preparePlay(row, seed, frames);
+  const checked = check(openPlay, order);
   const times = techniques.map(() => []);
   const start = performance.now();
   let played = 0;
   for (; played < playings && (played < 2 || performance.now() - start < patience); played++) {
-    for (const [k, of] of playing(order, played % 2 === 1).entries()) times[k].push(of);
+    for (const [k, of] of playing(openPlay, order, played).entries()) times[k].push(of);
   }
   return { ...checked, playings: played, times };
 }

@@ -1,71 +1,105 @@
 // What coherence is measured on: boxes of which few move, or all by little, and what is meant to make a structure that is
 // kept pay for it. A play is the same in every frame each time it is opened. `move` is not timed: it moves the boxes,
 // and writes them into the space where they are given in place. `ask` is: it makes the calls of a frame.
+// A game knows who moved and touches nobody else. So where boxes are set one by one, who moves and where to is found
+// beforehand: a look at all boxes between two updates would leave the caches full of what no game reads.
 import { createRandom } from '../build/bench/library.mjs';
 import { openScene } from './scene.mjs';
 
 /**
+ * Gets a row ready for so many frames; each call of what it returns opens a play of it, for another space.
  * Boxes that the scene knows to rest are set static before the first frame.
  * @param row `by`: 'set', those that moved are set one by one; or all are written in place. `trick`: one of those below.
  */
-export function openPlay(row, seed) {
+export function preparePlay(row, seed, frames) {
+  if (row.by !== 'set') return () => inPlace(openTricked(row, seed));
+  const play = oneByOne(openTricked(row, seed), frames);
+  return () => play;
+}
+
+/** A scene as its trick, if there is one, moves it; `ask` are the calls that the trick makes in a frame. */
+function openTricked(row, seed) {
   const scene = openScene(row, row.count, seed);
   const { dimensions, count, boxes, fixed = 0 } = scene;
   const trick = row.trick ? tricks[row.trick](scene, createRandom(seed)) : {};
-  const { step = scene.step.bind(scene), ask: askMore = () => {} } = trick;
-  const how = row.by === 'set' ? oneByOne(scene) : inPlace(scene);
+  const { step = scene.step.bind(scene), ask = () => {} } = trick;
+  return { dimensions, count, boxes, fixed, step, ask };
+}
+
+function inPlace({ dimensions, count, boxes, fixed, step, ask }) {
+  const write = (space) => space.boxes(count).set(boxes);
   return {
     dimensions,
     count,
-    boxes,
     start(space) {
-      how.start(space);
-      for (let id = 0; id < fixed; id++) space.setStatic(id);
+      write(space);
+      setStatic(space, fixed);
     },
     move(space, frame) {
       step(frame);
-      how.moved(space);
+      write(space);
     },
-    ask(space, frame) {
-      askMore(space, frame);
-      how.ask(space);
-    },
+    ask,
   };
 }
 
-function inPlace({ count, boxes }) {
-  const write = (space) => space.boxes(count).set(boxes);
-  return { start: write, moved: write, ask() {} };
-}
-
-function oneByOne({ dimensions, count, boxes }) {
+function oneByOne(scene, frames) {
+  const { dimensions, count, fixed } = scene;
+  const first = scene.boxes.slice();
+  const recorded = recordMoves(scene, frames);
   const stride = 2 * dimensions;
-  const known = boxes.slice();
-  const movers = new Uint32Array(count);
-  let moving = 0;
+  const most = recorded.reduce((so, { movers }) => Math.max(so, movers.length), 0);
+  /** Of the frame that is played, as a game has just written them. */
+  const now = { moving: 0, movers: new Uint32Array(most), boxes: new Float32Array(stride * most) };
   return {
-    start: (space) => space.setAll(boxes),
-    moved() {
-      moving = 0;
-      for (let id = 0, k = 0; id < count; id++, k += stride) {
-        let moved = false;
-        for (let at = k; at < k + stride; at++) {
-          if (known[at] === boxes[at]) continue;
-          known[at] = boxes[at];
-          moved = true;
-        }
-        if (moved) movers[moving++] = id;
-      }
+    dimensions,
+    count,
+    start(space) {
+      space.setAll(first);
+      setStatic(space, fixed);
     },
-    ask(space) {
-      for (let m = 0; m < moving; m++) {
+    move(_space, frame) {
+      const { movers, boxes } = recorded[frame];
+      now.moving = movers.length;
+      now.movers.set(movers);
+      now.boxes.set(boxes);
+    },
+    ask(space, frame) {
+      scene.ask(space, frame);
+      const { moving, movers, boxes } = now;
+      for (let m = 0, k = 0; m < moving; m++, k += stride) {
         const id = movers[m];
-        const k = stride * id;
         if (dimensions === 2) space.set(id, boxes[k], boxes[k + 1], boxes[k + 2], boxes[k + 3]);
         else space.set(id, boxes[k], boxes[k + 1], boxes[k + 2], boxes[k + 3], boxes[k + 4], boxes[k + 5]);
       }
     },
   };
+}
+
+/** Plays all frames, and gives for each the boxes that moved in it, and where they then are. */
+function recordMoves({ dimensions, count, boxes, step }, frames) {
+  const stride = 2 * dimensions;
+  const known = boxes.slice();
+  const movers = new Uint32Array(count);
+  const moved = new Float32Array(stride * count);
+  return Array.from({ length: frames }, (_, frame) => {
+    step(frame);
+    let moving = 0;
+    for (let id = 0, k = 0; id < count; id++, k += stride) {
+      let same = true;
+      for (let at = k; at < k + stride; at++) same &&= known[at] === boxes[at];
+      if (same) continue;
+      const box = boxes.subarray(k, k + stride);
+      known.set(box, k);
+      moved.set(box, stride * moving);
+      movers[moving++] = id;
+    }
+    return { movers: movers.slice(0, moving), boxes: moved.slice(0, stride * moving) };
+  });
+}
+
+function setStatic(space, fixed) {
+  for (let id = 0; id < fixed; id++) space.setStatic(id);
 }
 
 /** A phase of a trick, in frames. */

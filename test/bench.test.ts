@@ -2,15 +2,15 @@
 // played where little changes, and the page that is made of it.
 import { readFileSync } from 'node:fs';
 import { BroadPhase } from 'broadphase';
-import { describe, expect, test } from 'vitest';
+import { describe, expect, test, vi } from 'vitest';
 import { loadCases } from '../bench/cases.mjs';
 import { clocked } from '../bench/clock.mjs';
-import { judge, phases, rows } from '../bench/coherence.mjs';
+import { judge, phases, type Row, rows } from '../bench/coherence.mjs';
 import { coherenceGoals } from '../bench/coherence-table.mjs';
 import { duellists, verdict } from '../bench/duel.mjs';
 import { fingerprint } from '../bench/fingerprint.mjs';
 import { figures } from '../bench/markdown.mjs';
-import { openPlay } from '../bench/plays.mjs';
+import { type Play, preparePlay } from '../bench/plays.mjs';
 import { against, change, guessTime, leastOfEach, spread, summary } from '../bench/statistics.mjs';
 import { autoAgainstBest } from '../bench/techniques.mjs';
 
@@ -131,33 +131,60 @@ describe('what is played where little changes', () => {
   const some = all.filter(
     ({ name, recording }, k) => all.findIndex((row) => row.name === name) === k && (!recording || name === 'tumbler'),
   );
-  const bytesOf = ({ buffer }: Float32Array) => Buffer.from(buffer);
+  const frames = 110;
+
+  /** How the rows are played here: with as few boxes as show what they do. */
+  const prepare = (row: Row) => preparePlay(row.count ? { ...row, count: 606 } : row, 5, frames);
+  const open = (openPlay: () => Play, technique: 'strip-sweep' | 'auto') => {
+    const play = openPlay();
+    const space = new BroadPhase({ dimensions: play.dimensions, technique });
+    play.start(space);
+    return { play, space };
+  };
+  const next = ({ play, space }: { play: Play; space: BroadPhase }, frame: number) => {
+    play.move(space, frame);
+    play.ask(space, frame);
+    space.update();
+  };
+  const boxesOf = ({ play, space }: { play: Play; space: BroadPhase }) =>
+    Array.from({ length: play.count }, (_, id) => [...space.get(id)!]).flat();
 
   test.each(some.map((row) => [row.name, row] as const))('%s: each time the same, and the right pairs', (_, row) => {
-    const small = row.count ? { ...row, count: 606 } : row;
-    const players = (['strip-sweep', 'auto'] as const).map((technique) => {
-      const play = openPlay(small, 5);
-      const space = new BroadPhase({ dimensions: play.dimensions, technique });
-      play.start(space);
-      return { play, space };
-    });
-    const first = players[0].play.boxes.slice();
+    const openPlay = prepare(row);
+    const one = open(openPlay, 'strip-sweep');
+    const other = open(openPlay, 'auto');
+    const first = boxesOf(one);
     let [moved, most] = [false, 0];
-    for (let frame = 0; frame < 110; frame++) {
-      for (const { play, space } of players) {
-        play.move(space, frame);
-        play.ask(space, frame);
-        space.update();
-      }
-      const [{ play, space }, other] = players;
-      expect(bytesOf(play.boxes).equals(bytesOf(other.play.boxes))).toBe(true);
-      expect(fingerprint(other.space.pairs)).toBe(fingerprint(space.pairs));
-      moved ||= play.boxes.some((value, k) => value !== first[k]);
-      most = Math.max(most, space.pairCount);
-      expect([...space.get(0)!]).toEqual([...play.boxes.subarray(0, 2 * play.dimensions)]);
+    for (let frame = 0; frame < frames; frame++) {
+      next(one, frame);
+      next(other, frame);
+      const boxes = boxesOf(one);
+      expect(boxesOf(other)).toEqual(boxes);
+      expect(fingerprint(other.space.pairs)).toBe(fingerprint(one.space.pairs));
+      moved ||= boxes.some((value, k) => value !== first[k]);
+      most = Math.max(most, one.space.pairCount);
     }
     expect(moved).toBe(row.kind !== 'still');
     expect(most).toBeGreaterThan(0);
+  });
+
+  /** All of them in 2D. */
+  const setOnes = some.filter(({ by }) => by === 'set');
+  test.each(setOnes.map((row) => [row.name, row] as const))('%s: set are those that moved, and no others', (_, row) => {
+    const one = open(prepare(row), 'auto');
+    const written = open(prepare({ ...row, by: undefined }), 'auto');
+    const set = vi.spyOn(one.space, 'set');
+    let before = boxesOf(written);
+    for (let frame = 0; frame < frames; frame++) {
+      set.mockClear();
+      next(one, frame);
+      next(written, frame);
+      const boxes = boxesOf(written);
+      expect(boxesOf(one)).toEqual(boxes);
+      const movers = new Set(boxes.flatMap((value, k) => (value === before[k] ? [] : Math.floor(k / 4))));
+      expect(set.mock.calls.map(([id]) => id)).toEqual([...movers]);
+      before = boxes;
+    }
   });
 
   test('no name stands twice for as many boxes', () => {
