@@ -147,6 +147,32 @@ test('where all move, what is found is kept, through bounces, new boxes, and a c
   expect(kept).toBeGreaterThan(100);
 });
 
+describe.each([2, 3] as const)('a few boxes creep, each as it likes, %i dimensions', (dimensions) => {
+  test.each([250, 400, 800])('what is found among %i boxes is kept', (count) => {
+    const random = createRandom(count);
+    const world = 10 * (count / 0.2) ** (1 / dimensions);
+    const space = new BroadPhase({ dimensions });
+    const things = Array.from({ length: count }, () => {
+      const low = Array.from({ length: dimensions }, () => random() * world);
+      return [...low, ...low.map((x) => x + 10 * random())];
+    });
+    for (const [id, box] of things.entries()) setBox(space, id, box);
+    let kept = 0;
+    for (let frame = 0; frame < 250; frame++) {
+      for (let creeping = 0; creeping < 5; creeping++) {
+        const id = Math.floor(random() * count);
+        const step = Array.from({ length: dimensions }, () => random() - 0.5);
+        things[id] = things[id]!.map((x, k) => x + step[k % dimensions]!);
+        setBox(space, id, things[id]);
+      }
+      space.update();
+      kept += Number(space.stats.technique === 'incremental');
+      expectKeys(space, referencePairs(things.flat(), dimensions));
+    }
+    expect(kept).toBeGreaterThan(40);
+  });
+});
+
 test('a box that jumps beside one that turns is not reported twice', () => {
   const space = new BroadPhase();
   const put = (id: number, x: number, y: number) => space.set(id, x, y, x + 10, y + 10);
