@@ -193,6 +193,41 @@ test('a box that jumps beside one that turns is not reported twice', () => {
   expect([...space.pairs]).toEqual([0, 1]);
 });
 
+test.each([2, 3] as const)(
+  'a box at rest that jumps leaves nothing behind where others move, %i dimensions',
+  (dimensions) => {
+    const random = createRandom(7);
+    const [kept, fresh] = (['incremental', 'strip-sweep'] as const).map(
+      (technique) => new BroadPhase({ dimensions, technique }),
+    );
+    const side = Math.ceil(300 ** (1 / dimensions));
+    const count = side ** dimensions;
+    const lows = Array.from({ length: count }, (_, id) =>
+      Array.from({ length: dimensions }, (_, axis) => 8 * (Math.floor(id / side ** axis) % side)),
+    );
+    const put = (id: number) => {
+      for (const space of [kept!, fresh!]) setBox(space, id, [...lows[id]!, ...lows[id]!.map((x) => x + 10)]);
+    };
+    for (let id = 0; id < count; id++) put(id);
+    let answered = 0;
+    for (let frame = 0; frame < 300; frame++) {
+      for (let id = 0; id < count; id += 20) {
+        lows[id]![0]! += frame % 60 < 30 ? 0.125 : -0.125;
+        put(id);
+      }
+      if (frame > 200 && frame % 3 === 0) {
+        const id = 20 * Math.floor((random() * count) / 20) + 1; // rests, beside one that moves
+        lows[id] = lows[id]!.map(() => 8 * Math.floor(random() * side));
+        put(id);
+      }
+      for (const space of [kept!, fresh!]) space.update();
+      expect(keysOf(kept!.pairs), `frame ${frame}`).toEqual(keysOf(fresh!.pairs));
+      if (frame > 200 && kept!.stats.tests !== fresh!.stats.tests) answered++;
+    }
+    expect(answered, 'updates answered from what is kept').toBeGreaterThan(50);
+  },
+);
+
 test('auto says what it chose and why', () => {
   const random = createRandom(9);
   const space = new BroadPhase();

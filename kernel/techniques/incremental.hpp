@@ -22,7 +22,8 @@
 // From: candidates kept with a margin, L. Verlet, 1967 (see motion.hpp); k-d tree, J. Bentley, 1975. The combination
 // is ours.
 #pragma once
-#include "pair_order.hpp"
+#include "../candidates.hpp"
+#include "../pair_order.hpp"
 #include "coherent.hpp"
 
 template <int D> class Incremental {
@@ -49,7 +50,7 @@ template <int D> class Incremental {
   // box that may have moved; a mover, a candidate and a turn, all dearer where they are so many that they fill the caches.
   static constexpr f64 entry_cost = D == 2 ? 13 : 22, test_cost = D == 2 ? 0.8 : 1.1, look_cost = 2;
   static constexpr f64 copies = D == 2 ? 1.25 : 1.6;  // cells that a mover stands in
-  static constexpr f64 mover_cost = 4, candidate_cost = 4.5, turn_cost = D == 2 ? 200 : 400, cached_movers = 40000;
+  static constexpr f64 mover_cost = 4, candidate_cost = 4.5, turn_cost = 200, cached_movers = 40000;
 
   // Rows of a fat box that moves: where the box stood when it was made, and in which update that was.
   static constexpr u32 from_row = width + 1, when_row = width + 1 + D;
@@ -60,8 +61,7 @@ template <int D> class Incremental {
     f32 low[4], high[4];  // where a corner must be for this cell to report: at or above low, not at or above high
     Movers movers;
     Stills stills;
-    Buffer<u64> candidates;  // pairs of slots, as they are reported
-    u32 candidate_count;
+    Candidates<D> candidates;
   };
 
   struct Known {
@@ -426,27 +426,16 @@ template <int D> class Incremental {
   /// How long ago that was.
   u32 age(const Cell& cell, u32 at) const { return now_ - bits<u32>(cell.movers.row(when_row)[at]); }
 
-  /// Takes the candidates of a box out of a cell.
-  COLD static void purge(Cell& cell, u32 slot) {
-    u32 left = 0;
-    for (u32 k = 0; k < cell.candidate_count; k++) {
-      u64 pair = cell.candidates[k];
-      cell.candidates[left] = pair;
-      left += u32(pair) != slot && u32(pair >> 32) != slot;
-    }
-    cell.candidate_count = left;
-  }
-
   /// Takes a mover and its candidates out of a cell; the last mover comes to its place.
   COLD static void take(Cell& cell, u32 at) {
-    purge(cell, cell.movers.tags()[at] & slot_mask);
+    cell.candidates.purge(cell.movers.tags()[at] & slot_mask);
     cell.movers.take(at);
   }
 
   /// Takes a box at rest and its candidates out of a cell.
   COLD static void take_still(Cell& cell, u32 slot) {
     cell.stills.take(cell.stills.find(slot));
-    purge(cell, slot);
+    cell.candidates.purge(slot);
   }
 
   /// Collects the candidates of the mover at a place, which has none.
@@ -454,14 +443,9 @@ template <int D> class Incremental {
     u32 tag = cell.movers.tags()[at], slot = tag & slot_mask;
     stats.tests += cell.movers.count + cell.stills.count;
     cell.movers.each_hit(fat, tag, [&](u32 other) {
-      if (other != at) add_candidate(cell, slot, cell.movers.tags()[other] & slot_mask);
+      if (other != at) cell.candidates.add(slot, cell.movers.tags()[other] & slot_mask);
     });
-    cell.stills.each_hit(fat, tag, [&](u32 other) { add_candidate(cell, slot, cell.stills.tags()[other] & slot_mask); });
-  }
-
-  COLD static void add_candidate(Cell& cell, u32 a, u32 b) {
-    cell.candidates.grow(u64(cell.candidate_count) + 1 + Pairs::slack, cell.candidate_count);
-    cell.candidates[cell.candidate_count++] = pair_of(a, b);
+    cell.candidates.meet(Probe<D>(cell.movers.view(), at), cell.stills);
   }
 
   /// How many updates fat boxes reach ahead: a little more than until their next turn.
@@ -491,7 +475,7 @@ template <int D> class Incremental {
         }
         continue;
       } else {
-        purge(cell, slot);
+        cell.candidates.purge(slot);
         cell.movers.write(at, fat);
       }
       stamp(cell, at, box);
@@ -516,7 +500,9 @@ template <int D> class Incremental {
       u32 at = cell.movers.find(slot);
       if (at != Movers::nowhere) take(cell, at);
       stats.tests += cell.movers.count + cell.stills.count;
-      cell.movers.each_hit(box, tag, [&](u32 other) { add_candidate(cell, slot, cell.movers.tags()[other] & slot_mask); });
+      cell.movers.each_hit(box, tag, [&](u32 other) {
+        cell.candidates.add_still(cell.movers.tags()[other] & slot_mask, slot, box);
+      });
       cell.stills.each_hit(box, tag, [&](u32 other) {
         u32 its = cell.stills.tags()[other] & slot_mask;
         // One that has woken, and waits, is no longer where it rested.
@@ -737,7 +723,7 @@ template <int D> class Incremental {
       u32 slot = cell.movers.tags()[k] & slot_mask, tag = known_[slot].tag;
       const f32* box = scene.box(slot);
       if (tag & rests) {
-        cell.candidate_count = 0;  // it rests elsewhere; all candidates are to be collected anyway
+        cell.candidates.clear();  // it rests elsewhere; all candidates are to be collected anyway
         take(cell, k);
         continue;
       }
@@ -768,36 +754,15 @@ template <int D> class Incremental {
           continue;
         }
       } else {
-        cell.candidate_count = 0;
+        cell.candidates.clear();
         take(cell, k);
       }
       cells_of(fat, found);
       enter(scene, slot, fat, found, stats);
       if (leaves_ == 0) return;
     }
-    gather(cell, stats);
-  }
-
-  /// All candidates of a cell.
-  NOINLINE static void gather(Cell& cell, Stats& stats) {
-    LaneView<D> lanes = cell.movers.view(), still = cell.stills.view();
-    u32 count = cell.movers.count, stills = cell.stills.count;
-    u32 found = 0;
-    for (u32 i = 0; i < count; i++) {
-      u64* out = cell.candidates.grow(u64(found) + count + stills + Pairs::slack, found) + found;
-      Probe<D> probe(lanes, i);
-      auto meets = [&](const LaneView<D>& others, u32 from, u32 until) {
-        for (u32 j = from; j < until; j += 4) {
-          u32x4 tags = load<u32x4>(others.tag + j);
-          out = append(out, probe.slot, tags & splat(slot_mask), bitmask(probe.hits(others, j, tags)));
-        }
-      };
-      meets(lanes, i + 1, count);
-      meets(still, 0, stills);
-      found = u32(Pairs::between(cell.candidates.data(), out));
-    }
-    cell.candidate_count = found;
-    stats.tests += f64(count) * (count - 1) / 2 + f64(count) * stills;
+    stats.tests += f64(cell.movers.count) * (cell.movers.count - 1) / 2 + f64(cell.movers.count) * cell.stills.count;
+    cell.candidates.gather(cell.movers, cell.stills);
   }
 
   /// Gives movers that have left their fat boxes new ones.
@@ -845,30 +810,14 @@ template <int D> class Incremental {
     }
     pairs.count = pairs.kept = head;
     for (u32 c = 0; c < leaves_; c++) {
-      if (cells_[c].candidate_count > 0) report_cell(cells_[c], scene.boxes, pairs);
+      const Cell& cell = cells_[c];
+      if (cell.candidates.count() == 0) continue;
+      cell.candidates.report(scene.boxes, cell.low, cell.high, pairs);
+      stats.tests += cell.candidates.tests();
     }
     if (huge_count_ > 0) report_huge(scene, pairs, stats);
-    stats.tests += candidates_;
     stats.cells = leaves_;
     stats.entries = moving_ + resting_;
-  }
-
-  /// Reports the candidates of a cell that overlap and are its to report.
-  NOINLINE static void report_cell(const Cell& cell, const f32* boxes, Pairs& pairs) {
-    const u64* list = cell.candidates.data();
-    u32 count = cell.candidate_count;
-    u64* out = pairs.room(pairs.list.data() + pairs.count, count);
-    f32x4 low = load<f32x4>(cell.low), high = load<f32x4>(cell.high);
-    for (u32 k = 0; k < count; k++) {
-      u64 pair = list[k];
-      const f32* one = boxes + u64(u32(pair)) * width;
-      const f32* other = boxes + (pair >> 32) * width;
-      f32x4 first = load<f32x4>(one), second = load<f32x4>(other), corner = max(first, second);
-      i32x4 hit = (first <= load<f32x4>(other + D)) & (second <= load<f32x4>(one + D)) & (corner >= low) & ~(corner >= high);
-      *out = pair;
-      out += !(~bitmask(hit) & ((1 << D) - 1));
-    }
-    pairs.count = Pairs::between(pairs.list.data(), out);
   }
 
   /// The pairs of huge boxes that are not settled.
@@ -922,7 +871,7 @@ template <int D> class Incremental {
   COLD bool pays() {
     for (u32 c = 0; c < leaves_; c++) {
       moving_ += cells_[c].movers.count;
-      candidates_ += cells_[c].candidate_count;
+      candidates_ += cells_[c].candidates.count();
     }
     if (cost(moving_, candidates_, period_) <= fresh_) return true;
     forget();
