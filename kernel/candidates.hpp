@@ -33,52 +33,37 @@ template <int D> class Candidates {
     meetings_.release();
   }
 
-  /// Two that move.
-  COLD void add(u32 a, u32 b) {
-    pairs_.grow(u64(pair_count_) + 1, pair_count_);
-    pairs_[pair_count_++] = pair_of(a, b);
-  }
-
   /// One that moves and one that has come to rest.
   COLD void add_still(u32 mover, u32 still, const f32* box) {
-    Meeting& to = open(mover);
+    Meeting& to = open(splat(mover));
     for (u32 k = 0; k < width; k++) store(to.bounds[k], f32x4{box[k], nan, nan, nan});
     store(to.slots, splat(still));
   }
 
-  /// One that moves and those at rest that overlap its fat box.
-  template <class Stills> void meet(const Probe<D>& mover, const Stills& stills) {
-    LaneView<D> lanes = stills.view();
+  /// The mover at a place, with those that move, from `from` on, and those at rest.
+  template <class Movers, class Stills> NOINLINE void meet(const Movers& movers, u32 at, u32 from, const Stills& stills) {
+    u64* out = pairs_.grow(u64(pair_count_) + movers.count + Pairs::slack, pair_count_) + pair_count_;
+    LaneView<D> lanes = movers.view(), resting = stills.view();
+    Probe<D> mover(lanes, at);
+    for (u32 j = from; j < movers.count; j += 4) {
+      u32x4 tags = load<u32x4>(lanes.tag + j), slots = tags & splat(slot_mask);
+      out = append(out, mover.slot, slots, bitmask(mover.hits(lanes, j, tags) & (slots != mover.slot)));
+    }
+    pair_count_ = u32(Pairs::between(pairs_.data(), out));
     u32 near[8], many = 0;
     for (u32 j = 0; j < stills.count; j += 4) {
-      u32 hits = bitmask(mover.hits(lanes, j, load<u32x4>(lanes.tag + j)));
+      u32 hits = bitmask(mover.hits(resting, j, load<u32x4>(resting.tag + j)));
       u8x16 front = load<u8x16>(detail::swizzles.of[hits]);
       store(near + many, swizzle(bits<u8x16>(u32x4{0, 1, 2, 3} + splat(j)), front));
       many += detail::bits_set[hits];
       if (many < 4) continue;
-      copy(mover, lanes, near);
+      copy(mover.slot, stills, near);
       store(near, load<u32x4>(near + 4));
       many -= 4;
     }
     if (many == 0) return;
     store(near + many, splat(stills.count));  // behind the last all is NaN
-    copy(mover, lanes, near);
-  }
-
-  /// All of those that move, and of them with those at rest, anew.
-  template <class Movers, class Stills> NOINLINE void gather(const Movers& movers, const Stills& stills) {
-    clear();
-    LaneView<D> lanes = movers.view();
-    for (u32 i = 0; i < movers.count; i++) {
-      u64* out = pairs_.grow(u64(pair_count_) + movers.count + Pairs::slack, pair_count_) + pair_count_;
-      Probe<D> probe(lanes, i);
-      for (u32 j = i + 1; j < movers.count; j += 4) {
-        u32x4 tags = load<u32x4>(lanes.tag + j);
-        out = append(out, probe.slot, tags & splat(slot_mask), bitmask(probe.hits(lanes, j, tags)));
-      }
-      pair_count_ = u32(Pairs::between(pairs_.data(), out));
-      meet(probe, stills);
-    }
+    copy(mover.slot, stills, near);
   }
 
   /// Takes all of a box away.
@@ -131,22 +116,19 @@ template <int D> class Candidates {
   }
 
  private:
-  Meeting& open(u32 mover) {
+  Meeting& open(u32x4 mover) {
     meetings_.grow(u64(meeting_count_) + 1, meeting_count_);
     Meeting& meeting = meetings_[meeting_count_++];
-    store(meeting.mover, splat(mover));
+    store(meeting.mover, mover);
     return meeting;
   }
 
   /// Copies four boxes at rest.
-  void copy(const Probe<D>& mover, const LaneView<D>& lanes, const u32* from) {
-    Meeting& to = open(mover.slot[0]);
-    auto four = [&](const f32* row) { return f32x4{row[from[0]], row[from[1]], row[from[2]], row[from[3]]}; };
-    for (int a = 0; a < D; a++) {
-      store(to.bounds[a], four(lanes.lo[a]));
-      store(to.bounds[D + a], four(lanes.hi[a]));
+  template <class Stills> COLD void copy(u32x4 mover, const Stills& stills, const u32* from) {
+    Meeting& to = open(mover);
+    for (u32 k = 0; k < 4; k++) {
+      for (u32 r = 0; r < width; r++) to.bounds[r][k] = stills.row(r)[from[k]];
+      to.slots[k] = stills.tags()[from[k]] & slot_mask;
     }
-    const u32* tag = lanes.tag;
-    store(to.slots, u32x4{tag[from[0]], tag[from[1]], tag[from[2]], tag[from[3]]} & splat(slot_mask));
   }
 };

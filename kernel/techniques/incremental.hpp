@@ -438,16 +438,6 @@ template <int D> class Incremental {
     cell.candidates.purge(slot);
   }
 
-  /// Collects the candidates of the mover at a place, which has none.
-  NOINLINE static void meet(Cell& cell, u32 at, const f32* fat, Stats& stats) {
-    u32 tag = cell.movers.tags()[at], slot = tag & slot_mask;
-    stats.tests += cell.movers.count + cell.stills.count;
-    cell.movers.each_hit(fat, tag, [&](u32 other) {
-      if (other != at) cell.candidates.add(slot, cell.movers.tags()[other] & slot_mask);
-    });
-    cell.candidates.meet(Probe<D>(cell.movers.view(), at), cell.stills);
-  }
-
   /// How many updates fat boxes reach ahead: a little more than until their next turn.
   f32 reach() const { return period_ * growth + 1; }
 
@@ -479,7 +469,8 @@ template <int D> class Incremental {
         cell.movers.write(at, fat);
       }
       stamp(cell, at, box);
-      meet(cell, at, fat, stats);
+      stats.tests += cell.movers.count + cell.stills.count;
+      cell.candidates.meet(cell.movers, at, 0, cell.stills);
     }
   }
 
@@ -762,7 +753,8 @@ template <int D> class Incremental {
       if (leaves_ == 0) return;
     }
     stats.tests += f64(cell.movers.count) * (cell.movers.count - 1) / 2 + f64(cell.movers.count) * cell.stills.count;
-    cell.candidates.gather(cell.movers, cell.stills);
+    cell.candidates.clear();
+    for (u32 k = 0; k < cell.movers.count; k++) cell.candidates.meet(cell.movers, k, k + 1, cell.stills);
   }
 
   /// Gives movers that have left their fat boxes new ones.
