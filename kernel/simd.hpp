@@ -63,6 +63,7 @@ inline u32x4 max(u32x4 a, u32x4 b) { return bits<u32x4>(wasm_u32x4_max(bits<v128
 /// min and max of floats; where one is NaN the result is the second.
 inline f32x4 min(f32x4 a, f32x4 b) { return bits<f32x4>(wasm_f32x4_pmin(bits<v128_t>(b), bits<v128_t>(a))); }
 inline f32x4 max(f32x4 a, f32x4 b) { return bits<f32x4>(wasm_f32x4_pmax(bits<v128_t>(b), bits<v128_t>(a))); }
+inline f64x2 min(f64x2 a, f64x2 b) { return bits<f64x2>(wasm_f64x2_pmin(bits<v128_t>(b), bits<v128_t>(a))); }
 inline f64x2 max(f64x2 a, f64x2 b) { return bits<f64x2>(wasm_f64x2_pmax(bits<v128_t>(b), bits<v128_t>(a))); }
 inline u8x16 swizzle(u8x16 v, u8x16 index) {
   return bits<u8x16>(wasm_i8x16_swizzle(bits<v128_t>(v), bits<v128_t>(index)));
@@ -78,6 +79,7 @@ inline u32x4 min(u32x4 a, u32x4 b) { return bits<u32x4>(_mm_min_epu32(bits<__m12
 inline u32x4 max(u32x4 a, u32x4 b) { return bits<u32x4>(_mm_max_epu32(bits<__m128i>(a), bits<__m128i>(b))); }
 inline f32x4 min(f32x4 a, f32x4 b) { return bits<f32x4>(_mm_min_ps(bits<__m128>(a), bits<__m128>(b))); }
 inline f32x4 max(f32x4 a, f32x4 b) { return bits<f32x4>(_mm_max_ps(bits<__m128>(a), bits<__m128>(b))); }
+inline f64x2 min(f64x2 a, f64x2 b) { return bits<f64x2>(_mm_min_pd(bits<__m128d>(a), bits<__m128d>(b))); }
 inline f64x2 max(f64x2 a, f64x2 b) { return bits<f64x2>(_mm_max_pd(bits<__m128d>(a), bits<__m128d>(b))); }
 inline u8x16 swizzle(u8x16 v, u8x16 index) {
   return bits<u8x16>(_mm_shuffle_epi8(bits<__m128i>(v), bits<__m128i>(index)));
@@ -86,3 +88,8 @@ inline u8x16 swizzle(u8x16 v, u8x16 index) {
 
 template <class T> inline T smaller(T a, T b) { return b < a ? b : a; }
 template <class T> inline T larger(T a, T b) { return a < b ? b : a; }
+// Of floats as vectors: engines turn a choice between two floats into a branch, and which is larger nobody can guess.
+inline f32 smaller(f32 a, f32 b) { return min(splat(b), splat(a))[0]; }
+inline f32 larger(f32 a, f32 b) { return max(splat(b), splat(a))[0]; }
+inline f64 smaller(f64 a, f64 b) { return min(splat(b), splat(a))[0]; }
+inline f64 larger(f64 a, f64 b) { return max(splat(b), splat(a))[0]; }
