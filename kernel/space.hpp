@@ -75,11 +75,7 @@ template <int D> class Space {
   /// Adds or moves a box: D minima, then D maxima, none NaN, no minimum above its maximum.
   void set(u32 id, const f64* box) {
     f32 low_high[width];
-    bool exact = true;
-    for (u32 k = 0; k < width; k++) {
-      low_high[k] = k < D ? round_down(box[k]) : round_up(box[k]);
-      exact &= f64(low_high[k]) == box[k];
-    }
+    bool exact = round_outward(box, low_high);
     if (!exact && !rounding_) start_rounding();
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) {
@@ -617,20 +613,27 @@ template <int D> class Space {
     return -1;
   }
 
+  /// Rounds a box outward; says whether float32 holds its numbers.
+  static bool round_outward(const f64* box, f32* to) {
+    bool exact = true;
+    for (u32 k = 0; k < width; k++) {
+      to[k] = f32(box[k]);
+      exact &= f64(to[k]) == box[k];
+    }
+    for (u32 k = 0; k < width && !exact; k++) to[k] = k < D ? round_down(box[k]) : round_up(box[k]);
+    return exact;
+  }
+
   /// Rounds the staged doubles outward into the staged float32; says whether any was rounded.
   i32 round_staged(u32 count, bool& rounded) {
     const f64* from = staged_exact_.data();
     f32* to = staged_.data();
     for (u32 s = 0; s < count; s++) {
       const f64* box = from + u64(s) * width;
-      bool good = true, exact = true;
+      bool good = true;
       for (int a = 0; a < D; a++) good &= box[a] <= box[D + a];
       if (!good) return i32(s);
-      for (u32 k = 0; k < width; k++) {
-        f32 near = k < D ? round_down(box[k]) : round_up(box[k]);
-        to[u64(s) * width + k] = near;
-        exact &= f64(near) == box[k];
-      }
+      bool exact = round_outward(box, to + u64(s) * width);
       staged_rounded_[s] = !exact;
       rounded |= !exact;
     }
