@@ -10,8 +10,8 @@
 //   - Before it takes over, those are seen to that have left their new fat boxes while the others' were made.
 // All is given up where many boxes leave their fat ones at once, or where it does not pay.
 // Cost: a pass over the boxes that may have moved and one over the candidates, some two to four times as many as pairs,
-// and a share of two or three strip sweeps: 5 to 15 ns a box in 2D, 15 to 40 in 3D. The updates in which the first
-// generation is made cost a fifth to a third more than strip-sweep, where motion is fast up to twice as much.
+// and a share of two or three strip sweeps: 5 to 10 ns a box in 2D, 12 to 30 in 3D. The updates in which the first
+// generation is made cost an eighth more than strip-sweep, where motion is fast up to a half.
 // Memory, beside that of strip-sweep: about 160 (2D) or 270 (3D) bytes a box.
 // Part of `incremental`, which says when. From: L. Verlet, 1967; see motion.hpp. Making the next generation a slice at a
 // time is ours.
@@ -26,18 +26,20 @@ template <int D> class Coherent {
   static constexpr f64 late_share = 0.5;  // all is given up where those that leave their fat ones cost this share of fresh
   static constexpr f64 few_late = 128;  // so many are no reason
   static constexpr f32 least_period = 3, most_period = 64, least_making = 2, most_making = 32;
-  static constexpr f32 spare_updates = 2;  // fat boxes reach so many further, for work that takes longer than planned
-  static constexpr f64 bearable = 0.09;  // what making the first generation may add to an update, as a share of strip sweep
-  static constexpr f32 making_share = 0.6f;  // of the updates of a generation, in so many the next is made
+  static constexpr f32 spare_updates = 1;  // fat boxes reach so many further, for work that takes longer than planned
+  static constexpr f64 bearable = 0.15;  // what making the first generation may add to an update, as a share of strip sweep
+  static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where none is late
+  static constexpr f32 making_share = D == 2 ? 0.8f : 0.7f;  // of the updates of a generation, in so many the next is made
   static constexpr f64 spread = D == 2 ? 0.75 : 0.67;  // of motion along an axis, to that along the fastest
   // What the work of a generation costs for each box, in nanoseconds: noting where it stands, making its fat box and
-  // counting it, entering it in its strip, sweeping that, and a last look; for each candidate; and what an update costs
-  // for each box, candidate, and box that is late.
-  static constexpr f64 look_cost = 1.5, fatten_cost = D == 2 ? 11 : 24, enter_cost = D == 2 ? 9 : 17,
-                       sweep_cost = D == 2 ? 11 : 25, mend_cost = D == 2 ? 2.5 : 4, hit_cost = D == 2 ? 3 : 7;
-  static constexpr f64 box_cost = D == 2 ? 2 : 3, late_cost = 1500;
-  // A candidate costs five times as much where the boxes of a scene are far more than the cache holds.
-  static constexpr f64 cached_cost = D == 2 ? 2 : 4.2, uncached_cost = 4 * cached_cost, cached_boxes = 4e5;
+  // counting it, entering it in its strip, sweeping that, and a last look; and for each candidate.
+  static constexpr f64 look_cost = 3.5, fatten_cost = D == 2 ? 11 : 15, enter_cost = D == 2 ? 7 : 17,
+                       sweep_cost = D == 2 ? 11 : 25, mend_cost = D == 2 ? 2 : 3, hit_cost = D == 2 ? 3 : 6;
+  static constexpr f64 new_cost = 2;  // times as much, where memory is used for the first time
+  // What an update costs for each box, and for a box that is late and each of its candidates.
+  static constexpr f64 box_cost = D == 2 ? 2 : 3, late_base = 500, late_each = 400;
+  // And for each candidate; five times as much where the boxes of a scene are far more than the cache holds.
+  static constexpr f64 cached_cost = D == 2 ? 2 : 3, uncached_cost = 4 * cached_cost, cached_boxes = 4e5;
   static constexpr f64 all_costs = fatten_cost + enter_cost + sweep_cost + mend_cost;
   static constexpr u32 sampled = 4;  // of so many boxes one is asked how fast it is
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
@@ -63,6 +65,7 @@ template <int D> class Coherent {
   Generation generations_[2];
   u32 current_ = 0;
   bool begun_ = false;
+  u32 made_ = 0;           // generations, since memory for them was taken
   u32 count_ = 0;          // boxes that the current generation follows; 0: none answers yet
   bool unchecked_ = false; // no update has looked yet whether boxes are in the fat ones of this generation
   Buffer<f32> from_;       // per slot: its lower corner when it was given its last fat box, and in which update
@@ -75,7 +78,7 @@ template <int D> class Coherent {
   f32 period_ = 16;        // updates that it is to answer
   f32 making_ = 0;         // updates in which it is made
   f32 lasts_ = 0;          // updates that the current one is to answer still
-  f32 slack_ = 0.5f;
+  f32 slack_ = least_slack;
   f32 pace_ = 0;           // how far boxes move in an update, as a share of their size, in the mean
   f64 motion_ = 0, lates_ = 0;
   f64 found_ = 0, lost_ = 0;  // of the last one, for each box: candidates, and boxes that had left before it was done
@@ -102,16 +105,20 @@ template <int D> class Coherent {
     period_ = best_period(boxes, hits, 1, pace) + spare_updates;  // the first takes longest
     stage_ = Stage::begin;
     known_ = unchecked_ = false;
-    slack_ = 0.5f;
+    slack_ = least_slack;
     hits_ = -1;
-    // The longer the first one takes, the less does an update pay for it, and the further must fat boxes reach.
-    making_ = making_share * period_;
+    // The longer the first one takes, the less does an update pay for it, but the further must fat boxes reach: then all
+    // costs more. In strip sweeps, `all` and its share in each of the updates, squared, should be little.
+    f64 harm = __builtin_inf(), before, all;
+    making_ = least_making;
     do {
       making_++;
       found_ = candidates(boxes, hits, 1, pace, making_ + period_ + spare_updates) / boxes;
       lost_ = 0.01 * pace * making_;
-    } while (making_ < most_making && work() * boxes > bearable * fresh * making_ &&
-             cost(boxes, hits, 1, pace, period_, making_) < fresh);
+      all = work() * boxes / fresh;
+      before = harm;
+      harm = all + all * all / making_;
+    } while (making_ < most_making && all > bearable * making_ && harm < before);
   }
 
   /// Finds the pairs, where a generation is there to answer; else false. Gives up where that costs more than `fresh`.
@@ -148,7 +155,7 @@ template <int D> class Coherent {
     }
     from_.release();
     late_.release();
-    marked_ = 0;
+    marked_ = made_ = 0;
   }
 
  private:
@@ -175,7 +182,9 @@ template <int D> class Coherent {
   }
 
   /// What making a generation costs for each box, going by the last one.
-  f64 work() const { return all_costs + hit_cost * found_ + late_cost * lost_; }
+  f64 work() const { return (all_costs + hit_cost * found_) * novelty() + late_cost() * lost_; }
+  f64 novelty() const { return made_ < 2 ? new_cost : 1; }
+  f64 late_cost() const { return late_base + late_each * found_; }
 
   /// Updates that a generation should answer: the work of making it balances its candidates, which are the more the
   /// further fat boxes reach: from when they are made until the next generation is.
@@ -211,7 +220,7 @@ template <int D> class Coherent {
       for (u32 slot = 0; slot < both; slot++) check(slot);
     }
     unchecked_ = false;
-    if (late_cost * (f64(many) + (n - both) - few_late) > late_share * fresh) {
+    if (late_cost() * (f64(many) + (n - both) - few_late) > late_share * fresh) {
       forget();
       return false;
     }
@@ -378,9 +387,10 @@ template <int D> class Coherent {
     make_room(boxes_, boxes_);
     g.fat.reserve(u64(boxes_) * width + padding);
     g.excluded.reserve(boxes_);
+    g.candidates.list.reserve(u64(found_ * boxes_) + Pairs::slack);
     g.candidates.count = 0;
     stage_ = Stage::look;
-    g.strips.begin(scene, g.stats);
+    g.strips.begin(scene, 1 + spread * pace_ * (making_ + period_ + spare_updates), g.stats);
   }
 
   /// Does work of the stage for about so many nanoseconds; gives how many.
@@ -391,6 +401,7 @@ template <int D> class Coherent {
     if (stage_ == Stage::look) each = look_cost;
     if (stage_ == Stage::fatten) each = fatten_cost;
     if (stage_ == Stage::enter) each = enter_cost;
+    each *= novelty();
     u32 many = u32(smaller(budget / each + 1, f64(max_slots))), until = smaller(boxes_, at_ + many), n = scene.count;
     Scene<D> fat{g.fat.data(), boxes_, g.excluded.data()};
     if (stage_ == Stage::look) {
@@ -426,10 +437,10 @@ template <int D> class Coherent {
       spent += mend_cost;
       if (inside<D>(box, fat) || !touch<D>(box, fat)) continue;
       grow(g, until, scene, options, at_);
-      spent += late_cost;
+      spent += late_cost();
       lost_ += 1.0 / boxes_;
     }
-    if (late_cost * (lost_ * boxes_ - few_late) > fresh) forget();
+    if (late_cost() * (lost_ * boxes_ - few_late) > fresh) forget();
     else if (at_ >= until || hurries()) take_over(scene, fresh);
     return spent;
   }
@@ -472,6 +483,7 @@ template <int D> class Coherent {
     u32 n = scene.count;
     forget_grown(current());
     current_ = 1 - current_;
+    made_++;
     count_ = smaller(boxes_, n);
     if (n < boxes_) {
       strike(g, n);
@@ -485,11 +497,11 @@ template <int D> class Coherent {
     making_ = larger(least_making, making_share * period_);
     if (hits_ >= 0) {
       f64 each = box_cost + work() / period_ + candidate_cost(boxes_) * found_;
-      if (boxes_ * each + late_cost * lates_ / (age_ + 1) > worth * fresh) return forget();
+      if (boxes_ * each + late_cost() * lates_ / (age_ + 1) > worth * fresh) return forget();
       period_ = best_period(boxes_, hits_, 1, pace_);
       making_ = larger(least_making, making_share * period_);
       // Where boxes leave their fat ones too early, the next reach further to the sides.
-      slack_ = smaller(16.0f, larger(0.5f, slack_ * (lates_ > 0.1 * boxes_ ? 1.3f : 0.95f)));
+      slack_ = smaller(16.0f, larger(least_slack, slack_ * (lates_ > 0.02 * boxes_ ? 1.3f : 0.95f)));
     }
   }
 };

@@ -14,9 +14,9 @@
 // All this is filled little by little, and given up again where many boxes leave their fat ones at once or where it does
 // not pay. Meanwhile, and where most boxes move, the generations of coherent.hpp give the answers, which are sooner there;
 // until then strip-sweep does.
-// Cost: where all move by a hundredth of their size 0.3 of strip-sweep, by a tenth of it 0.6 in 2D, and as much as
-// strip-sweep in 3D; where 5 % move 0.15 to 0.3, and with `set` only the movers count. The first twenty updates, in which
-// the first generation is made, cost a fifth to a third more, where motion is fast up to twice as much.
+// Cost: where all move by a hundredth of their size a quarter of strip-sweep, by a tenth of it 0.55 in 2D and 0.7 in 3D;
+// where 5 % move 0.15 to 0.25, and with `set` only the movers count. The first updates, in which the first generation is
+// made, cost an eighth more, thirty of them; where motion is fast a third to a half, ten of them.
 // Memory, beside that of strip-sweep: about 120 (2D) or 210 (3D) bytes a box that moves, 100 or 150 one at rest.
 // Wins where boxes rest, or move slowly. Is strip-sweep where they jump.
 // From: candidates kept with a margin, L. Verlet, 1967 (see motion.hpp); k-d tree, J. Bentley, 1975. The combination
@@ -43,7 +43,7 @@ template <int D> class Incremental {
   static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 watched = 256;        // boxes whose motion is looked at before anything is kept
   static constexpr f64 worth = 0.85;         // cells must promise to cost this share of what it costs now
-  static constexpr f64 worth_trying = 0.75;  // ... and generations this
+  static constexpr f64 worth_trying = 0.85;  // ... and generations this
   static constexpr u32 first_pause = 8, longest_pause = 256;
   static constexpr u32 considered = 64;      // updates until cells are thought of again
   // What an update costs, in nanoseconds, to see whether keeping anything pays: an entry and a test of strip-sweep; a

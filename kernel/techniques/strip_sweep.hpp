@@ -108,14 +108,14 @@ template <int D> class StripSweep {
   // `sweep` until it says that all is done. A part reads only the boxes it is called for. Afterwards `each_near`
   // answers: the entries stand in the order they were swept in, and of each few the bounds are known.
 
-  /// Chooses the strips.
-  COLD void begin(const Scene<D>& scene, Stats& stats) {
+  /// Chooses the strips, for boxes that will be so many times as large as those of the scene.
+  COLD void begin(const Scene<D>& scene, f64 growth, Stats& stats) {
     stats_ = &stats;
     boxes_ = entered_ = scene.count;
     stats = Stats{};
     begun_ = swept_lists_ = 0;
     in_parts_ = true;
-    cut_up(scene);
+    cut_up(scene, growth);
     clear(cut_, 0);
     ranges_.reserve(boxes_);
   }
@@ -248,7 +248,7 @@ template <int D> class StripSweep {
   }
 
   /// Chooses the sweep axis and the outermost cut; false where it would leave all in one strip.
-  COLD bool cut_up(const Scene<D>& scene) {
+  COLD bool cut_up(const Scene<D>& scene, f64 growth = 1) {
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     Statistics<D> world;
     bool one_strip = scene.count < few;
@@ -258,6 +258,7 @@ template <int D> class StripSweep {
       one_strip = scene.count * world.size[a] <= again_factor * (world.high[a] - world.low[a]);
     }
     if (!one_strip) world = measure<D>(plain, scene.count);
+    for (f64& size : world.size) size *= growth;
     order_ = AxisOrder<D>::make(world.longest());
     if (one_strip) {
       for (int a = 0; a < D; a++) {
