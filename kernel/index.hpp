@@ -2,7 +2,7 @@
 // Idea: boxes in the order of their centres along the Hilbert curve, eight to a block, and blocks of eight blocks above them, to one root:
 // an R-tree without pointers. A block is read as vectors, eight boxes at a time. The order is laid over the extents
 // without outliers, so that one far box does not spoil it.
-// Cost: about 30 (2D) or 40 (3D) ns a box to build, at the first question after an update; 24 (2D) or 34 (3D) bytes a box, and as
+// Cost: about 27 (2D) or 30 (3D) ns a box to build, at the first question after an update; 24 (2D) or 34 (3D) bytes a box, and as
 // much as the boxes themselves for the copy that keeps answers to what the update saw.
 // From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993.
 #pragma once

@@ -52,7 +52,7 @@ class Wrap {
       bool plain = true;
       for (u32 a = 0; a < dimensions; a++) {
         f64 lo = number(k, a), hi = number(k, dimensions + a);
-        f32 low = round_down(lo), high = round_up(hi);
+        f32 low = doubles_ ? round_down(lo) : f32(lo), high = doubles_ ? round_up(hi) : f32(hi);
         if (!(lo >= 0 && hi < world[a])) across |= u32(place(span(k, a), world[a], low, high)) << a;
         plain &= f64(low) == lo && f64(high) == hi;
         box[a] = low;
