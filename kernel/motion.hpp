@@ -46,12 +46,20 @@ template <int D> bool touch(const f32* one, const f32* other) {
   }
 }
 
-/// Whether a box is in another.
-template <int D> bool inside(const f32* box, const f32* other) {
+/// Along which sides a box is in another; in all lanes: it is.
+template <int D> i32x4 sides_inside(const f32* box, const f32* other) {
   if constexpr (D == 2) {
-    return bitmask(turned(load<i32x4>(other)) <= turned(load<i32x4>(box))) == 15;
+    return turned(load<i32x4>(other)) <= turned(load<i32x4>(box));
   } else {
-    u32 both = bitmask((load<f32x4>(other) <= load<f32x4>(box)) & (load<f32x4>(box + D) <= load<f32x4>(other + D)));
-    return !(~both & 7);
+    i32x4 sides = (load<f32x4>(other) <= load<f32x4>(box)) & (load<f32x4>(box + D) <= load<f32x4>(other + D));
+    return sides | i32x4{0, 0, 0, -1};
   }
 }
+
+/// Along which axes no minimum is above the maximum, and none is NaN.
+template <int D> i32x4 axes_in_order(const f32* box) {
+  return (load<f32x4>(box) <= load<f32x4>(box + D)) | (D == 2 ? i32x4{0, 0, -1, -1} : i32x4{0, 0, 0, -1});
+}
+
+/// Whether a box is in another.
+template <int D> bool inside(const f32* box, const f32* other) { return bitmask(sides_inside<D>(box, other)) == 15; }

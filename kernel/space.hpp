@@ -241,10 +241,11 @@ template <int D> class Space {
   i32 update() {
     Technique chosen = choose();
     bool follows = chosen == Technique::incremental;
-    i32 bad = exposed_ && follows ? see_written() : bad_in_place();
+    bool looked_at = false;
+    i32 bad = exposed_ && follows ? see_written(looked_at) : bad_in_place();
     if (bad >= 0) return bad;
     if (follows && chosen == ran_ && changes_.none() && ids_.count() == seen_ && !filters_.changed()) return rest();
-    Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_};
+    Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_, looked_at};
     if (filters_.active()) {
       bool others = filters_.changed();
       scene.boxes = filters_.select(scene.boxes, scene.count, width);
@@ -432,8 +433,22 @@ template <int D> class Space {
     return bad < 0 ? -1 : i32(ids_.id(u32(bad)));  // since it was written, a removal may have moved it
   }
 
+  /// The same; where the technique looks at all boxes, only those are looked at here that it does not find where it
+  /// expects them.
+  COLD i32 bad_unexpected(bool& looked_at) {
+    u32 many = 0;
+    bool as_given = !filters_.active() && !(options_.wrap[0] > 0);
+    const u32* slots = as_given ? techniques_.unexpected(ran_, {boxes_.data(), ids_.count(), nullptr}, many) : nullptr;
+    if (!slots) return bad_in_place();
+    looked_at = true;
+    for (u32 k = 0; k < many; k++) {
+      if (first_bad(boxes_.data() + u64(slots[k]) * width, 1) >= 0) return i32(ids_.id(slots[k]));
+    }
+    return -1;
+  }
+
   /// Looks at boxes written in place, notes those that have changed, and gives the id of the first bad one, or -1.
-  COLD i32 see_written() {
+  COLD i32 see_written(bool& looked_at) {
     u32 n = ids_.count();
     if (copied_ == n && !changes_.all()) {
       constexpr u32 bytes = width * sizeof(f32);
@@ -453,7 +468,7 @@ template <int D> class Space {
     }
     copied_ = 0;
     changes_.note_all();
-    i32 bad = bad_in_place();
+    i32 bad = bad_unexpected(looked_at);
     if (bad >= 0 || !compares()) return bad;
     before_.reserve(u64(n) * width);
     __builtin_memcpy(before_.data(), boxes_.data(), u64(n) * width * sizeof(f32));

@@ -81,6 +81,11 @@ template <int D> class Techniques {
       default: return call(what, strip_sweep_);
     }
   }
+
+  /// The slots of the boxes that are not where `incremental` expects them, see there; null where it did not run last.
+  const u32* unexpected(Technique ran, const Scene<D>& scene, u32& many) {
+    return ran == Technique::incremental ? incremental_.unexpected(scene, many) : nullptr;
+  }
 };
 
 // Both dimensions of each next to one another in the module, where gzip finds what they share: an eighth less.

@@ -68,6 +68,41 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     expect(little, 'updates answered from what is kept').toBeGreaterThan(40);
   });
 
+  test('a bad box among those that move and are kept is found, and nothing is lost', () => {
+    const count = 800;
+    const width = 2 * dimensions;
+    const random = createRandom(dimensions);
+    const world = 10 * (count / 0.2) ** (1 / dimensions);
+    const space = new BroadPhase({ dimensions });
+    const boxes = space.boxes(count);
+    for (let id = 0; id < count; id++) {
+      for (let axis = 0; axis < dimensions; axis++) {
+        boxes[id * width + axis] = random() * world;
+        boxes[id * width + dimensions + axis] = boxes[id * width + axis]! + 10;
+      }
+    }
+    let caught = 0;
+    for (let frame = 0; frame < 150; frame++) {
+      for (let k = 0; k < boxes.length; k++) boxes[k]! += Math.floor(k / width) % 3 === 0 ? 0.03125 : -0.015625;
+      const kept = space.stats.reason.includes('is kept');
+      if (frame >= 40 && frame % 4 === 0 && kept) {
+        const at = width * Math.floor(random() * count) + Math.floor(random() * width);
+        const was = boxes[at]!;
+        const other = (at % width) + (at % width < dimensions ? dimensions : -dimensions) + at - (at % width);
+        // NaN; or inside of where the box may go, with a minimum that is above the maximum.
+        boxes[at] = frame % 8 === 0 ? Number.NaN : boxes[other]! + (at % width < dimensions ? 0.25 : -0.25);
+        const before = space.pairs.slice();
+        expect(() => space.update(), `frame ${frame}`).toThrow(new RegExp(`\\b${Math.floor(at / width)}\\b`));
+        expect(space.pairs).toEqual(before);
+        boxes[at] = was;
+        caught++;
+      }
+      space.update();
+      expect(keysOf(space.pairs), `frame ${frame}`).toEqual(keysOf(findPairs(boxes, { dimensions })));
+    }
+    expect(caught, 'found while what was found is kept').toBeGreaterThan(15);
+  });
+
   test('boxes that are given again as they were cost nothing', () => {
     const random = createRandom(7);
     const count = 2000;

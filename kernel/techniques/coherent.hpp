@@ -69,7 +69,8 @@ template <int D> class Coherent {
   u32 count_ = 0;          // boxes that the current generation follows; 0: none answers yet
   bool unchecked_ = false; // no update has looked yet whether boxes are in the fat ones of this generation
   Buffer<f32> from_;       // per slot: its lower corner when it was given its last fat box, and in which update
-  Buffer<u32> late_;
+  Buffer<u32> late_;       // boxes that are not in their fat ones
+  u32 late_count_ = 0;
   u32 now_ = 0;            // updates, counted
   // Of the generation that is being made: how far it is.
   Stage stage_ = Stage::begin;
@@ -128,6 +129,14 @@ template <int D> class Coherent {
     if (answers) report(scene, pairs, stats);
     if (begun_) build(scene, options, fresh);
     return answers;
+  }
+
+  /// The slots of the boxes that are not where they are expected, or that are none, ascending; null where nobody can tell.
+  const u32* unexpected(const Scene<D>& scene, u32& many) {
+    if (count_ == 0 || scene.count > count_) return nullptr;
+    look(scene, scene.count);
+    many = late_count_;
+    return late_.data();
   }
 
   COLD void structure(Buffer<f32>& boxes, u32& count) const {
@@ -198,28 +207,51 @@ template <int D> class Coherent {
     return f32(best);
   }
 
+  /// Finds the boxes that are not in their fat ones, or are none, among the first so many.
+  NOINLINE void look(const Scene<D>& scene, u32 until) {
+    const f32* fat = current().fat.data();
+    const u32* excluded = current().excluded.data();
+    u32* late = late_.reserve(u64(scene.count) + 1);
+    late_count_ = 0;
+    auto expected = [&](u32 slot) {
+      return sides_inside<D>(scene.box(slot), fat + u64(slot) * width) & axes_in_order<D>(scene.box(slot));
+    };
+    auto check = [&](u32 slot) __attribute__((noinline)) {
+      late[late_count_] = slot;
+      late_count_ += !(bitmask(expected(slot)) == 15 && excluded[slot] == scene.excluded_of(slot));
+    };
+    if (scene.changes && !scene.changes->all() && !unchecked_) {
+      ROLLED
+      for (u32 k = 0; k < scene.changes->count(); k++) {
+        if (scene.changes->list()[k] < until) check(scene.changes->list()[k]);
+      }
+      return;
+    }
+    for (u32 slot = 0; slot < until;) {
+      if (slot + 4 <= until) {  // nearly always all four are where they should be
+        i32x4 all = load<u32x4>(excluded + slot) == (scene.excluded ? load<u32x4>(scene.excluded + slot) : u32x4{});
+        for (u32 k = slot; k < slot + 4; k++) all &= expected(k);
+        if (bitmask(all) == 15) {
+          slot += 4;
+          continue;
+        }
+      }
+      u32 end = smaller(slot + 4, until);
+      ROLLED
+      for (; slot < end; slot++) check(slot);
+    }
+  }
+
   /// Sees to it that fat boxes hold their boxes again; false where all is given up.
   NOINLINE bool follow(const Scene<D>& scene, const Settings& options, f64 fresh) {
     Generation& g = current();
     u32 n = scene.count, had = count_, both = smaller(n, had);
     make_room(n, had);
-    const f32* fat = g.fat.data();
-    const u32* excluded = g.excluded.data();
-    u32* late = late_.reserve(u64(n) + 1);
-    u32 many = 0;
-    auto check = [&](u32 slot) {
-      bool holds = inside<D>(scene.box(slot), fat + u64(slot) * width) && excluded[slot] == scene.excluded_of(slot);
-      late[many] = slot;
-      many += !holds;
-    };
-    if (scene.changes && !scene.changes->all() && !unchecked_) {
-      for (u32 k = 0; k < scene.changes->count(); k++) {
-        if (scene.changes->list()[k] < both) check(scene.changes->list()[k]);
-      }
-    } else {
-      for (u32 slot = 0; slot < both; slot++) check(slot);
-    }
+    if (!scene.looked_at) look(scene, both);
     unchecked_ = false;
+    const u32* excluded = g.excluded.data();
+    u32* late = late_.data();
+    u32 many = late_count_;
     if (late_cost() * (f64(many) + (n - both) - few_late) > late_share * fresh) {
       forget();
       return false;

@@ -117,6 +117,12 @@ template <int D> class Incremental {
     pairs.kept = 0;
   }
 
+  /// Where all boxes are looked at anyway, the slots of those that are not where they are expected or that are none,
+  /// ascending; else null. If `update` comes next it need not look again.
+  const u32* unexpected(const Scene<D>& scene, u32& many) {
+    return by_ == By::generations ? coherent_.unexpected(scene, many) : nullptr;
+  }
+
   /// The cells, or the strips.
   COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     if (by_ == By::strips) return anew_.structure(boxes, count, stats);
