@@ -84,7 +84,10 @@ template <int D> class Techniques {
 
   /// The slots of the boxes that are not where `incremental` expects them, see there; null where it did not run last.
   const u32* unexpected(Technique ran, const Scene<D>& scene, u32& many) {
-    return ran == Technique::incremental ? incremental_.unexpected(scene, many) : nullptr;
+    const u32* slots = nullptr;
+    auto ask = [&](auto& incremental) { slots = incremental.unexpected(scene, many); };
+    if (ran == Technique::incremental) call(ask, incremental_);
+    return slots;
   }
 };
 

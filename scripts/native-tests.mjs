@@ -2,7 +2,7 @@
 // Where no compiler is found it says so and all else goes on; a compiler whose sanitizers do not work is a failure
 // in CI only. `npm run test:native -- ids` runs the tests with `ids` in their name; CXX chooses the compiler.
 import { join } from 'node:path';
-import { build, clangs, findCompiler, root, run, testSources } from './native.mjs';
+import { build, clangs, findCompiler, flags, root, run, testSources } from './native.mjs';
 
 const options = ['-fsanitize=address,undefined'];
 const folder = join(root, 'build/native');
@@ -33,6 +33,14 @@ const program = await build(compiler, options, testSources(), folder, 'tests').c
   console.error(message);
   process.exit(1);
 });
+// Techniques can be left out, in whatever numbers: `scripts/technique-sizes.mjs` leaves out all.
+const none = [...flags, '-w', '-DTECHNIQUES=0', '-fsyntax-only', join(root, 'kernel/abi.cpp')];
+const without = await run(compiler, none);
+if (!without.ok) {
+  console.error(`the kernel without techniques: not compiled\n${without.output}`);
+  process.exit(1);
+}
+
 const { ok } = await run(program, process.argv.slice(2), {
   show: true,
   env: { UBSAN_OPTIONS: 'print_stacktrace=1' },
