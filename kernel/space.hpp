@@ -21,7 +21,7 @@ template <int D> class Space {
   static constexpr u32 handful = 24;
 
   // Bytes a box, pairs included, that an update takes in ordinary scenes.
-  static constexpr u32 usual_bytes = D == 2 ? 384 : 576;
+  static constexpr u32 usual_bytes = D == 2 ? 448 : 640;
 
   // Bytes a pair that the tables take in which pairs are looked up.
   static constexpr u32 bytes_to_look_up = 24;

@@ -1,7 +1,7 @@
 // Long runs of scenes of which little changes, which is what the incremental technique keeps things for: boxes that
 // rest, creep, wake, bounce, jump, come and go, change filters. After each update the pairs are those of strip-sweep,
 // which keeps nothing; once both are the reference's.
-import { BroadPhase } from 'broadphase';
+import { BroadPhase, findPairs } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../src/scenes/random.ts';
 import { expectKeys } from './expect-pairs.ts';
@@ -225,6 +225,34 @@ test.each([2, 3] as const)(
       if (frame > 200 && kept!.stats.tests !== fresh!.stats.tests) answered++;
     }
     expect(answered, 'updates answered from what is kept').toBeGreaterThan(50);
+  },
+);
+
+test.each([2, 3] as const)(
+  'a world that rests and jumps in turns is not taken for one that rests, %i dimensions',
+  (dimensions) => {
+    const random = createRandom(11);
+    const count = 3000;
+    const width = 2 * dimensions;
+    const world = 10 * (count / 0.2) ** (1 / dimensions);
+    const space = new BroadPhase({ dimensions });
+    let filling = 0;
+    for (let frame = 0; frame < 300; frame++) {
+      const boxes = space.boxes(count);
+      for (let id = 0; id < count && frame % 2 === 0; id++) {
+        for (let axis = 0; axis < dimensions; axis++) {
+          boxes[id * width + axis] = random() * world;
+          boxes[id * width + dimensions + axis] = boxes[id * width + axis]! + 10;
+        }
+      }
+      space.update();
+      if (space.stats.reason.includes('will be')) filling++;
+      if (frame % 10 > 1) continue;
+      expect(keysOf(space.pairs), `frame ${frame}`).toEqual(
+        keysOf(findPairs(space.boxes(count).slice(), { dimensions })),
+      );
+    }
+    expect(filling, 'updates in which what nobody will use was filled').toBeLessThan(65);
   },
 );
 

@@ -419,7 +419,7 @@ template <int D> class Coherent {
     make_room(boxes_, boxes_);
     g.fat.reserve(u64(boxes_) * width + padding);
     g.excluded.reserve(boxes_);
-    g.candidates.list.reserve(u64(found_ * boxes_) + Pairs::slack);
+    g.candidates.list.reserve(u64(smaller(found_, 16.0) * boxes_) + Pairs::slack);
     g.candidates.count = 0;
     stage_ = Stage::look;
     g.strips.begin(scene, 1 + spread * pace_ * (making_ + period_ + spare_updates), g.stats);

@@ -39,6 +39,7 @@ template <int D> class Incremental {
   static constexpr u32 filling = 90, filling_alone = 150;  // updates in which all is filled, while generations answer or not
   static constexpr u32 ahead = 8;            // its motion is known from so many updates
   static constexpr u32 late_share = 40;      // all is given up where one in so many leaves its fat box at once
+  static constexpr u32 sample_share = 8;     // ... while they are filled, where it is one in so many of a sample
   static constexpr f32 least_period = 4, most_period = 64, growth = 1.15f;
   static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 watched = 256;        // boxes whose motion is looked at before anything is kept
@@ -191,6 +192,7 @@ template <int D> class Incremental {
     moving_ = candidates_ = turned_ = motion_ = 0;
     if (count_ == 0) return enlist(scene);  // another update than the one that made the cells: both take their time
     follow(scene, pairs);
+    if (queued_ > 2 * portion_ && astray(scene)) return forget();
     serve(scene, options, stats);
     if (leaves_ == 0 || queued_ > 0) return;
     take_turns(scene, options, stats);
@@ -666,6 +668,18 @@ template <int D> class Incremental {
     pairs.kept = smaller(pairs.kept, kept);
     __builtin_memset(woken_.data(), 0, (slots / 32 + 1) * sizeof(u32));
     any_woken_ = false;
+  }
+
+  /// While cells are filled: whether of a sample of those that are in them many are not where they should be.
+  COLD bool astray(const Scene<D>& scene) const {
+    u32 stride = larger(1u, count_ / watched), known = 0, out = 0;
+    for (u32 slot = 0; slot < count_; slot += stride) {
+      u32 tag = known_[slot].tag;
+      if (tag & (waiting | is_huge)) continue;
+      known++;
+      out += !(tag & rests ? equal(scene.box(slot), last(slot)) : inside<D>(scene.box(slot), last(slot)));
+    }
+    return out * sample_share > known + sample_share;
   }
 
   /// Puts boxes that wait into cells: all that are few, else a share of them.
