@@ -6,12 +6,8 @@
 #include "pairs.hpp"
 #include "settings.hpp"
 
-/// In all lanes the largest of those that are axes. With vectors: engines turn a choice between two floats into a branch,
-/// and which axis is the fastest nobody can guess.
-template <int D> f32x4 widest(f32x4 v) {
-  f32x4 most = max(__builtin_shufflevector(v, v, 0, 0, 0, 0), __builtin_shufflevector(v, v, 1, 1, 1, 1));
-  return D == 2 ? most : max(most, __builtin_shufflevector(v, v, 2, 2, 2, 2));
-}
+/// Of a vector: the largest of the lanes that are axes.
+template <int D> f32 widest(f32x4 v) { return D == 2 ? larger(v[0], v[1]) : larger(larger(v[0], v[1]), v[2]); }
 
 /// How far a box moved in an update, as a share of its size, at most 1, given where its lower corner was so many ago.
 /// Of `low`, as of all boxes here, four floats may be read.
@@ -19,7 +15,7 @@ template <int D> f32 pace(const f32* box, const f32* low, u32 updates) {
   f32x4 at = load<f32x4>(box), step = (at - load<f32x4>(low)) * splat(1 / f32(updates));
   step = max(step, -step);
   f32x4 share = min(step / (load<f32x4>(box + D) - at), splat(1.0f));
-  return widest<D>(bits<f32x4>(bits<i32x4>(share) & (step > splat(0.0f))))[0];
+  return widest<D>(bits<f32x4>(bits<i32x4>(share) & (step > splat(0.0f))));
 }
 
 /// The fat box of a box: what its motion will cover in so many updates, given where it was so many ago, and `slack`
@@ -28,7 +24,8 @@ template <int D> void fatten(const f32* box, const f32* low, u32 updates, f32 un
   f32x4 first = load<f32x4>(box), last = load<f32x4>(box + D), size = last - first, none = splat(0.0f);
   f32x4 step = (first - load<f32x4>(low)) * splat(1 / f32(updates));
   step = bits<f32x4>(bits<i32x4>(step) & (step <= size) & (-step <= size));  // a jump says nothing about what comes
-  f32x4 aside = margin > 0 ? splat(f32(margin)) : splat(slack) * widest<D>(max(step, -step)), reach = step * splat(margin > 0 ? 0 : until);
+  f32 fastest = widest<D>(max(step, -step));
+  f32x4 aside = splat(margin > 0 ? f32(margin) : slack * fastest), reach = step * splat(margin > 0 ? 0 : until);
   store(out, min(first + min(reach, none) - aside, first));
   store(out + D, max(last + max(reach, none) + aside, last));
 }
