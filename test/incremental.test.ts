@@ -144,7 +144,7 @@ test('where all move, what is found is kept, through bounces, new boxes, and a c
     kept += Number(space.stats.technique === 'incremental');
     expectKeys(space, referencePairs(boxes, 2));
   }
-  expect(kept).toBeGreaterThan(100);
+  expect(kept).toBeGreaterThan(90);
 });
 
 describe.each([2, 3] as const)('a few boxes creep, each as it likes, %i dimensions', (dimensions) => {

@@ -25,16 +25,15 @@ template <int D> class Coherent {
   static constexpr u32 struck = 1u << 31;  // a mark
   static constexpr f64 late_share = 0.5;  // all is given up where those that leave their fat ones cost this share of fresh
   static constexpr f64 few_late = 128;  // so many are no reason
-  static constexpr f32 least_period = 3, most_period = 64, least_making = 2, most_making = 32;
-  static constexpr f32 spare_updates = 1;  // fat boxes reach so many further, for work that takes longer than planned
+  static constexpr u32 least_period = 3, most_period = 64, least_making = 2, most_making = 32;
   static constexpr f64 bearable = 0.15;  // what making the first generation may add to an update, as a share of strip sweep
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where none is late
-  static constexpr f32 making_share = D == 2 ? 0.8f : 0.7f;  // of the updates of a generation, in so many the next is made
+  static constexpr f32 making_share = 0.8f;  // of the updates of a generation, in so many the next is made
   static constexpr f64 spread = D == 2 ? 0.75 : 0.67;  // of motion along an axis, to that along the fastest
-  // What the work of a generation costs for each box, in nanoseconds: noting where it stands, making its fat box and
-  // counting it, entering it in its strip, sweeping that, and a last look; and for each candidate.
-  static constexpr f64 look_cost = 3.5, fatten_cost = D == 2 ? 11 : 15, enter_cost = D == 2 ? 7 : 17,
-                       sweep_cost = D == 2 ? 11 : 25, mend_cost = D == 2 ? 2 : 3, hit_cost = D == 2 ? 3 : 6;
+  // What the work of a generation costs for each box, in nanoseconds: making its fat box and counting it, entering it in
+  // its strip, sweeping that, and a last look; and for each candidate.
+  static constexpr f64 fatten_cost = D == 2 ? 11 : 14, enter_cost = D == 2 ? 12 : 17,
+                       sweep_cost = D == 2 ? 14 : 31, mend_cost = D == 2 ? 2 : 3, hit_cost = D == 2 ? 3 : 6;
   static constexpr f64 new_cost = 2;  // times as much, where memory is used for the first time
   // What an update costs for each box, and for a box that is late and each of its candidates.
   static constexpr f64 box_cost = D == 2 ? 2 : 3, late_base = 500, late_each = 400;
@@ -44,11 +43,12 @@ template <int D> class Coherent {
   static constexpr u32 sampled = 4;  // of so many boxes one is asked how fast it is
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
 
-  enum class Stage : u32 { begin, look, fatten, enter, sweep, mend };
+  enum class Stage : u32 { begin, fatten, enter, sweep, mend };
 
   struct Generation {
     Buffer<f32> fat;       // per slot
     Buffer<u32> excluded;  // per slot, the exclusion bits its candidates were found with
+    bool excludes = false; // some may not be 0
     StripSweep<D> strips;
     Pairs candidates;
     Stats stats;
@@ -74,11 +74,13 @@ template <int D> class Coherent {
   u32 now_ = 0;            // updates, counted
   // Of the generation that is being made: how far it is.
   Stage stage_ = Stage::begin;
-  u32 at_ = 0, boxes_ = 0, age_ = 0;
+  u32 at_ = 0, boxes_ = 0;
+  f64 spent_ = 0;          // of its work, in nanoseconds
   bool known_ = false;     // where boxes were is known from the generation before
-  f32 period_ = 16;        // updates that it is to answer
-  f32 making_ = 0;         // updates in which it is made
-  f32 lasts_ = 0;          // updates that the current one is to answer still
+  i32 period_ = 16;        // updates that it is to answer
+  i32 making_ = 0;         // updates in which it is made, after the one that begins it
+  i32 age_ = 0;            // updates since that
+  i32 lasts_ = 0;          // updates that the current one is to answer still
   f32 slack_ = least_slack;
   f32 pace_ = 0;           // how far boxes move in an update, as a share of their size, in the mean
   f64 motion_ = 0, lates_ = 0;
@@ -93,8 +95,8 @@ template <int D> class Coherent {
   /// What an update is going to cost for so many boxes and pairs, where such a share of the boxes moves, so far as a
   /// share of their size. `listed`: it will be known which have moved.
   COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, bool listed) {
-    f64 period = best_period(boxes, hits, share, pace);
-    return cost(boxes, hits, share, pace, period, making_share * period) - (listed ? (1 - share) * box_cost * boxes : 0);
+    u32 period = best_period(boxes, hits, share, pace);
+    return cost(boxes, hits, share, pace, period) - (listed ? (1 - share) * box_cost * boxes : 0);
   }
 
   bool begun() const { return begun_; }
@@ -103,7 +105,7 @@ template <int D> class Coherent {
     begun_ = true;
     make_room(u32(boxes), u32(boxes));  // not in the update that first looks at all of them
     pace_ = f32(pace);
-    period_ = best_period(boxes, hits, 1, pace) + spare_updates;  // the first takes longest
+    period_ = i32(best_period(boxes, hits, 1, pace));
     stage_ = Stage::begin;
     known_ = unchecked_ = false;
     slack_ = least_slack;
@@ -114,12 +116,12 @@ template <int D> class Coherent {
     making_ = least_making;
     do {
       making_++;
-      found_ = candidates(boxes, hits, 1, pace, making_ + period_ + spare_updates) / boxes;
+      found_ = candidates(boxes, hits, 1, pace, making_ + period_) / boxes;
       lost_ = 0.01 * pace * making_;
       all = work() * boxes / fresh;
       before = harm;
       harm = all + all * all / making_;
-    } while (making_ < most_making && all > bearable * making_ && harm < before);
+    } while (making_ < i32(most_making) && all > bearable * making_ && harm < before);
   }
 
   /// Finds the pairs, where a generation is there to answer; else false. Gives up where that costs more than `fresh`.
@@ -170,9 +172,9 @@ template <int D> class Coherent {
  private:
   u32 marked_ = 0;  // slots that have marks
 
-  /// The same, where a generation is made in so many updates and then answers so many.
-  COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, f64 period, f64 making) {
-    f64 all = candidates(boxes, hits, share, pace, making + period + spare_updates);
+  /// The same, where a generation answers so many updates.
+  COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, u32 period) {
+    f64 all = candidates(boxes, hits, share, pace, making_for(period) + period);
     return boxes * (box_cost + all_costs / period) + (candidate_cost(boxes) + hit_cost / period) * all;
   }
 
@@ -195,22 +197,29 @@ template <int D> class Coherent {
   f64 novelty() const { return made_ < 2 ? new_cost : 1; }
   f64 late_cost() const { return late_base + late_each * found_; }
 
+  /// Updates in which a generation is made that is to answer so many: all but those that begin it or do nothing.
+  static u32 making_for(u32 period) {
+    return larger(least_making, smaller(u32(making_share * f32(period)), period - 2));
+  }
+
   /// Updates that a generation should answer: the work of making it balances its candidates, which are the more the
   /// further fat boxes reach: from when they are made until the next generation is.
-  COLD static f32 best_period(f64 boxes, f64 hits, f64 share, f64 pace) {
-    f64 best = least_period, least = __builtin_inf();
-    for (f64 period = best; period <= most_period; period *= 1.2) {
-      f64 costs = cost(boxes, hits, share, pace, period, making_share * period);
+  COLD static u32 best_period(f64 boxes, f64 hits, f64 share, f64 pace) {
+    u32 best = least_period;
+    f64 least = __builtin_inf();
+    for (u32 period = best; period <= most_period; period += 1 + period / 8) {
+      f64 costs = cost(boxes, hits, share, pace, period);
       best = costs < least ? period : best;
       least = smaller(costs, least);
     }
-    return f32(best);
+    return best;
   }
 
   /// Finds the boxes that are not in their fat ones, or are none, among the first so many.
   NOINLINE void look(const Scene<D>& scene, u32 until) {
     const f32* fat = current().fat.data();
     const u32* excluded = current().excluded.data();
+    bool excludes = current().excludes || scene.excluded;
     u32* late = late_.reserve(u64(scene.count) + 1);
     late_count_ = 0;
     auto expected = [&](u32 slot) {
@@ -229,7 +238,8 @@ template <int D> class Coherent {
     }
     for (u32 slot = 0; slot < until;) {
       if (slot + 4 <= until) {  // nearly always all four are where they should be
-        i32x4 all = load<u32x4>(excluded + slot) == (scene.excluded ? load<u32x4>(scene.excluded + slot) : u32x4{});
+        i32x4 all = ~i32x4{};
+        if (excludes) all = load<u32x4>(excluded + slot) == (scene.excluded ? load<u32x4>(scene.excluded + slot) : u32x4{});
         for (u32 k = slot; k < slot + 4; k++) all &= expected(k);
         if (bitmask(all) == 15) {
           slot += 4;
@@ -303,13 +313,15 @@ template <int D> class Coherent {
     if (place > 0) g.drop_grown(place - 1);
     for (u32 k = 0; k < width; k++) g.fat[u64(slot) * width + k] = __builtin_nanf("");
     g.excluded[slot] = scene.excluded_of(slot);
+    g.excludes |= scene.excluded != nullptr;
     note(scene, slot);
   }
 
   /// Notes where a box stands.
   void note(const Scene<D>& scene, u32 slot) const {
-    __builtin_memcpy(from(slot), scene.box(slot), D * sizeof(f32));
-    from(slot)[D] = bits<f32>(now_);
+    f32x4 corner = load<f32x4>(scene.box(slot));
+    corner[D] = bits<f32>(now_);
+    __builtin_memcpy(from(slot), &corner, (D + 1) * sizeof(f32));
   }
 
   /// Strikes out the candidates of boxes that are marked, and of slots from n on.
@@ -347,7 +359,7 @@ template <int D> class Coherent {
       // Where it goes now nobody knows, but about how fast.
       f32 size = box[D + a] - box[a], beyond = larger(0.0f, larger(old[a] - box[a], box[D + a] - old[D + a]));
       f32 reach = larger(spare(old, box, a), smaller(8 * beyond, size));
-      if (!(old[a] <= old[D + a])) reach = 2 * pace_ * size * larger(1.0f, lasts_);
+      if (!(old[a] <= old[D + a])) reach = 2 * pace_ * size * f32(larger(1, lasts_));
       if (options.margin > 0) reach = f32(options.margin);
       fat[a] = smaller(smaller(box[a], box[a] - reach), old[a]);
       fat[D + a] = larger(larger(box[D + a], box[D + a] + reach), old[D + a]);
@@ -395,34 +407,46 @@ template <int D> class Coherent {
     stats.entries = current().stats.entries;
   }
 
-  /// Updates until the generation that is being made is likely to be done.
-  f32 left() const { return larger(0.0f, making_ - f32(age_)); }
-
   bool hurries() const { return known_ && lasts_ <= 0; }
 
   /// Makes a slice of the next generation.
   COLD void build(const Scene<D>& scene, const Settings& options, f64 fresh) {
     lasts_--;
-    if (stage_ != Stage::begin) age_++;
-    else if (!known_ || lasts_ <= making_ + 3) open(scene);
-    // Before the one that answers ends, all must be done.
-    f64 budget = hurries() ? __builtin_inf() : work() * boxes_ / making_;
-    while (begun_ && budget > 0 && stage_ != Stage::begin) budget -= slice(scene, options, budget, fresh);
+    age_++;
+    if (stage_ == Stage::begin) {
+      if (!known_ || lasts_ <= making_) open(scene);
+      return;  // boxes must move before their motion can be seen
+    }
+    // What is left to do is shared by the updates that are left. Before the generation that answers ends, all must be done.
+    f64 all = work() * boxes_, left = larger(1, making_ - age_ + 1);
+    f64 budget = hurries() ? __builtin_inf() : larger(all - spent_, all / 8) / left;
+    while (begun_ && budget > 0 && stage_ != Stage::begin) {
+      f64 spent = slice(scene, options, budget, fresh);
+      budget -= spent;
+      spent_ += spent;
+    }
   }
 
   /// Begins a generation.
   COLD void open(const Scene<D>& scene) {
     Generation& g = next();
     boxes_ = scene.count;
-    at_ = age_ = 0;
-    motion_ = lates_ = 0;
+    at_ = 0;
+    age_ = 0;
+    motion_ = lates_ = spent_ = 0;
     make_room(boxes_, boxes_);
     g.fat.reserve(u64(boxes_) * width + padding);
     g.excluded.reserve(boxes_);
     g.candidates.list.reserve(u64(smaller(found_, 16.0) * boxes_) + Pairs::slack);
     g.candidates.count = 0;
-    stage_ = Stage::look;
-    g.strips.begin(scene, 1 + spread * pace_ * (making_ + period_ + spare_updates), g.stats);
+    g.excludes = false;
+    stage_ = Stage::fatten;
+    g.strips.begin(scene, 1 + spread * pace_ * f32(making_ + period_), g.stats);
+    note_all(scene);
+  }
+
+  COLD void note_all(const Scene<D>& scene) const {
+    for (u32 slot = 0; slot < boxes_; slot++) note(scene, slot);
   }
 
   /// Does work of the stage for about so many nanoseconds; gives how many.
@@ -430,28 +454,24 @@ template <int D> class Coherent {
     Generation& g = next();
     if (stage_ == Stage::mend) return mend(scene, options, budget, fresh);
     f64 each = (sweep_cost + hit_cost * found_) * boxes_ / g.stats.entries;
-    if (stage_ == Stage::look) each = look_cost;
     if (stage_ == Stage::fatten) each = fatten_cost;
     if (stage_ == Stage::enter) each = enter_cost;
     each *= novelty();
-    u32 many = u32(smaller(budget / each + 1, f64(max_slots))), until = smaller(boxes_, at_ + many), n = scene.count;
+    u32 many = u32(smaller(budget / each + 1, f64(max_slots))), all = boxes_, until = smaller(all, at_ + many);
     Scene<D> fat{g.fat.data(), boxes_, g.excluded.data()};
-    if (stage_ == Stage::look) {
-      for (u32 slot = at_; slot < smaller(n, until); slot++) note(scene, slot);
-    } else if (stage_ == Stage::fatten) {
+    if (stage_ == Stage::fatten) {
       make_fat(scene, options, until);
       g.strips.count(fat, at_, until);
     } else if (stage_ == Stage::enter) {
       g.strips.enter(fat, at_, until);
     } else {
-      if (g.strips.sweep(many, g.candidates) == 0) stage_ = Stage::mend;
-      return many * each;
+      all = u32(g.stats.entries);
+      until = all - g.strips.sweep(many, g.candidates);
     }
     f64 spent = (until - at_) * each;
     at_ = until;
-    if (at_ < boxes_) return spent;
+    if (at_ < all) return spent;
     at_ = 0;
-    if (stage_ == Stage::look) spent = budget;  // boxes must move before their motion can be seen
     if (stage_ == Stage::fatten && !g.strips.add_up()) forget();
     stage_ = Stage(u32(stage_) + 1);
     return spent;
@@ -480,7 +500,8 @@ template <int D> class Coherent {
   /// Fat boxes from `at_` on.
   NOINLINE void make_fat(const Scene<D>& scene, const Settings& options, u32 until) {
     Generation& g = next();
-    f32 reach = left() + period_ + spare_updates;
+    f32 reach = f32(larger(0, making_ - age_) + period_);
+    g.excludes |= scene.excluded != nullptr;
     for (u32 slot = at_; slot < until; slot++) {
       // Written in place, in order: what is written beyond a fat box is where the next one comes.
       f32* fat = g.fat.data() + u64(slot) * width;
@@ -521,19 +542,18 @@ template <int D> class Coherent {
       strike(g, n);
       forget_grown(g, n);
     }
-    lasts_ = making_ + period_ + spare_updates - 1 - f32(age_);
+    lasts_ = making_ + period_ - age_;
     unchecked_ = known_ = true;
     found_ = f64(g.candidates.count) / boxes_;
     stage_ = Stage::begin;
     pace_ = f32(motion_ * sampled / boxes_);
-    making_ = larger(least_making, making_share * period_);
     if (hits_ >= 0) {
       f64 each = box_cost + work() / period_ + candidate_cost(boxes_) * found_;
       if (boxes_ * each + late_cost() * lates_ / (age_ + 1) > worth * fresh) return forget();
-      period_ = best_period(boxes_, hits_, 1, pace_);
-      making_ = larger(least_making, making_share * period_);
+      period_ = i32(best_period(boxes_, hits_, 1, pace_));
       // Where boxes leave their fat ones too early, the next reach further to the sides.
       slack_ = smaller(16.0f, larger(least_slack, slack_ * (lates_ > 0.02 * boxes_ ? 1.3f : 0.95f)));
     }
+    making_ = i32(making_for(u32(period_)));
   }
 };
