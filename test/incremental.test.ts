@@ -173,6 +173,38 @@ describe.each([2, 3] as const)('a few boxes creep, each as it likes, %i dimensio
   });
 });
 
+test('boxes whose first fat ones touch very many cells are in those that they touch themselves', () => {
+  const random = createRandom(3);
+  const count = 8000;
+  const world = 10 * (count / 0.2) ** (1 / 3);
+  const kept = new BroadPhase({ dimensions: 3 });
+  const fresh = new BroadPhase({ dimensions: 3, technique: 'strip-sweep' });
+  const boxes = new Float32Array(6 * count);
+  const steps = new Float32Array(3 * count);
+  for (let k = 0; k < 3 * count; k++) {
+    const at = 6 * Math.floor(k / 3) + (k % 3);
+    boxes[at] = random() * world;
+    boxes[at + 3] = boxes[at]! + 10;
+    if (k % 300 < 3) steps[k] = random() < 0.5 ? 3 : -3;
+  }
+  let answered = 0;
+  for (let frame = 0; frame < 150; frame++) {
+    for (let k = 0; k < 3 * count; k++) {
+      const at = 6 * Math.floor(k / 3) + (k % 3);
+      if (boxes[at]! + steps[k]! < 0 || boxes[at]! > world) steps[k]! *= -1;
+      boxes[at]! += steps[k]!;
+      boxes[at + 3] = boxes[at]! + 10;
+    }
+    for (const space of [kept, fresh]) {
+      space.boxes(count).set(boxes);
+      space.update();
+    }
+    answered += Number(kept.stats.reason.includes('is kept'));
+    expect(keysOf(kept.pairs), `frame ${frame}`).toEqual(keysOf(fresh.pairs));
+  }
+  expect(answered, 'updates answered from what is kept').toBeGreaterThan(50);
+});
+
 test('a box that jumps beside one that turns is not reported twice', () => {
   const space = new BroadPhase();
   const put = (id: number, x: number, y: number) => space.set(id, x, y, x + 10, y + 10);

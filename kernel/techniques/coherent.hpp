@@ -25,7 +25,7 @@ template <int D> class Coherent {
   static constexpr u32 struck = 1u << 31;  // a mark
   static constexpr f64 late_share = 0.5;  // all is given up where those that leave their fat ones cost this share of fresh
   static constexpr f64 few_late = 128;  // so many are no reason
-  static constexpr u32 least_period = 3, most_period = 64, least_making = 2, most_making = 32;
+  static constexpr i32 least_period = 3, most_period = 64, least_making = 2, most_making = 32;
   static constexpr f64 bearable = 0.15;  // what making the first generation may add to an update, as a share of strip sweep
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where none is late
   static constexpr f32 making_share = 0.8f;  // of the updates of a generation, in so many the next is made
@@ -95,7 +95,7 @@ template <int D> class Coherent {
   /// What an update is going to cost for so many boxes and pairs, where such a share of the boxes moves, so far as a
   /// share of their size. `listed`: it will be known which have moved.
   COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, bool listed) {
-    u32 period = best_period(boxes, hits, share, pace);
+    i32 period = best_period(boxes, hits, share, pace);
     return cost(boxes, hits, share, pace, period) - (listed ? (1 - share) * box_cost * boxes : 0);
   }
 
@@ -105,7 +105,7 @@ template <int D> class Coherent {
     begun_ = true;
     make_room(u32(boxes), u32(boxes));  // not in the update that first looks at all of them
     pace_ = f32(pace);
-    period_ = i32(best_period(boxes, hits, 1, pace));
+    period_ = best_period(boxes, hits, 1, pace);
     stage_ = Stage::begin;
     known_ = unchecked_ = false;
     slack_ = least_slack;
@@ -121,7 +121,7 @@ template <int D> class Coherent {
       all = work() * boxes / fresh;
       before = harm;
       harm = all + all * all / making_;
-    } while (making_ < i32(most_making) && all > bearable * making_ && harm < before);
+    } while (making_ < most_making && all > bearable * making_ && harm < before);
   }
 
   /// Finds the pairs, where a generation is there to answer; else false. Gives up where that costs more than `fresh`.
@@ -173,7 +173,7 @@ template <int D> class Coherent {
   u32 marked_ = 0;  // slots that have marks
 
   /// The same, where a generation answers so many updates.
-  COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, u32 period) {
+  COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, i32 period) {
     f64 all = candidates(boxes, hits, share, pace, making_for(period) + period);
     return boxes * (box_cost + all_costs / period) + (candidate_cost(boxes) + hit_cost / period) * all;
   }
@@ -197,17 +197,18 @@ template <int D> class Coherent {
   f64 novelty() const { return made_ < 2 ? new_cost : 1; }
   f64 late_cost() const { return late_base + late_each * found_; }
 
-  /// Updates in which a generation is made that is to answer so many: all but those that begin it or do nothing.
-  static u32 making_for(u32 period) {
-    return larger(least_making, smaller(u32(making_share * f32(period)), period - 2));
+  /// Updates in which a generation is made, of those that one answers: the fewer, the less far need fat boxes reach; the
+  /// more, the more alike are updates. One begins it, and in one nothing is made.
+  static i32 making_for(i32 period) {
+    return larger(least_making, smaller(i32(making_share * f32(period)), period - 2));
   }
 
   /// Updates that a generation should answer: the work of making it balances its candidates, which are the more the
   /// further fat boxes reach: from when they are made until the next generation is.
-  COLD static u32 best_period(f64 boxes, f64 hits, f64 share, f64 pace) {
-    u32 best = least_period;
+  COLD static i32 best_period(f64 boxes, f64 hits, f64 share, f64 pace) {
+    i32 best = least_period;
     f64 least = __builtin_inf();
-    for (u32 period = best; period <= most_period; period += 1 + period / 8) {
+    for (i32 period = best; period <= most_period; period += 1 + period / 8) {
       f64 costs = cost(boxes, hits, share, pace, period);
       best = costs < least ? period : best;
       least = smaller(costs, least);
@@ -550,10 +551,10 @@ template <int D> class Coherent {
     if (hits_ >= 0) {
       f64 each = box_cost + work() / period_ + candidate_cost(boxes_) * found_;
       if (boxes_ * each + late_cost() * lates_ / (age_ + 1) > worth * fresh) return forget();
-      period_ = i32(best_period(boxes_, hits_, 1, pace_));
+      period_ = best_period(boxes_, hits_, 1, pace_);
       // Where boxes leave their fat ones too early, the next reach further to the sides.
       slack_ = smaller(16.0f, larger(least_slack, slack_ * (lates_ > 0.02 * boxes_ ? 1.3f : 0.95f)));
     }
-    making_ = i32(making_for(u32(period_)));
+    making_ = making_for(period_);
   }
 };

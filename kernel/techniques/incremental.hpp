@@ -31,7 +31,7 @@ template <int D> class Incremental {
   static constexpr u32 padding = 4;          // vector loads may read this many floats past the last box
   static constexpr u32 rests = 1, waiting = 2, is_huge = 4;  // in a tag of ours, below the exclusion bits
   static constexpr u32 few = 200;            // fewer boxes are not worth keeping anything
-  static constexpr u32 cell_boxes = D == 2 ? 40 : 60;  // at least so many to a cell, and less than twice as many
+  static constexpr u32 cell_boxes = D == 2 ? 64 : 100;  // at least so many to a cell, and less than twice as many
   static constexpr u32 most_in_cell = 4096;  // where it comes to this, the cells are no good
   static constexpr u32 samples_a_cell = 4, most_samples = 1 << 16;
   static constexpr u32 huge_cells = 32;      // boxes that touch more cells than this are huge
@@ -699,7 +699,10 @@ template <int D> class Incremental {
       if (!still) fatten<D>(box, last(slot), larger(updates, 1u), until, slack_, options.margin, fat);
       Found found;
       cells_of(still ? box : fat, found);
-      if (found.many() && !still) cells_of(box, found);
+      if (found.many() && !still) {
+        __builtin_memcpy(fat, box, width * sizeof(f32));  // until its turn it is late when it moves
+        cells_of(fat, found);
+      }
       if (found.many()) {
         if (huge_count_ == most_huge) return forget();
         huge_[huge_count_++] = slot;
