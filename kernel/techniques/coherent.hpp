@@ -197,10 +197,10 @@ template <int D> class Coherent {
   f64 novelty() const { return made_ < 2 ? new_cost : 1; }
   f64 late_cost() const { return late_base + late_each * found_; }
 
-  /// Updates in which a generation is made, of those that one answers: the fewer, the less far need fat boxes reach; the
-  /// more, the more alike are updates. One begins it, and in one nothing is made.
+  /// Updates in which a generation is made, of those that one answers: the fewer, the less far need fat boxes reach, which
+  /// matters more in 3D; the more, the more alike are updates. One begins it, and in one nothing is made.
   static i32 making_for(i32 period) {
-    return larger(least_making, smaller(i32(making_share * f32(period)), period - 2));
+    return larger(least_making, smaller(i32(making_share * f32(period)) - (D - 2), period - 2));
   }
 
   /// Updates that a generation should answer: the work of making it balances its candidates, which are the more the

@@ -1,6 +1,6 @@
 // Incremental: what the last updates have found out is kept, and an update costs what has changed.
 //
-// Idea: space is cut into cells of a few dozen boxes, once, by a k-d tree over a sample. A box that moves stands in
+// Idea: space is cut into cells of about a hundred boxes, once, by a k-d tree over a sample. A box that moves stands in
 // every cell it may come to in the next updates, as a fat box that reaches as far as its motion will take it. A cell
 // keeps the pairs of fat boxes that overlap in it: its candidates. While boxes stay in their fat ones, which one pass
 // over all that may have changed finds out, an update does nothing but test each candidate. Two boxes can be candidates
