@@ -41,6 +41,8 @@ template <int D> class Incremental {
   static constexpr u32 late_share = 40;      // all is given up where one in so many leaves its fat box at once
   static constexpr u32 sample_share = 8;     // ... while they are filled, where it is one in so many of a sample
   static constexpr f32 least_period = 4, most_period = 64, growth = 1.15f;
+  static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where few are late
+  static constexpr f64 few_late = 0.3;       // ... so many for each box that has its turn: it costs as much to be late
   static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 watched = 256;        // boxes whose motion is looked at before anything is kept
   static constexpr f64 worth = 0.85;         // cells must promise to cost this share of what it costs now
@@ -97,7 +99,7 @@ template <int D> class Incremental {
   u32 cursor_ = 0;       // the cell whose turn is next
   u32 now_ = 0;          // updates, counted
   f32 period_ = 16, target_ = 16;  // updates in which every cell has one turn, and what that is to become
-  f32 slack_ = 0.5f;     // fat boxes reach to all sides, in motions of one update
+  f32 slack_ = least_slack;     // fat boxes reach to all sides, in motions of one update
   f64 moving_ = 0, candidates_ = 0, turned_ = 0, motion_ = 0;  // of this update
   f64 fresh_ = 0;        // what the last update cost that was answered by strip-sweep
   u32 pause_ = 0, pauses_ = first_pause;  // updates left in which nothing is tried; how many the last pause had
@@ -311,7 +313,7 @@ template <int D> class Incremental {
     }
     cut(sample, samples, 1, 0, low, high);
     cursor_ = 0;
-    slack_ = 0.5f;
+    slack_ = least_slack;
   }
 
   /// All boxes wait to be put into cells.
@@ -899,6 +901,6 @@ template <int D> class Incremental {
     if (turned_ < 16) return;
     target_ = best_period(turned_ * period_, hits, motion_ / turned_);
     // Where boxes leave their fat ones too early, reach further to the sides.
-    slack_ = smaller(16.0f, larger(0.5f, slack_ * (late_count_ > 0.1 * turned_ ? 1.05f : 0.99f)));
+    slack_ = smaller(16.0f, larger(least_slack, slack_ * (late_count_ > few_late * turned_ ? 1.05f : 0.99f)));
   }
 };
