@@ -1,5 +1,6 @@
 // Hours of churn (test/soak/soak.ts): boxes come and go, techniques are switched, states restored; everything is compared
-// with a model after each update, and memory must stay what it was, the kernels' and JavaScript's.
+// with a model after each update, crowds of thousands with strip-sweep, and memory must stay what it was, the kernels' and
+// JavaScript's.
 //   npm run soak                            an hour
 //   npm run soak -- --hours 12 --seed 5
 import { parseArgs } from 'node:util';
@@ -44,4 +45,4 @@ if (late > early + slack) {
   console.error(`soak: the JavaScript heap has grown from ${megabytes(early)} to ${megabytes(late)}`);
   process.exit(1);
 }
-console.log(`soak: ${totals.updates} updates and ${totals.pairs} pairs were the model's; memory was flat`);
+console.log(`soak: ${totals.updates} updates and ${totals.pairs} pairs were as they should be; memory was flat`);

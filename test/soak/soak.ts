@@ -1,8 +1,9 @@
 // A server that runs for months, in hours: spaces that live on while boxes come, go, move, jump and change their
 // filters, techniques are switched, states are saved and gone back to; then calm spells in which a few boxes creep, so
 // that techniques come to keep what they have found. After each update the pairs are the model's, every invariant holds,
-// and memory is what it was.
+// and memory is what it was. Beside them, crowds of thousands, one after the other, in which `auto` keeps what it finds.
 import { BroadPhase } from 'broadphase';
+import { Crowd } from '../crowd.ts';
 import { anyPlace, type Entry, Modelled, pairsOf } from '../model.ts';
 import { inBox } from '../query-reference.ts';
 import { keysOf } from '../reference.ts';
@@ -25,6 +26,7 @@ const slack = 2; // times: memory grows in steps, and the rarest of crowds may t
 const callsPerUpdate = 120;
 const spell = 250; // updates of a storm, and of the calm after it
 const callsPerCalmUpdate = 5;
+const crowdUpdates = 200; // of a crowd, until the next one
 const keepers = ['auto', 'incremental', 'aabb-tree', 'retained-grid'] as const; // take turns in calm spells
 const { techniques } = BroadPhase;
 
@@ -140,6 +142,34 @@ class Subject {
   }
 }
 
+/** Crowds, one after the other. */
+class Crowds {
+  #seed: number;
+  #crowd: Crowd;
+  #updates = 0;
+
+  constructor(seed: number) {
+    this.#seed = seed;
+    this.#crowd = new Crowd(seed);
+  }
+
+  round(totals: Totals): void {
+    if (this.#updates === crowdUpdates) {
+      this.#crowd.dispose();
+      this.#crowd = new Crowd(++this.#seed);
+      this.#updates = 0;
+    }
+    this.#crowd.step();
+    const { expected, found } = this.#crowd.pairs;
+    if (found !== expected) fail(`the pairs of crowd ${this.#seed} are not strip-sweep's in update ${this.#updates}`);
+    this.#updates++;
+    const { pairCount, stats } = this.#crowd.kept;
+    totals.updates++;
+    totals.pairs += pairCount;
+    totals.kept += Number(stats.reason.includes('is kept'));
+  }
+}
+
 const bytesOf = (words: Uint32Array) => new Uint8Array(words.buffer, words.byteOffset, words.byteLength);
 
 /** Runs until `now() >= until`; calls `report` every so many milliseconds. */
@@ -148,9 +178,11 @@ export function soak(seed: number, until: number, every: number, report: (totals
   const subjects = ([2, 3] as const).flatMap((dimensions) =>
     [false, true].map((events, k) => new Subject(dimensions, events, seed + dimensions * 10 + k)),
   );
+  const crowds = new Crowds(seed);
   let next = performance.now() + every;
   while (performance.now() < until) {
     for (const subject of subjects) subject.round(totals);
+    crowds.round(totals);
     if (performance.now() < next) continue;
     report(totals);
     next = performance.now() + every;
