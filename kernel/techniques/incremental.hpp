@@ -36,7 +36,8 @@ template <int D> class Incremental {
   static constexpr u32 samples_a_cell = 4, most_samples = 1 << 16;
   static constexpr u32 huge_cells = 32;      // boxes that touch more cells than this are huge
   static constexpr u32 most_huge = 64;
-  static constexpr u32 filling = 90, filling_alone = 150;  // updates in which all is filled, while generations answer or not
+  static constexpr u32 enlisting = 8;        // updates in which it is noted for each box that it waits to be put into cells
+  static constexpr u32 filling = 60, filling_alone = 150;  // ... and is, while generations answer or not
   static constexpr u32 ahead = 8;            // its motion is known from so many updates
   static constexpr u32 late_share = 40;      // all is given up where one in so many leaves its fat box at once
   static constexpr u32 sample_share = 8;     // ... while they are filled, where it is one in so many of a sample
@@ -81,6 +82,7 @@ template <int D> class Incremental {
   u32 leaves_ = 0;       // cells; 0: nothing is kept
   u32 count_ = 0;        // boxes that are followed
   u32 planned_ = 0;      // how many they were when the cells were made
+  u32 enlisted_ = 0;     // of which so many are known to wait, before any is followed
   Buffer<Known> known_;  // per slot
   Buffer<u32> queue_;    // slots that wait to be put into cells
   u32 queued_ = 0, resting_ = 0;
@@ -167,7 +169,7 @@ template <int D> class Incremental {
     if (coherent_.begun() && (n < few || n > 2 * planned_ || 2 * n < planned_)) coherent_.forget();
     pairs.count = 0;
     if (leaves_ > 0) use_cells(scene, options, pairs, stats);
-    if (leaves_ > 0 && queued_ == 0) {
+    if (leaves_ > 0 && count_ > 0 && queued_ == 0) {
       by_ = By::cells;
       stats.reason = f64(u32(Reason::kept));
       if (coherent_.begun()) coherent_.release();
@@ -216,7 +218,7 @@ template <int D> class Incremental {
       cells_[c].stills.values.release();
       cells_[c].candidates.release();
     }
-    leaves_ = count_ = queued_ = unseen_ = resting_ = huge_count_ = watching_ = 0;
+    leaves_ = count_ = enlisted_ = queued_ = unseen_ = resting_ = huge_count_ = watching_ = 0;
     settled_.count = 0;
     any_woken_ = unchecked_ = false;
     pause_ = pauses_ = smaller(longest_pause, pauses_ * 4);
@@ -248,17 +250,15 @@ template <int D> class Incremental {
     bool listed = scene.changes && !scene.changes->all();
     f64 by_cells = cost(copies * n * share, candidates, period_) + (listed ? 0 : look_cost * n);
     f64 by_generations = Coherent<D>::cost(n, hits, share, speed, listed);
-    // Generations are soon there, and answer while cells are filled.
+    // Generations come first: they are soon there, and answer while cells are filled.
     if (by_ == By::generations) {
       if (by_cells <= worth * by_generations) plan(scene);
       else pause_ = considered;
       return;
     }
-    bool generations_pay = by_generations <= worth_trying * fresh_;
-    f64 otherwise = generations_pay ? smaller(fresh_, by_generations) : fresh_;
-    if (generations_pay) coherent_.begin(n, hits, share * speed, fresh_);
-    if (by_cells <= worth * otherwise) plan(scene);
-    else if (!generations_pay) pause_ = first_pause;
+    if (by_generations <= worth_trying * fresh_) coherent_.begin(n, hits, share * speed, fresh_);
+    else if (by_cells <= worth * fresh_) plan(scene);
+    else pause_ = first_pause;
     planned_ = n;
   }
 
@@ -316,16 +316,18 @@ template <int D> class Incremental {
     slack_ = least_slack;
   }
 
-  /// All boxes wait to be put into cells.
+  /// All boxes wait to be put into cells: not in one update, since memory that is used for the first time takes long.
   COLD void enlist(const Scene<D>& scene) {
-    u32 n = count_ = scene.count;
+    u32 n = scene.count, until = smaller(n, enlisted_ + n / enlisting + 1);
     u64 room = u64(n) + n / 4;
-    known_.reserve(room);
+    if (enlisted_ == 0) known_.reserve(room);
+    for (; enlisted_ < until; enlisted_++) known_[enlisted_].tag = waiting | scene.excluded_of(enlisted_);
+    if (enlisted_ < n) return;
+    count_ = n;
     queue_.reserve(room + 1);
     settled_.list.reserve(Pairs::slack);
     woken_.reserve(room / 32 + 1);
     __builtin_memset(woken_.data(), 0, (room / 32 + 1) * sizeof(u32));
-    for (u32 slot = 0; slot < n; slot++) known_[slot].tag = waiting | scene.excluded_of(slot);
     // In an order in which those of a cell come soon after one another: cells then stay in the cache.
     auto put = [&](u32 slot) {
       queue_[queued_] = slot;
