@@ -101,7 +101,7 @@ template <int D> class Incremental {
   u32 cursor_ = 0;       // the cell whose turn is next
   u32 now_ = 0;          // updates, counted
   f32 period_ = 16, target_ = 16;  // updates in which every cell has one turn, and what that is to become
-  f32 slack_ = least_slack;     // fat boxes reach to all sides, in motions of one update
+  f32 slack_ = least_slack;  // fat boxes reach to all sides, in motions of one update
   f64 moving_ = 0, candidates_ = 0, turned_ = 0, motion_ = 0;  // of this update
   f64 fresh_ = 0;        // what the last update cost that was answered by strip-sweep
   u32 pause_ = 0, pauses_ = first_pause;  // updates left in which nothing is tried; how many the last pause had
