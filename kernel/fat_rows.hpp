@@ -29,6 +29,11 @@ template <int D, u32 more> struct FatRows {
     for (u32 k = 0; k < width; k++) row(k)[at] = box[k];
   }
 
+  COLD void release() {
+    values.release();
+    stride = count = 0;
+  }
+
   /// Adds a box; gives its place.
   u32 put(const f32* box, u32 tag) {
     if (count + padding >= stride) grow();

@@ -18,16 +18,38 @@ template <int D> f32 pace(const f32* box, const f32* low, u32 updates) {
   return widest<D>(bits<f32x4>(bits<i32x4>(share) & (step > splat(0.0f))));
 }
 
-/// The fat box of a box: what its motion will cover in so many updates, given where it was so many ago, and `slack`
-/// motions of one update to all sides; or just the margin that is asked for. Writes two floats more than a box has.
-template <int D> void fatten(const f32* box, const f32* low, u32 updates, f32 until, f32 slack, f64 margin, f32* out) {
+/// The bounds of all boxes. What moves towards them turns round there, more often than not.
+struct Walls {
+  static constexpr f32 inf = __builtin_inff();
+  f32x4 least = {-inf, -inf, -inf, -inf}, most = {inf, inf, inf, inf};
+
+  /// To hold boxes, of which there are none yet.
+  static Walls none() { return {splat(inf), splat(-inf)}; }
+
+  template <int D> void hold(const f32* box) {
+    least = min(load<f32x4>(box), least);
+    most = max(load<f32x4>(box + D), most);
+  }
+};
+
+/// The fat box of a box: what its motion will cover between so many updates from now and so many, given where it was
+/// `updates` ago, and `slack` motions of one update to all sides; or just the margin that is asked for. Where it would
+/// reach beyond the walls it reaches as far back from them, and two motions, since not all turn in the same way.
+/// Writes two floats more than a box has.
+template <int D>
+void fatten(const f32* box, const f32* low, u32 updates, f32 from, f32 until, const Walls& walls, f32 slack, f64 margin, f32* out) {
   f32x4 first = load<f32x4>(box), last = load<f32x4>(box + D), size = last - first, none = splat(0.0f);
   f32x4 step = (first - load<f32x4>(low)) * splat(1 / f32(updates));
-  step = bits<f32x4>(bits<i32x4>(step) & (step <= size) & (-step <= size));  // a jump says nothing about what comes
-  f32 fastest = widest<D>(max(step, -step));
-  f32x4 aside = splat(margin > 0 ? f32(margin) : slack * fastest), reach = step * splat(margin > 0 ? 0 : until);
-  store(out, min(first + min(reach, none) - aside, first));
-  store(out + D, max(last + max(reach, none) + aside, last));
+  f32x4 speed = max(step, -step);
+  // A jump says nothing about what comes.
+  i32x4 steady = (speed <= size) & (speed < splat(Walls::inf)) & bits<i32x4>(splat(margin > 0 ? 0u : ~0u));
+  step = bits<f32x4>(bits<i32x4>(step) & steady);
+  speed = bits<f32x4>(bits<i32x4>(speed) & steady);
+  f32x4 aside = splat(margin > 0 ? f32(margin) : slack * widest<D>(speed));
+  f32x4 begin = step * splat(from), end = step * splat(until), turn = size + speed + speed;
+  f32x4 least = first + min(begin, end) - aside, most = last + max(begin, end) + aside;
+  store(out, min(walls.most - turn - max(most - walls.most, none), least));
+  store(out + D, max(walls.least + turn + max(walls.least - least, none), most));
 }
 
 /// Of a box in 2D with the signs of its maxima turned round: then tests of two boxes are four comparisons of one kind.

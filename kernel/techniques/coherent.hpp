@@ -4,10 +4,11 @@
 // While boxes stay in their fat ones, an update tests these and nothing else. Meanwhile the next fat boxes are made and
 // their candidates found, a slice in each update, and take over when all is done: a generation. So no update pays for
 // all, and the work of a strip sweep is shared by as many updates as one generation lasts.
+//   - A fat box covers where its box will be from the takeover on, not how it comes there: the generation before answers
+//     until then. Just before, those are seen to that are elsewhere. Where they are many, fat boxes begin earlier.
 //   - A box that leaves its fat one too early gets one that covers both, and whoever overlaps that but not the old one
 //     becomes a candidate too. So two boxes are candidates, once, if and only if their fat ones overlap.
 //   - The candidates of a box that has jumped, or may meet others than before, are struck out first.
-//   - Before it takes over, those are seen to that have left their new fat boxes while the others' were made.
 // All is given up where many boxes leave their fat ones at once, or where it does not pay.
 // Cost: a pass over the boxes that may have moved and one over the candidates, some two to four times as many as pairs,
 // and a share of two or three strip sweeps: 4 to 11 ns a box in 2D, 9 to 33 in 3D. The updates in which the first
@@ -16,34 +17,34 @@
 // Part of `incremental`, which says when. From: L. Verlet, 1967; see motion.hpp. Making the next generation a slice at a
 // time is ours.
 #pragma once
-#include "../fat_rows.hpp"
+#include "../fat_bins.hpp"
 #include "../motion.hpp"
 #include "strip_sweep.hpp"
 
 template <int D> class Coherent {
   static constexpr u32 width = 2 * D, padding = 4;
-  static constexpr u32 struck = 1u << 31;  // a mark
+  static constexpr u8 is_grown = 1, struck = 2;  // marks
   static constexpr f64 late_share = 0.5;  // all is given up where those that leave their fat ones cost this share of fresh
   static constexpr f64 few_late = 128;  // so many are no reason
-  static constexpr i32 least_period = 3, most_period = 64, least_making = 2, most_making = 32;
+  static constexpr f64 few_late_share = 0.2, few_lost_share = 0.15;  // of what an update costs: it may cost to serve these
+  static constexpr i32 least_period = 3, most_period = 64, least_making = 2, most_making = 16;
   static constexpr f64 bearable = 0.15;  // what making the first generation may add to an update, as a share of strip sweep
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where none is late
-  static constexpr f32 making_share = 0.8f;  // of the updates of a generation, in so many the next is made
   static constexpr f64 spread = D == 2 ? 0.75 : 0.67;  // of motion along an axis, to that along the fastest
   // What the work of a generation costs for each box, in nanoseconds: making its fat box and counting it, entering it in
   // its strip, sweeping that, and a last look; and for each candidate.
-  static constexpr f64 fatten_cost = D == 2 ? 11 : 14, enter_cost = D == 2 ? 12 : 17,
-                       sweep_cost = D == 2 ? 14 : 31, mend_cost = D == 2 ? 2 : 3, hit_cost = D == 2 ? 3 : 6;
+  static constexpr f64 note_cost = 4, fatten_cost = D == 2 ? 11 : 14, enter_cost = D == 2 ? 12 : 17,
+                       sweep_cost = D == 2 ? 14 : 31, mend_cost = D == 2 ? 4 : 8, hit_cost = D == 2 ? 3 : 6;
   static constexpr f64 new_cost = 2;  // times as much, where memory is used for the first time
   // What an update costs for each box, and for a box that is late and each of its candidates.
-  static constexpr f64 box_cost = D == 2 ? 2 : 3, late_base = 500, late_each = 400;
+  static constexpr f64 box_cost = D == 2 ? 2 : 3, late_base = 300, late_each = 200;
   // And for each candidate; five times as much where the boxes of a scene are far more than the cache holds.
   static constexpr f64 cached_cost = D == 2 ? 2 : 3, uncached_cost = 4 * cached_cost, cached_boxes = 4e5;
-  static constexpr f64 all_costs = fatten_cost + enter_cost + sweep_cost + mend_cost;
+  static constexpr f64 all_costs = note_cost + fatten_cost + enter_cost + sweep_cost + mend_cost;
   static constexpr u32 sampled = 4;  // of so many boxes one is asked how fast it is
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
 
-  enum class Stage : u32 { begin, fatten, enter, sweep, mend };
+  enum class Stage : u32 { begin, note, fatten, enter, sweep, mend };
 
   struct Generation {
     Buffer<f32> fat;       // per slot
@@ -52,14 +53,8 @@ template <int D> class Coherent {
     StripSweep<D> strips;
     Pairs candidates;
     Stats stats;
-    FatRows<D, 0> grown;  // the fat boxes that are not those that were entered any more
-    Buffer<u32> marks;    // per slot: one more than its place among them, and whether it is struck out
-
-    void drop_grown(u32 at) {
-      marks[grown.tags()[at] & slot_mask] = 0;
-      grown.take(at);
-      if (at < grown.count) marks[grown.tags()[at] & slot_mask] = at + 1;
-    }
+    FatBins<D> grown;     // the fat boxes that are not those that were entered any more
+    Buffer<u8> marks;     // per slot: is_grown, struck
   };
 
   Generation generations_[2];
@@ -77,11 +72,13 @@ template <int D> class Coherent {
   u32 at_ = 0, boxes_ = 0;
   f64 spent_ = 0;          // of its work, in nanoseconds
   bool known_ = false;     // where boxes were is known from the generation before
+  Walls walls_;            // when it was begun
   i32 period_ = 16;        // updates that it is to answer
   i32 making_ = 0;         // updates in which it is made, after the one that begins it
   i32 age_ = 0;            // updates since that
   i32 lasts_ = 0;          // updates that the current one is to answer still
   f32 slack_ = least_slack;
+  f32 foresight_ = 1;      // from which part of the way to its takeover on a generation's fat boxes hold their boxes
   f32 pace_ = 0;           // how far boxes move in an update, as a share of their size, in the mean
   f64 motion_ = 0, lates_ = 0;
   f64 found_ = 0, lost_ = 0;  // of the last one, for each box: candidates, and boxes that had left before it was done
@@ -94,7 +91,7 @@ template <int D> class Coherent {
  public:
   /// What an update is going to cost for so many boxes and pairs, where such a share of the boxes moves, so far as a
   /// share of their size. `listed`: it will be known which have moved.
-  COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, bool listed) {
+  COLD f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, bool listed) const {
     i32 period = best_period(boxes, hits, share, pace);
     return cost(boxes, hits, share, pace, period) - (listed ? (1 - share) * box_cost * boxes : 0);
   }
@@ -110,18 +107,10 @@ template <int D> class Coherent {
     known_ = unchecked_ = false;
     slack_ = least_slack;
     hits_ = -1;
-    // The longer the first one takes, the less does an update pay for it, but the further must fat boxes reach: then all
-    // costs more. In strip sweeps, `all` and its share in each of the updates, squared, should be little.
-    f64 harm = __builtin_inf(), before, all;
-    making_ = least_making;
-    do {
-      making_++;
-      found_ = candidates(boxes, hits, 1, pace, making_ + period_) / boxes;
-      lost_ = 0.01 * pace * making_;
-      all = work() * boxes / fresh;
-      before = harm;
-      harm = all + all * all / making_;
-    } while (making_ < most_making && all > bearable * making_ && harm < before);
+    found_ = candidates(boxes, hits, 1, pace, ahead(period_)) / boxes;
+    lost_ = 0;
+    // The longer the first one takes, the less does an update pay for it, but the later does it answer.
+    making_ = i32(larger(f64(least_making), smaller(f64(most_making), work() * boxes / (bearable * fresh))));
   }
 
   /// Finds the pairs, where a generation is there to answer; else false. Gives up where that costs more than `fresh`.
@@ -161,8 +150,7 @@ template <int D> class Coherent {
       each.strips.release();
       each.candidates.list.release();
       each.marks.release();
-      each.grown.values.release();
-      each.grown.stride = 0;
+      each.grown.release();
     }
     from_.release();
     late_.release();
@@ -173,10 +161,13 @@ template <int D> class Coherent {
   u32 marked_ = 0;  // slots that have marks
 
   /// The same, where a generation answers so many updates.
-  COLD static f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, i32 period) {
-    f64 all = candidates(boxes, hits, share, pace, making_for(period) + period);
+  COLD f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, i32 period) const {
+    f64 all = candidates(boxes, hits, share, pace, ahead(period));
     return boxes * (box_cost + all_costs / period) + (candidate_cost(boxes) + hit_cost / period) * all;
   }
+
+  /// Updates of whose motion a fat box must hold.
+  f64 ahead(i32 period) const { return period + 1 + (1 - foresight_) * period; }
 
   static f64 candidate_cost(f64 boxes) {
     return cached_cost + uncached_cost * boxes * boxes / (boxes * boxes + cached_boxes * cached_boxes);
@@ -193,19 +184,14 @@ template <int D> class Coherent {
   }
 
   /// What making a generation costs for each box, going by the last one.
-  f64 work() const { return (all_costs + hit_cost * found_) * novelty() + late_cost() * lost_; }
+  f64 work() const { return (note_cost + fatten_cost + enter_cost + sweep_cost + hit_cost * found_) * novelty() + mending(); }
+  f64 mending() const { return mend_cost + late_cost() * lost_; }
   f64 novelty() const { return made_ < 2 ? new_cost : 1; }
   f64 late_cost() const { return late_base + late_each * found_; }
 
-  /// Updates in which a generation is made, of those that one answers: the fewer, the less far need fat boxes reach, which
-  /// matters more in 3D; the more, the more alike are updates. One begins it, and in one nothing is made.
-  static i32 making_for(i32 period) {
-    return larger(least_making, smaller(i32(making_share * f32(period)) - (D - 2), period - 2));
-  }
-
   /// Updates that a generation should answer: the work of making it balances its candidates, which are the more the
-  /// further fat boxes reach: from when they are made until the next generation is.
-  COLD static i32 best_period(f64 boxes, f64 hits, f64 share, f64 pace) {
+  /// further fat boxes reach.
+  COLD i32 best_period(f64 boxes, f64 hits, f64 share, f64 pace) const {
     i32 best = least_period;
     f64 least = __builtin_inf();
     for (i32 period = best; period <= most_period; period += 1 + period / 8) {
@@ -284,7 +270,7 @@ template <int D> class Coherent {
     if (strikes) strike(g, n);
     if (n < had) forget_grown(g, n);
     for (u32 k = 0; k < many; k++) {
-      g.marks[late[k]] &= ~struck;
+      g.marks[late[k]] &= u8(~struck);
       grow(g, n, scene, options, late[k]);
     }
     lates_ += many;
@@ -302,7 +288,7 @@ template <int D> class Coherent {
     from_.grow(u64(n) * (D + 1) + padding, u64(marked_) * (D + 1));
     for (Generation& each : generations_) {
       each.marks.grow(n, marked_);
-      __builtin_memset(each.marks.data() + marked_, 0, (n - marked_) * sizeof(u32));
+      __builtin_memset(each.marks.data() + marked_, 0, n - marked_);
     }
     marked_ = n;
   }
@@ -310,8 +296,8 @@ template <int D> class Coherent {
   /// A box is new, or as good as new: it has no fat box yet.
   COLD void appear(const Scene<D>& scene, u32 slot) {
     Generation& g = current();
-    u32 place = g.marks[slot];
-    if (place > 0) g.drop_grown(place - 1);
+    if (g.marks[slot] & is_grown) g.grown.take(g.fat.data() + u64(slot) * width, slot);
+    g.marks[slot] = 0;
     for (u32 k = 0; k < width; k++) g.fat[u64(slot) * width + k] = __builtin_nanf("");
     g.excluded[slot] = scene.excluded_of(slot);
     g.excludes |= scene.excluded != nullptr;
@@ -340,9 +326,10 @@ template <int D> class Coherent {
 
   /// Leaves those that have grown only where they are among the first n slots.
   COLD static void forget_grown(Generation& g, u32 n = 0) {
-    for (u32 k = g.grown.count; k-- > 0;) {
-      if ((g.grown.tags()[k] & slot_mask) >= n) g.drop_grown(k);
-    }
+    g.grown.leave([&](u32 slot) {
+      if (slot >= n) g.marks[slot] = 0;
+      return slot >= n;
+    });
   }
 
   /// How much longer a fat box is along an axis than the box; 0 where there is none.
@@ -375,13 +362,10 @@ template <int D> class Coherent {
     g.strips.each_near(fat, [&](u32 other) {
       if (other < count && g.marks[other] == 0) meet(other, g.fat.data() + u64(other) * width);
     });
-    g.grown.each_hit(fat, g.excluded[slot], [&](u32 at) {
-      u32 other = g.grown.tags()[at] & slot_mask;
-      meet(other, g.fat.data() + u64(other) * width);
-    });
-    u32& mark = g.marks[slot];
-    if (mark > 0) g.grown.write(mark - 1, fat);
-    else mark = g.grown.put(fat, slot | (g.excluded[slot] & ~slot_mask)) + 1;
+    g.grown.each_hit(fat, g.excluded[slot], [&](u32 other) { meet(other, g.fat.data() + u64(other) * width); });
+    if (g.marks[slot] & is_grown) g.grown.take(old, slot);
+    g.grown.put(fat, slot | g.excluded[slot]);
+    g.marks[slot] |= is_grown;
   }
 
   /// Reports the candidates that overlap.
@@ -408,23 +392,25 @@ template <int D> class Coherent {
     stats.entries = current().stats.entries;
   }
 
-  bool hurries() const { return known_ && lasts_ <= 0; }
-
   /// Makes a slice of the next generation.
   COLD void build(const Scene<D>& scene, const Settings& options, f64 fresh) {
     lasts_--;
     age_++;
     if (stage_ == Stage::begin) {
-      if (!known_ || lasts_ <= making_) open(scene);
-      return;  // boxes must move before their motion can be seen
+      if (known_ && lasts_ > making_) return;
+      open(scene);
     }
-    // What is left to do is shared by the updates that are left. Before the generation that answers ends, all must be done.
-    f64 all = work() * boxes_, left = larger(1, making_ - age_ + 1);
-    f64 budget = hurries() ? __builtin_inf() : larger(all - spent_, all / 8) / left;
-    while (begun_ && budget > 0 && stage_ != Stage::begin) {
+    // What is left to do is shared by the updates that are left, but for mending, which comes in the last: only then can
+    // be seen whether boxes are in fat ones that are to hold them from then on.
+    f64 all = work() * boxes_, last = mending() * boxes_, left = larger(0, making_ - age_);
+    f64 budget = left > 0 ? smaller((all - spent_) / (left + 1), (all - last - spent_) / left) : all;
+    budget = known_ && left == 0 ? __builtin_inf() : larger(budget, all / 8 / (left + 1));
+    while (begun_ && budget > 0 && stage_ != Stage::begin && (stage_ != Stage::mend || left == 0)) {
+      bool notes = stage_ == Stage::note;
       f64 spent = slice(scene, options, budget, fresh);
       budget -= spent;
       spent_ += spent;
+      if (notes && stage_ != Stage::note) return;  // boxes must move before their motion can be seen
     }
   }
 
@@ -441,13 +427,10 @@ template <int D> class Coherent {
     g.candidates.list.reserve(u64(smaller(found_, 16.0) * boxes_) + Pairs::slack);
     g.candidates.count = 0;
     g.excludes = false;
-    stage_ = Stage::fatten;
-    g.strips.begin(scene, 1 + spread * pace_ * f32(making_ + period_), g.stats);
-    note_all(scene);
-  }
-
-  COLD void note_all(const Scene<D>& scene) const {
-    for (u32 slot = 0; slot < boxes_; slot++) note(scene, slot);
+    walls_ = Walls::none();
+    stage_ = Stage::note;
+    g.strips.begin(scene, 1 + spread * pace_ * f32(ahead(period_)), g.stats);
+    g.strips.divide(g.grown);
   }
 
   /// Does work of the stage for about so many nanoseconds; gives how many.
@@ -455,12 +438,18 @@ template <int D> class Coherent {
     Generation& g = next();
     if (stage_ == Stage::mend) return mend(scene, options, budget, fresh);
     f64 each = (sweep_cost + hit_cost * found_) * boxes_ / g.stats.entries;
+    if (stage_ == Stage::note) each = note_cost;
     if (stage_ == Stage::fatten) each = fatten_cost;
     if (stage_ == Stage::enter) each = enter_cost;
     each *= novelty();
     u32 many = u32(smaller(budget / each + 1, f64(max_slots))), all = boxes_, until = smaller(all, at_ + many);
     Scene<D> fat{g.fat.data(), boxes_, g.excluded.data()};
-    if (stage_ == Stage::fatten) {
+    if (stage_ == Stage::note) {
+      for (u32 slot = at_; slot < smaller(until, scene.count); slot++) {
+        note(scene, slot);
+        walls_.template hold<D>(scene.box(slot));
+      }
+    } else if (stage_ == Stage::fatten) {
       make_fat(scene, options, until);
       g.strips.count(fat, at_, until);
     } else if (stage_ == Stage::enter) {
@@ -488,20 +477,35 @@ template <int D> class Coherent {
       const f32* box = scene.box(at_);
       const f32* fat = g.fat.data() + u64(at_) * width;
       spent += mend_cost;
-      if (inside<D>(box, fat) || !touch<D>(box, fat)) continue;
+      if (inside<D>(box, fat) || !is_near(box, fat)) continue;
       grow(g, until, scene, options, at_);
       spent += late_cost();
       lost_ += 1.0 / boxes_;
     }
-    if (late_cost() * (lost_ * boxes_ - few_late) > fresh) forget();
-    else if (at_ >= until || hurries()) take_over(scene, fresh);
+    if (late_cost() * (lost_ * boxes_ - few_late) > fresh) {
+      foresight_ = 0;
+      forget();
+    } else if (at_ >= until || known_) {
+      take_over(scene, fresh);
+    }
     return spent;
+  }
+
+  /// Whether a box is no further away from its fat one than it is long.
+  COLD static bool is_near(const f32* box, const f32* fat) {
+    bool is = true;
+    for (int a = 0; a < D; a++) {
+      f32 size = box[D + a] - box[a];
+      is &= box[a] - size <= fat[D + a] && fat[a] <= box[D + a] + size;
+    }
+    return is;
   }
 
   /// Fat boxes from `at_` on.
   NOINLINE void make_fat(const Scene<D>& scene, const Settings& options, u32 until) {
     Generation& g = next();
-    f32 reach = f32(larger(0, making_ - age_) + period_);
+    f32 begins = f32(larger(0, making_ - age_)), reach = begins + f32(period_);
+    begins *= foresight_;
     g.excludes |= scene.excluded != nullptr;
     for (u32 slot = at_; slot < until; slot++) {
       // Written in place, in order: what is written beyond a fat box is where the next one comes.
@@ -509,7 +513,7 @@ template <int D> class Coherent {
       if (slot < scene.count) {
         const f32* box = scene.box(slot);
         u32 updates = now_ - bits<u32>(from(slot)[D]);
-        fatten<D>(box, from(slot), larger(updates, 1u), reach, slack_, options.margin, fat);
+        fatten<D>(box, from(slot), larger(updates, 1u), begins, reach, walls_, slack_, options.margin, fat);
         if (updates == 0 || current().marks[slot] > 0) surround(box, slot, reach, fat);
         if (slot % sampled == 0) motion_ += pace<D>(box, from(slot), larger(updates, 1u));
         g.excluded[slot] = scene.excluded_of(slot);
@@ -550,11 +554,15 @@ template <int D> class Coherent {
     pace_ = f32(motion_ * sampled / boxes_);
     if (hits_ >= 0) {
       f64 each = box_cost + work() / period_ + candidate_cost(boxes_) * found_;
-      if (boxes_ * each + late_cost() * lates_ / (age_ + 1) > worth * fresh) return forget();
+      f64 late = late_cost() * lates_ / (age_ + 1) / boxes_;
+      if (boxes_ * (each + late) > worth * fresh) return forget();
+      // Where boxes leave their fat ones too early, the next reach further to the sides; where many are elsewhere when
+      // these begin to hold, they begin earlier.
+      slack_ = smaller(16.0f, larger(least_slack, slack_ * (late > few_late_share * each ? 1.3f : 0.95f)));
+      bool foreseen = late_cost() * lost_ / period_ <= few_lost_share * each;
+      foresight_ = foreseen ? smaller(1.0f, foresight_ + 0.1f) : foresight_ / 2;
       period_ = best_period(boxes_, hits_, 1, pace_);
-      // Where boxes leave their fat ones too early, the next reach further to the sides.
-      slack_ = smaller(16.0f, larger(least_slack, slack_ * (lates_ > 0.02 * boxes_ ? 1.3f : 0.95f)));
     }
-    making_ = making_for(period_);
+    making_ = lasts_ - 1;  // in all updates but the one that begins it: so they are alike
   }
 };

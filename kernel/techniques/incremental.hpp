@@ -24,6 +24,7 @@
 #pragma once
 #include "../candidates.hpp"
 #include "../pair_order.hpp"
+#include "../halves.hpp"
 #include "coherent.hpp"
 
 template <int D> class Incremental {
@@ -77,8 +78,7 @@ template <int D> class Incremental {
   StripSweep<D>& anew_;
   Coherent<D> coherent_;
   Buffer<Cell> cells_;
-  Buffer<f32> cuts_;     // inner nodes of the tree, as in a heap: node k has the children 2 k and 2 k + 1
-  u8 axis_[32] = {};     // per level, along which axis it cuts
+  Halves<D> halves_;     // which cell is where
   u32 leaves_ = 0;       // cells; 0: nothing is kept
   u32 count_ = 0;        // boxes that are followed
   u32 planned_ = 0;      // how many they were when the cells were made
@@ -107,7 +107,6 @@ template <int D> class Incremental {
   u32 pause_ = 0, pauses_ = first_pause;  // updates left in which nothing is tried; how many the last pause had
   Buffer<f32> watched_;  // boxes of the update before
   u32 watching_ = 0;     // how many boxes there were then
-  Buffer<f32> sample_;
 
  public:
   constexpr explicit Incremental(StripSweep<D>& anew) : anew_(anew) {}
@@ -147,7 +146,7 @@ template <int D> class Incremental {
     forget();
     coherent_.release();
     cells_.release();
-    cuts_.release();
+    halves_.release();
     known_.release();
     queue_.release();
     late_.release();
@@ -155,7 +154,6 @@ template <int D> class Incremental {
     order_.release();
     woken_.release();
     watched_.release();
-    sample_.release();
     pause_ = 0;
     pauses_ = first_pause;
     anew_.release();
@@ -249,7 +247,7 @@ template <int D> class Incremental {
     for (int a = 0; a < D; a++) candidates *= 1 + speed * period_;
     bool listed = scene.changes && !scene.changes->all();
     f64 by_cells = cost(copies * n * share, candidates, period_) + (listed ? 0 : look_cost * n);
-    f64 by_generations = Coherent<D>::cost(n, hits, share, speed, listed);
+    f64 by_generations = coherent_.cost(n, hits, share, speed, listed);
     // Generations come first: they are soon there, and answer while cells are filled.
     if (by_ == By::generations) {
       if (by_cells <= worth * by_generations) plan(scene);
@@ -282,36 +280,14 @@ template <int D> class Incremental {
     u32 n = scene.count, levels = 0;
     while ((n >> (levels + 1)) >= cell_boxes) levels++;
     u32 leaves = 1u << levels;
-    Statistics<D> world = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, n);
-    f64 length[D];
-    for (int a = 0; a < D; a++) {
-      f64 extent = world.high[a] - world.low[a];
-      length[a] = extent > 0 ? extent / larger(world.size[a], extent * 1e-7) : 0;
-    }
-    for (u32 l = 0; l < levels; l++) {
-      int longest = 0;
-      for (int a = 1; a < D; a++) {
-        if (length[a] > length[longest]) longest = a;
-      }
-      axis_[l] = u8(longest);
-      length[longest] /= 2;
-    }
-    // The lower corners of a sample are cut in halves again and again.
-    u32 samples = smaller(n, smaller(leaves * samples_a_cell, most_samples));
-    f32* sample = sample_.reserve(u64(samples) * D);
-    detail::Sampling sampling(n, samples);
-    for (u32 k = 0; k < samples; k++) __builtin_memcpy(sample + k * D, scene.box(sampling.next()), D * sizeof(f32));
-    cuts_.reserve(leaves);
     cells_.reserve(leaves);
     __builtin_memset(static_cast<void*>(cells_.data()), 0, leaves * sizeof(Cell));
+    halves_.cut(scene, levels, smaller(leaves * samples_a_cell, most_samples), [&](u32 k, const f32* low, const f32* high) {
+      __builtin_memcpy(cells_[k].low, low, sizeof(cells_[k].low));
+      __builtin_memcpy(cells_[k].high, high, sizeof(cells_[k].high));
+    });
     leaves_ = leaves;
     planned_ = n;
-    f32 low[4], high[4];
-    for (int a = 0; a < 4; a++) {
-      low[a] = -__builtin_inff();
-      high[a] = __builtin_nanf("");
-    }
-    cut(sample, samples, 1, 0, low, high);
     cursor_ = 0;
     slack_ = least_slack;
   }
@@ -357,27 +333,6 @@ template <int D> class Incremental {
     queue_[queued_++] = slot;
   }
 
-  /// Cuts the space of a node in two, at the median of its samples.
-  COLD void cut(f32* sample, u32 count, u32 node, u32 level, const f32* low, const f32* high) {
-    if (node >= leaves_) {
-      Cell& cell = cells_[node - leaves_];
-      __builtin_memcpy(cell.low, low, sizeof(cell.low));
-      __builtin_memcpy(cell.high, high, sizeof(cell.high));
-      return;
-    }
-    int a = axis_[level];
-    u32 half = count / 2;
-    f32 at = count > 0 ? detail::select<D>(sample, i32(count), i32(half), a) : low[a];
-    cuts_[node] = at;
-    f32 border[4];
-    __builtin_memcpy(border, high, sizeof(border));
-    border[a] = at;
-    cut(sample, half, 2 * node, level + 1, low, border);
-    __builtin_memcpy(border, low, sizeof(border));
-    border[a] = at;
-    cut(sample + u64(half) * D, count - half, 2 * node + 1, level + 1, border, high);
-  }
-
   /// Cells that a box touches.
   struct Found {
     u32 cell[huge_cells + 1];
@@ -385,26 +340,7 @@ template <int D> class Incremental {
     bool many() const { return count > huge_cells; }
   };
 
-  NOINLINE void cells_of(const f32* box, Found& out) const {
-    u32 open[33], depth = 0, found = 0;
-    open[depth++] = 1;
-    while (depth > 0) {
-      u32 node = open[--depth];
-      while (node < leaves_) {
-        int a = axis_[31 - u32(__builtin_clz(node))];
-        f32 at = cuts_[node];
-        // Without a branch on which side it is: nobody could guess that.
-        u32 beyond = u32(bits<i32x4>(splat(box[a]) >= splat(at))[0]) & 1;
-        u32 reaches = u32(bits<i32x4>(splat(box[D + a]) >= splat(at))[0]) & 1;
-        open[depth] = 2 * node + 1;
-        depth += reaches & ~beyond;
-        node = 2 * node + beyond;
-      }
-      out.cell[found++] = node - leaves_;
-      if (found > huge_cells) break;
-    }
-    out.count = found;
-  }
+  void cells_of(const f32* box, Found& out) const { out.count = halves_.touched(box, out.cell, huge_cells); }
 
   /// Whether a box touches no cell but this.
   static bool within(const Cell& cell, const f32* box) {
@@ -700,7 +636,7 @@ template <int D> class Incremental {
       u32 updates = now_ - known_[slot].since;
       bool still = updates > still_for && equal(box, last(slot));
       f32 fat[width + padding];
-      if (!still) fatten<D>(box, last(slot), larger(updates, 1u), until, slack_, options.margin, fat);
+      if (!still) fatten<D>(box, last(slot), larger(updates, 1u), 0, until, Walls{}, slack_, options.margin, fat);
       Found found;
       cells_of(still ? box : fat, found);
       if (found.many() && !still) {
@@ -761,7 +697,7 @@ template <int D> class Incremental {
           continue;
         }
       }
-      fatten<D>(box, low, updates, reach(), slack_, options.margin, fat);
+      fatten<D>(box, low, updates, 0, reach(), Walls{}, slack_, options.margin, fat);
       motion_ += pace<D>(box, low, updates);
       turned_ += 1;
       if (touches(cell, fat)) {
@@ -813,7 +749,7 @@ template <int D> class Incremental {
         updates = larger(age(cell, at), 1u);
         break;
       }
-      fatten<D>(box, low, updates, reach(), slack_, options.margin, fat);
+      fatten<D>(box, low, updates, 0, reach(), Walls{}, slack_, options.margin, fat);
       cells_of(fat, found);
       enter(scene, slot, fat, found, stats);
       if (leaves_ == 0) return;

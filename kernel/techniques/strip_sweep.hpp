@@ -162,6 +162,11 @@ template <int D> class StripSweep {
     }
   }
 
+  /// Cuts the same world into bins, along the axis that is swept.
+  template <class Bins> COLD void divide(Bins& bins) const {
+    bins.divide(order_.axis[0], cut_.world.low[0], cut_.world.high[0]);
+  }
+
   u32 boxes() const { return boxes_; }
 
   /// Calls `what` with the slot of each box of the last update once, those of a strip after those of the one before.
@@ -261,6 +266,7 @@ template <int D> class StripSweep {
     for (f64& size : world.size) size *= growth;
     order_ = AxisOrder<D>::make(world.longest());
     if (one_strip) {
+      cut_.world = world.in(order_);
       for (int a = 0; a < D; a++) {
         cut_.strips[a] = 1;
         cut_.along[a] = Axis::make(0, 0, 1);
