@@ -27,7 +27,7 @@ template <int D> class Coherent {
   static constexpr f64 late_share = 0.5;  // all is given up where those that leave their fat ones cost this share of fresh
   static constexpr f64 few_late = 128;  // so many are no reason
   static constexpr f64 few_late_share = 0.2, few_lost_share = 0.15;  // of what an update costs: it may cost to serve these
-  static constexpr i32 least_period = 3, most_period = 64, least_making = 2, most_making = 16;
+  static constexpr i32 least_period = 3, most_period = 64, least_making = 2, most_making = 24;
   static constexpr f64 bearable = 0.15;  // what making the first generation may add to an update, as a share of strip sweep
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where none is late
   static constexpr f64 spread = D == 2 ? 0.75 : 0.67;  // of motion along an axis, to that along the fastest
@@ -353,16 +353,17 @@ template <int D> class Coherent {
       fat[D + a] = larger(larger(box[D + a], box[D + a] + reach), old[D + a]);
     }
     __builtin_memcpy(its, fat, width * sizeof(f32));
-    auto meet = [&](u32 other, const f32* box) {
+    auto meet = [&](u32 other) COLD {
+      const f32* box = g.fat.data() + u64(other) * width;
       if (!touch<D>(fat, box) || touch<D>(old, box)) return;
       if (other == slot || (g.excluded[slot] & g.excluded[other])) return;
       g.candidates.room(g.candidates.list.data() + g.candidates.count, 1);
       g.candidates.list[g.candidates.count++] = pair_of(slot, other);
     };
     g.strips.each_near(fat, [&](u32 other) {
-      if (other < count && g.marks[other] == 0) meet(other, g.fat.data() + u64(other) * width);
+      if (other < count && g.marks[other] == 0) meet(other);
     });
-    g.grown.each_hit(fat, g.excluded[slot], [&](u32 other) { meet(other, g.fat.data() + u64(other) * width); });
+    g.grown.each_hit(fat, g.excluded[slot], meet);
     if (g.marks[slot] & is_grown) g.grown.take(old, slot);
     g.grown.put(fat, slot | g.excluded[slot]);
     g.marks[slot] |= is_grown;
