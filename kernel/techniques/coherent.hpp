@@ -25,9 +25,9 @@ template <int D> class Coherent {
   static constexpr u32 width = 2 * D, padding = 4;
   static constexpr u8 is_grown = 1, struck = 2;  // marks
   static constexpr f64 late_share = 0.5;  // all is given up where those that leave their fat ones cost this share of fresh
-  static constexpr f64 few_late = 128;  // so many are no reason
+  static constexpr f64 few_late = 64;  // so many are no reason
   static constexpr f64 few_late_share = 0.2, few_lost_share = 0.15;  // of what an update costs: it may cost to serve these
-  static constexpr i32 least_period = 3, most_period = 64, least_making = 2, most_making = 24;
+  static constexpr i32 least_period = 3, most_period = 64, least_making = 2, most_making = 16;  // these of the first
   static constexpr f64 bearable = 0.15;  // what making the first generation may add to an update, as a share of strip sweep
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where none is late
   static constexpr f64 spread = D == 2 ? 0.75 : 0.67;  // of motion along an axis, to that along the fastest
@@ -37,10 +37,12 @@ template <int D> class Coherent {
                        sweep_cost = D == 2 ? 14 : 31, mend_cost = D == 2 ? 4 : 8, hit_cost = D == 2 ? 3 : 6;
   static constexpr f64 new_cost = 2;  // times as much, where memory is used for the first time
   // What an update costs for each box, and for a box that is late and each of its candidates.
-  static constexpr f64 box_cost = D == 2 ? 2 : 3, late_base = 300, late_each = 200;
+  static constexpr f64 box_cost = D == 2 ? 2 : 3, late_base = 400, late_each = 300;
   // And for each candidate; five times as much where the boxes of a scene are far more than the cache holds.
   static constexpr f64 cached_cost = D == 2 ? 2 : 3, uncached_cost = 4 * cached_cost, cached_boxes = 4e5;
   static constexpr f64 all_costs = note_cost + fatten_cost + enter_cost + sweep_cost + mend_cost;
+  static constexpr u32 asked = 1024;  // boxes of which it is asked whether they are where they were foreseen
+  static constexpr f64 bearable_lost = 0.5;  // what seeing to those that are not may cost, as a share of strip sweep
   static constexpr u32 sampled = 4;  // of so many boxes one is asked how fast it is
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
 
@@ -473,7 +475,10 @@ template <int D> class Coherent {
     Generation& g = next();
     u32 until = smaller(boxes_, scene.count);
     f64 spent = 0;
-    if (at_ == 0) lost_ = 0;
+    if (at_ == 0) {
+      if ((elsewhere(scene) - few_late) * late_cost() > bearable_lost * fresh) return start_over(), budget;
+      lost_ = 0;
+    }
     for (; at_ < until && spent < smaller(budget, fresh / 2); at_++) {
       const f32* box = scene.box(at_);
       const f32* fat = g.fat.data() + u64(at_) * width;
@@ -483,13 +488,28 @@ template <int D> class Coherent {
       spent += late_cost();
       lost_ += 1.0 / boxes_;
     }
-    if (late_cost() * (lost_ * boxes_ - few_late) > fresh) {
-      foresight_ = 0;
-      forget();
-    } else if (at_ >= until || known_) {
-      take_over(scene, fresh);
-    }
+    if (late_cost() * (lost_ * boxes_ - few_late) > fresh) start_over();
+    else if (at_ >= until || known_) take_over(scene, fresh);
     return spent;
+  }
+
+  /// About how many boxes are not in the next fat ones, by a sample.
+  COLD f64 elsewhere(const Scene<D>& scene) {
+    u32 n = smaller(boxes_, scene.count), stride = n / asked + 1, out = 0;
+    for (u32 slot = 0; slot < n; slot += stride) out += !inside<D>(scene.box(slot), next().fat.data() + u64(slot) * width);
+    return f64(out) * stride;
+  }
+
+  /// Motion was not to be foreseen: all anew, with fat boxes that hold their boxes from when they are made. If they were
+  /// such already, all is given up.
+  COLD void start_over() {
+    bool again = foresight_ > 0;
+    foresight_ = 0;
+    forget();
+    begun_ = again;
+    stage_ = Stage::begin;
+    known_ = false;
+    making_ = most_making;
   }
 
   /// Whether a box is no further away from its fat one than it is long.

@@ -46,9 +46,8 @@ template <int D> class Incremental {
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where few are late
   static constexpr f64 few_late = 0.3;       // ... so many for each box that has its turn: it costs as much to be late
   static constexpr u32 still_for = 3;        // updates without motion after which a box rests
-  static constexpr u32 watched = 256;        // boxes whose motion is looked at before anything is kept
-  static constexpr f64 worth = 0.85;         // cells must promise to cost this share of what it costs now
-  static constexpr f64 worth_trying = 0.85;  // ... and generations this
+  static constexpr u32 watched = 512;        // boxes whose motion is looked at before anything is kept
+  static constexpr f64 worth = 0.85;         // what is to be kept must promise to cost this share of a strip-sweep
   static constexpr u32 first_pause = 8, longest_pause = 256;
   static constexpr u32 considered = 64;      // updates until cells are thought of again
   // What an update costs, in nanoseconds, to see whether keeping anything pays: an entry and a test of strip-sweep; a
@@ -250,11 +249,11 @@ template <int D> class Incremental {
     f64 by_generations = coherent_.cost(n, hits, share, speed, listed);
     // Generations come first: they are soon there, and answer while cells are filled.
     if (by_ == By::generations) {
-      if (by_cells <= worth * by_generations) plan(scene);
+      if (by_cells <= by_generations) plan(scene);
       else pause_ = considered;
       return;
     }
-    if (by_generations <= worth_trying * fresh_) coherent_.begin(n, hits, share * speed, fresh_);
+    if (by_generations <= worth * fresh_) coherent_.begin(n, hits, share * speed, fresh_);
     else if (by_cells <= worth * fresh_) plan(scene);
     else pause_ = first_pause;
     planned_ = n;
