@@ -32,12 +32,15 @@ struct Walls {
   }
 };
 
+inline constexpr Walls no_walls;
+
 /// The fat box of a box: what its motion will cover between so many updates from now and so many, given where it was
 /// `updates` ago, and `slack` motions of one update to all sides; or just the margin that is asked for. Where it would
 /// reach beyond the walls it reaches as far back from them, and two motions, since not all turn in the same way.
 /// Writes two floats more than a box has.
 template <int D>
-void fatten(const f32* box, const f32* low, u32 updates, f32 from, f32 until, const Walls& walls, f32 slack, f64 margin, f32* out) {
+NOINLINE void fatten(const f32* box, const f32* low, u32 updates, f32 from, f32 until, const Walls& walls, f32 slack,
+                     f64 margin, f32* out) {
   f32x4 first = load<f32x4>(box), last = load<f32x4>(box + D), size = last - first, none = splat(0.0f);
   f32x4 step = (first - load<f32x4>(low)) * splat(1 / f32(updates));
   f32x4 speed = max(step, -step);

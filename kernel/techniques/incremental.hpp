@@ -388,11 +388,6 @@ template <int D> class Incremental {
   /// How many updates fat boxes reach ahead: a little more than until their next turn.
   f32 reach() const { return period_ * growth + 1; }
 
-  /// A fat box that holds its box from now on for so many updates, given where it was.
-  NOINLINE void fatten_now(const f32* box, const f32* low, u32 updates, f32 until, const Settings& options, f32* out) const {
-    fatten<D>(box, low, updates, 0, until, Walls{}, slack_, options.margin, out);
-  }
-
   /// Puts a mover into all cells that its new fat box touches, `found`, where it is not in already with one that still
   /// holds it: then its candidates hold for as long as it is in both.
   void enter(const Scene<D>& scene, u32 slot, const f32* fat, Found& found, Stats& stats) {
@@ -640,7 +635,7 @@ template <int D> class Incremental {
       u32 updates = now_ - known_[slot].since;
       bool still = updates > still_for && equal(box, last(slot));
       f32 fat[width + padding];
-      if (!still) fatten_now(box, last(slot), larger(updates, 1u), until, options, fat);
+      if (!still) fatten<D>(box, last(slot), larger(updates, 1u), 0, until, no_walls, slack_, options.margin, fat);
       Found found;
       cells_of(still ? box : fat, found);
       if (found.many() && !still) {
@@ -701,7 +696,7 @@ template <int D> class Incremental {
           continue;
         }
       }
-      fatten_now(box, low, updates, reach(), options, fat);
+      fatten<D>(box, low, updates, 0, reach(), no_walls, slack_, options.margin, fat);
       motion_ += pace<D>(box, low, updates);
       turned_ += 1;
       if (touches(cell, fat)) {
@@ -753,7 +748,7 @@ template <int D> class Incremental {
         updates = larger(age(cell, at), 1u);
         break;
       }
-      fatten_now(box, low, updates, reach(), options, fat);
+      fatten<D>(box, low, updates, 0, reach(), no_walls, slack_, options.margin, fat);
       cells_of(fat, found);
       enter(scene, slot, fat, found, stats);
       if (leaves_ == 0) return;
