@@ -10,10 +10,10 @@
 //     becomes a candidate too. So two boxes are candidates, once, if and only if their fat ones overlap.
 //   - The candidates of a box that has jumped, or may meet others than before, are struck out first.
 // All is given up where many boxes leave their fat ones at once, or where it does not pay.
-// Cost: a pass over the boxes that may have moved and one over the candidates, some two to four times as many as pairs,
-// and a share of two or three strip sweeps: 4 to 11 ns a box in 2D, 9 to 33 in 3D. The updates in which the first
-// generation is made cost an eighth more than strip-sweep, where motion is fast up to a half.
-// Memory, beside that of strip-sweep: about 160 (2D) or 270 (3D) bytes a box.
+// Cost: a pass over the boxes that may have moved and one over the candidates, some two or three times as many as pairs,
+// and a share of two or three strip sweeps: 4 to 10 ns a box in 2D, 10 to 30 in 3D. The updates in which the first
+// generation is made, up to twenty, cost a fifth more than strip-sweep, and a half where memory is used first.
+// Memory, beside that of strip-sweep: about 180 (2D) or 300 (3D) bytes a box.
 // Part of `incremental`, which says when. From: L. Verlet, 1967; see motion.hpp. Making the next generation a slice at a
 // time is ours.
 #pragma once
