@@ -2,7 +2,7 @@
 // Idea: each cut is at the median of the lower corners of a sample, along the axis on which cells are longest, measured
 // in boxes. All cells are as deep as one another, so the tree is two arrays, as in a heap: node k has the children 2 k and
 // 2 k + 1.
-// Cost: cutting, about 10 ns a sample and level; finding the cell of a point, 1 ns a level.
+// Cost: cutting, O(samples * levels); finding the cells of a box, O(levels) for each.
 // From: k-d tree, J. Bentley, 1975.
 #pragma once
 #include "statistics.hpp"
@@ -14,8 +14,6 @@ template <int D> class Halves {
   Buffer<f32> sample_;
 
  public:
-  u32 leaves() const { return leaves_; }
-
   /// Cuts space into 2 to the power of `levels` cells, and calls `each` with the number of each and its bounds: the least
   /// corner in it, and the least beyond it, or NaN where there is none.
   template <class Each> COLD void cut(const Scene<D>& scene, u32 levels, u32 samples, Each each) {
@@ -46,13 +44,6 @@ template <int D> class Halves {
       high[a] = __builtin_nanf("");
     }
     halve(sample, samples, 1, 0, low, high, each);
-  }
-
-  /// The cell in which a point is.
-  u32 leaf_of(const f32* point) const {
-    u32 node = 1;
-    for (u32 level = 0; node < leaves_; level++) node = 2 * node + beyond(point[axis_[level]], cuts_[node]);
-    return node - leaves_;
   }
 
   /// Writes the cells that a box touches, up to one more than `most`; gives how many.

@@ -24,7 +24,7 @@ struct Walls {
   f32x4 least = {-inf, -inf, -inf, -inf}, most = {inf, inf, inf, inf};
 
   /// To hold boxes, of which there are none yet.
-  static Walls none() { return {splat(inf), splat(-inf)}; }
+  static Walls empty() { return {splat(inf), splat(-inf)}; }
 
   template <int D> void hold(const f32* box) {
     least = min(load<f32x4>(box), least);

@@ -430,10 +430,10 @@ template <int D> class Coherent {
     g.candidates.list.reserve(u64(smaller(found_, 16.0) * boxes_) + Pairs::slack);
     g.candidates.count = 0;
     g.excludes = false;
-    walls_ = Walls::none();
+    walls_ = Walls::empty();
     stage_ = Stage::note;
     g.strips.begin(scene, 1 + spread * pace_ * f32(ahead(period_)), g.stats);
-    g.strips.divide(g.grown);
+    g.strips.cut_alike(g.grown);
   }
 
   /// Does work of the stage for about so many nanoseconds; gives how many.

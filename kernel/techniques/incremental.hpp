@@ -14,7 +14,7 @@
 // All this is filled little by little, and given up again where many boxes leave their fat ones at once or where it does
 // not pay. Meanwhile, and where most boxes move, the generations of coherent.hpp give the answers, which are sooner there;
 // until then strip-sweep does.
-// Cost: where all move by a hundredth of their size a fifth of strip-sweep, by a tenth of it 0.45 in 2D and 0.53 in 3D;
+// Cost: where all move by a hundredth of their size a fifth of strip-sweep, by a tenth of it 0.43 in 2D and 0.57 in 3D;
 // where 5 % move 0.15 to 0.3, and with `set` only the movers count. The first updates, in which the first generation is
 // made, up to twenty, cost a fifth more.
 // Memory, beside that of strip-sweep: about 120 (2D) or 210 (3D) bytes a box that moves, 100 or 150 one at rest.
@@ -23,8 +23,8 @@
 // is ours.
 #pragma once
 #include "../candidates.hpp"
-#include "../pair_order.hpp"
 #include "../halves.hpp"
+#include "../pair_order.hpp"
 #include "coherent.hpp"
 
 template <int D> class Incremental {
@@ -211,8 +211,8 @@ template <int D> class Incremental {
   /// Gives up what is kept, but for the memory of what is per slot.
   COLD void forget() {
     for (u32 c = 0; c < leaves_; c++) {
-      cells_[c].movers.values.release();
-      cells_[c].stills.values.release();
+      cells_[c].movers.release();
+      cells_[c].stills.release();
       cells_[c].candidates.release();
     }
     leaves_ = count_ = enlisted_ = queued_ = unseen_ = resting_ = huge_count_ = watching_ = 0;

@@ -163,7 +163,7 @@ template <int D> class StripSweep {
   }
 
   /// Cuts the same world into bins, along the axis that is swept.
-  template <class Bins> COLD void divide(Bins& bins) const {
+  template <class Bins> COLD void cut_alike(Bins& bins) const {
     bins.divide(order_.axis[0], cut_.world.low[0], cut_.world.high[0]);
   }
 
