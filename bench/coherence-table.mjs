@@ -11,8 +11,8 @@ const columns = [
   ['all anew', '---:'],
   ['`auto`: mean / p95 / worst', '---:'],
   ['of all anew', '---:'],
-  ['worst frame', '---:'],
-  ['cold start: mean, worst frame', '---:'],
+  ['worst frame; all anew against itself', '---:'],
+  ['cold start: mean, worst frame; itself', '---:'],
   ['kept', '---:'],
   ['`incremental`: mean, worst frame', '---:'],
   ['bytes a box: anew, `auto`, `incremental`', '---:'],
@@ -42,7 +42,7 @@ export function coherenceLine(row) {
     .join('  ');
 }
 
-function cellsOf({ name, problem, wrong, count, pairs, kept, figures }) {
+function cellsOf({ name, problem, wrong, count, pairs, kept, figures, itself }) {
   if (problem) return [name, problem];
   const { auto, incremental, 'strip-sweep': anew } = figures;
   return [
@@ -52,8 +52,8 @@ function cellsOf({ name, problem, wrong, count, pairs, kept, figures }) {
     short(anew.mean),
     [auto.mean, auto.p95, auto.worst].map(short).join(' / '),
     times(auto.ratio),
-    times(auto.worstRatio),
-    `${times(auto.filling.ratio)}, ${times(auto.filling.worstRatio)}`,
+    `${times(auto.worstRatio)}; ${times(itself.steady.worstRatio)}`,
+    `${times(auto.filling.ratio)}, ${times(auto.filling.worstRatio)}; ${times(itself.filling.worstRatio)}`,
     `${Math.round(100 * kept)} %`,
     `${times(incremental.ratio)}, ${times(incremental.worstRatio)}`,
     [anew, auto, incremental].map(({ bytes }) => Math.round(bytes)).join(', '),
@@ -81,8 +81,10 @@ export function coherenceGoals(rows) {
   const native = ({ figures, nativeMs }) => figures.auto.mean / nativeMs;
   const tricks = of('adversarial');
   const others = played.filter(({ kind }) => kind !== 'adversarial');
-  const worst = ({ figures }) => figures.auto.worstRatio;
-  const worstFilling = ({ figures }) => figures.auto.filling.worstRatio;
+  // What is as much for all anew against itself is the machine.
+  const worst = ({ figures, itself }) => figures.auto.worstRatio / Math.max(1, itself.steady.worstRatio);
+  const worstFilling = ({ figures, itself }) =>
+    figures.auto.filling.worstRatio / Math.max(1, itself.filling.worstRatio);
   const wrong = played.filter((row) => row.wrong);
   return [
     goal('100,000 still and 1,000 moving: 0.1 ms', of('tiles'), mean, 0.1, ms),
@@ -100,9 +102,21 @@ export function coherenceGoals(rows) {
       times,
     ),
     goal('a recorded scene asleep: 0.05 ms', of('asleep'), mean, 0.05, ms),
-    goal('what is meant to harm: no frame above 1.15 of all anew', tricks, worst, 1.15, times),
-    goal('anything else: no frame above 1.15 of all anew', others, worst, 1.15, times),
-    goal('cold starts: no frame above 1.15 of all anew', played, worstFilling, 1.15, times),
+    goal(
+      'what is meant to harm: no frame above 1.15 of all anew, as far as that varies itself',
+      tricks,
+      worst,
+      1.15,
+      times,
+    ),
+    goal('anything else: no frame above 1.15 of all anew, as far as that varies itself', others, worst, 1.15, times),
+    goal(
+      'cold starts: no frame above 1.15 of all anew, as far as that varies itself',
+      played,
+      worstFilling,
+      1.15,
+      times,
+    ),
     {
       goal: 'the same pairs as all anew, in every frame compared',
       figure: played.length > 0 ? `${played.length - wrong.length} of ${played.length}` : '',

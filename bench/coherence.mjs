@@ -1,6 +1,7 @@
 // When little changes: what an update costs then, against one that finds all anew (`strip-sweep`), in the same run.
 // Each row is played frame by frame, from a cold start, by all in turns and several times over, and of every frame the
-// least of its times counts: that is what the technique does in it, without what the machine did meanwhile.
+// least of its times counts: that is what the technique does in it, without what the machine did meanwhile. How much of
+// that is left in the figures shows in what all anew is held against: itself, a second time in the same turns.
 import { readdirSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -8,13 +9,14 @@ import { start } from './race.mjs';
 import { against, leastOfEach, spread } from './statistics.mjs';
 
 const script = fileURLToPath(new URL('./playback.mjs', import.meta.url));
-/** The first is what the others are held against. */
+/** The first is what the others are held against, and it is the last once more. */
 const techniques = ['strip-sweep', 'auto', 'incremental'];
+const players = [...techniques, techniques[0]];
 /** Frames in which what is kept is made; after so many it has settled; so many are then measured. */
 export const phases = { filling: 120, settled: 150, steady: 300 };
 const frames = phases.settled + phases.steady;
-/** No more playings once one row has taken so long, in milliseconds; and how long a row may take in all. */
-const [patience, most] = [60_000, 900_000];
+/** For how many milliseconds a row is played in a round, not counting the last playing; and how long it may take in all. */
+const [patience, most] = [10_000, 900_000];
 /** Pairs are compared in one frame of so many; of tricks in every one. */
 const every = 10;
 
@@ -68,13 +70,13 @@ function recordings(cases, traces) {
 }
 
 /** Plays the rows, one after another, each in a process of its own; `done` is called with each result. */
-export async function coherence(chosen, { seed, playings }, done) {
+export async function coherence(chosen, { seed, rounds }, done) {
   const results = [];
   for (const row of chosen) {
     const runner = start(script);
     const often = row.kind === 'adversarial' ? 1 : every;
     const { settled } = phases;
-    const order = { row, seed, techniques, frames, settled, playings, every: often, patience };
+    const order = { row, seed, techniques: players, frames, settled, every: often, patience: rounds * patience };
     const answer = await runner.ask('play', order, most);
     runner.stop();
     const { name, kind, nativeMs } = row;
@@ -96,5 +98,11 @@ export function judge({ count, pairs, kept, wrong, bytes, playings, times }) {
     };
     return [name, { ...of(parts.steady), filling: of(parts.filling), bytes: bytes[name] }];
   });
-  return { count, pairs, kept, wrong, playings, figures: Object.fromEntries(figures) };
+  const itself = Object.fromEntries(
+    Object.entries(parts).map(([part, range]) => [
+      part,
+      against(least.at(-1).slice(...range), least[0].slice(...range)),
+    ]),
+  );
+  return { count, pairs, kept, wrong, playings, figures: Object.fromEntries(figures), itself };
 }

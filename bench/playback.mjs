@@ -1,5 +1,5 @@
 // One play of plays.mjs, in a process of its own: every technique plays it, the same frames, as often as is asked for.
-//   { play: { row, seed, techniques, frames, settled, playings, every, patience } }
+//   { play: { row, seed, techniques, frames, settled, every, patience } }
 //     ->  { count, pairs, kept, wrong, bytes, playings, times }, or { error }
 // The first playing is not timed: in it the pairs of all are compared, and the engine compiles what runs. Of every other
 // one the times of all frames are kept, in which techniques take turns, a few frames each.
@@ -13,6 +13,11 @@ import { preparePlay } from './plays.mjs';
  * first of them it is not, so turns begin with other frames in each playing.
  */
 const turn = 30;
+/** So many playings are enough, and so many the fewest: one alone would have no least of its times. */
+const [mostPlayings, fewestPlayings] = [40, 2];
+
+/** Its multiples, but for their whole parts, are as far apart as can be, however many are taken. */
+const goldenRatio = (Math.sqrt(5) - 1) / 2;
 
 /**
  * What else a game reads and writes in a frame: enough to take the place of all that is in the caches of one core, which
@@ -48,7 +53,9 @@ function timed({ play, space }, frame, cold) {
  * Plays all side by side, and compares their pairs with those of the first in every so many frames. `kept` is the share
  * of the frames once all has settled in which `auto` answered by what it keeps.
  */
-function check(openPlay, { techniques, frames, settled, every }) {
+function check(openPlay, order) {
+  const { frames, settled, every } = order;
+  const techniques = [...new Set(order.techniques)];
   const players = techniques.map((technique) => open(openPlay, technique));
   const bytes = {};
   let [pairs, kept, wrong] = [0, 0, undefined];
@@ -75,10 +82,10 @@ function check(openPlay, { techniques, frames, settled, every }) {
 }
 
 /** Plays all frames once with each technique; `played` is how often they were before. */
-function playing(openPlay, { row, techniques, frames, playings }, played) {
+function playing(openPlay, { row, techniques, frames }, played) {
   const players = techniques.map((technique) => ({ ...open(openPlay, technique), times: [] }));
   const order = played % 2 === 1 ? [...players].reverse() : players;
-  const early = Math.floor((turn * played) / playings);
+  const early = Math.floor(turn * ((played * goldenRatio) % 1));
   for (let from = -early; from < frames; from += turn) {
     for (const player of order) {
       for (let frame = Math.max(0, from); frame < Math.min(frames, from + turn); frame++)
@@ -90,13 +97,14 @@ function playing(openPlay, { row, techniques, frames, playings }, played) {
 }
 
 function play(order) {
-  const { row, seed, frames, techniques, playings, patience } = order;
+  const { row, seed, frames, techniques, patience } = order;
   const openPlay = preparePlay(row, seed, frames);
   const checked = check(openPlay, order);
   const times = techniques.map(() => []);
   const start = performance.now();
   let played = 0;
-  for (; played < playings && (played < 2 || performance.now() - start < patience); played++) {
+  const enough = () => played >= mostPlayings || performance.now() - start > patience;
+  for (; played < fewestPlayings || !enough(); played++) {
     for (const [k, of] of playing(openPlay, order, played).entries()) times[k].push(of);
   }
   return { ...checked, playings: played, times };

@@ -92,7 +92,7 @@ await bundle('bench/library.ts', 'build/bench/library.mjs');
 writeFileSync(`${here}../build/bench/sort.wasm`, await compile('bench/floors/sort.cpp'));
 
 const [frames, slowest, seed] = [options.frames, options.slowest, options.seed].map(Number);
-const rounds = Number(options.rounds ?? (options.coherence ? 5 : 3));
+const rounds = Number(options.rounds ?? 3);
 if (options.coherence) {
   await playAll();
   process.exit();
@@ -142,7 +142,7 @@ async function playAll() {
     ({ name, scene, trick, count }) => wanted(options.scenes, trick ?? scene ?? name) && wanted(options.n, count),
   );
   if (chosen.length === 0) fail(`No row is of scene "${options.scenes}" with ${options.n ?? 'any number of'} boxes.`);
-  const done = await coherence(chosen, { seed, playings: rounds }, (row) => console.log(coherenceLine(row)));
+  const done = await coherence(chosen, { seed, rounds }, (row) => console.log(coherenceLine(row)));
   const record = { date: new Date().toISOString(), machine, settings: { rounds, seed }, coherence: done };
   console.log(`\n${markdown(record, loadCases())}\n`);
   save(options.json ?? (chosen.length === all.length ? resultsFile : undefined), record);

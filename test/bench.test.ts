@@ -198,7 +198,7 @@ test('a row of little change: the filling apart from what comes after, each agai
     Array.from({ length: frames }, (_, k) => (k < phases.filling ? filling : k < phases.settled ? 1e9 : steady)),
   ];
   const facts = { count: 9, pairs: 3, kept: 1, playings: 1, bytes: { 'strip-sweep': 50, auto: 60, incremental: 70 } };
-  const { figures } = judge({ ...facts, times: [of(2, 4), of(3, 1), of(2, 8)] });
+  const { figures, itself } = judge({ ...facts, times: [of(2, 4), of(3, 1), of(2, 8), of(4, 5)] });
   const even = (time: number) => ({ mean: time, p95: time, worst: time });
   const all = (ratio: number) => ({ ratio, worstRatio: ratio, worstFrame: 0 });
   expect(figures).toEqual({
@@ -207,13 +207,20 @@ test('a row of little change: the filling apart from what comes after, each agai
     incremental: { ...even(8), ...all(2), filling: { ...even(2), ...all(1) }, bytes: 70 },
   });
 
-  const row = { name: 'static2d', kind: 'static', nativeMs: 2, ...facts, figures };
+  expect(itself).toEqual({ filling: all(2), steady: all(1.25) });
+
+  const row = { name: 'static2d', kind: 'static', nativeMs: 2, ...facts, figures, itself };
   const goals = coherenceGoals([row, { ...row, name: 'another', nativeMs: 0.5 }]);
   const met = Object.fromEntries(goals.map(({ goal, met }) => [goal, met]));
   expect(met['5 % move: a quarter of all anew']).toBe(true);
   const native = goals.find(({ goal }) => goal.startsWith('5 % move: the time'));
   expect(native).toMatchObject({ figure: '1 of 2; the worst: 2.00x (another, 9)', met: false });
   expect(met['100,000 still and 1,000 moving: 0.1 ms']).toBeUndefined();
+  // 1.5 times all anew in its worst frame would be too much, but all anew has 2 against itself.
+  expect(goals.find(({ goal }) => goal.startsWith('cold starts'))).toMatchObject({ met: true });
+  const quiet = { ...row, itself: { ...itself, filling: all(1.2) } };
+  const spiky = coherenceGoals([quiet]).find(({ goal }) => goal.startsWith('cold starts'));
+  expect(spiky).toMatchObject({ figure: '0 of 1; the worst: 1.25x', met: false });
 });
 
 test('the page of figures has the goals and tables of what there is, our own techniques alone side by side', () => {
