@@ -1,6 +1,6 @@
-import type { Figures, Played } from './coherence.mjs';
+import type { judge } from './coherence.mjs';
 
-export type PlayedRow = Played & { name: string; kind: string; nativeMs?: number; problem?: string; figures: Figures };
+export type PlayedRow = ReturnType<typeof judge> & { name: string; kind: string; nativeMs?: number; problem?: string };
 
 export function coherenceGoals(rows: readonly PlayedRow[]): { goal: string; figure: string; met?: boolean }[];
 export function coherenceCells(rows: readonly PlayedRow[]): { titles: string[]; rows: string[][] };

@@ -20,6 +20,12 @@ export interface Times {
   worstFrame?: number;
 }
 export type Figures = Record<string, Times & { filling: Times; bytes: number }>;
+/** Of frames against the same of another: by the mean, and in the worst, and which that is. */
+export interface Against {
+  ratio: number;
+  worstRatio: number;
+  worstFrame: number;
+}
 export interface Played {
   count: number;
   pairs: number;
@@ -31,4 +37,4 @@ export const phases: { filling: number; settled: number; steady: number };
 export function rows(cases: Map<string, Case>, traces?: string): Row[];
 export function judge(
   answer: Played & { bytes: Record<string, number>; times: number[][][] },
-): Played & { figures: Figures };
+): Played & { figures: Figures; itself: Record<'filling' | 'steady', Against> };

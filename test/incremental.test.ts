@@ -296,7 +296,7 @@ test.each([2, 3] as const)(
         keysOf(findPairs(space.boxes(count).slice(), { dimensions })),
       );
     }
-    expect(filling, 'updates in which what nobody will use was filled').toBeLessThan(65);
+    expect(filling, 'updates in which what nobody will use was filled').toBeLessThan(30);
   },
 );
 

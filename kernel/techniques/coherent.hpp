@@ -27,26 +27,31 @@ template <int D> class Coherent {
   static constexpr f64 late_share = 0.5;  // all is given up where those that leave their fat ones cost this share of fresh
   static constexpr f64 few_late = 64;  // so many are no reason
   static constexpr f64 few_late_share = 0.2, few_lost_share = 0.15;  // of what an update costs: it may cost to serve these
-  static constexpr i32 least_period = 3, most_period = 64, least_making = 2, most_making = 16;  // these of the first
-  static constexpr f64 bearable = 0.15;  // what making the first generation may add to an update, as a share of strip sweep
+  static constexpr i32 least_period = 3, most_period = 64, least_making = 2, most_making = 40;  // these of the first
+  static constexpr i32 blind_making = 16;  // of one whose fat boxes must hold from when they are made
+  // What making the first generation may add to an update, as a share of strip sweep or in nanoseconds.
+  static constexpr f64 bearable = 0.12, unnoticed = 1e4;
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where none is late
   static constexpr f64 spread = D == 2 ? 0.75 : 0.67;  // of motion along an axis, to that along the fastest
   // What the work of a generation costs for each box, in nanoseconds: making its fat box and counting it, entering it in
-  // its strip, sweeping that, and a last look; and for each candidate.
-  static constexpr f64 note_cost = 4, fatten_cost = D == 2 ? 11 : 14, enter_cost = D == 2 ? 12 : 17,
-                       sweep_cost = D == 2 ? 14 : 31, mend_cost = D == 2 ? 4 : 8, hit_cost = D == 2 ? 3 : 6;
-  static constexpr f64 new_cost = 2;  // times as much, where memory is used for the first time
+  // its strip, sweeping that; where memory is used again, and where for the first time.
+  static constexpr f64 costs[2][3] = {{D == 2 ? 15 : 18, D == 2 ? 12 : 17, D == 2 ? 14 : 31},
+                                      {D == 2 ? 40 : 52, D == 2 ? 17 : 32, D == 2 ? 30 : 60}};
+  static constexpr f64 strip_cost = D == 2 ? 1800 : 500;  // the first entry of a strip, often in memory that is used for the first time
+  static constexpr f64 mend_cost = D == 2 ? 4 : 8, hit_cost = D == 2 ? 3 : 6;  // a last look; and for each candidate
   // What an update costs for each box, and for a box that is late and each of its candidates.
   static constexpr f64 box_cost = D == 2 ? 2 : 3, late_base = 400, late_each = 300;
   // And for each candidate; five times as much where the boxes of a scene are far more than the cache holds.
   static constexpr f64 cached_cost = D == 2 ? 2 : 3, uncached_cost = 4 * cached_cost, cached_boxes = 4e5;
-  static constexpr f64 all_costs = note_cost + fatten_cost + enter_cost + sweep_cost + mend_cost;
+  static constexpr f64 all_costs = costs[0][0] + costs[0][1] + costs[0][2] + mend_cost;
   static constexpr u32 asked = 1024;  // boxes of which it is asked whether they are where they were foreseen
   static constexpr f64 bearable_lost = 0.5;  // what seeing to those that are not may cost, as a share of strip sweep
+  static constexpr u32 watched = 3;  // it is noted where a box stands about so many updates before its fat box is made
   static constexpr u32 sampled = 4;  // of so many boxes one is asked how fast it is
+  static constexpr f64 much_faster = 0.1;  // than expected, in sizes: what is begun is given up
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
 
-  enum class Stage : u32 { begin, note, fatten, enter, sweep, mend };
+  enum class Stage : u32 { begin, fatten, enter, sweep, mend };
 
   struct Generation {
     Buffer<f32> fat;       // per slot
@@ -72,10 +77,12 @@ template <int D> class Coherent {
   // Of the generation that is being made: how far it is.
   Stage stage_ = Stage::begin;
   u32 at_ = 0, boxes_ = 0;
+  u32 noted_ = 0;          // of so many boxes it is known where they were
   f64 spent_ = 0;          // of its work, in nanoseconds
   bool known_ = false;     // where boxes were is known from the generation before
   Walls walls_;            // when it was begun
   i32 period_ = 16;        // updates that it is to answer
+  i32 life_ = 16;          // updates that its fat boxes are to hold
   i32 making_ = 0;         // updates in which it is made, after the one that begins it
   i32 age_ = 0;            // updates since that
   i32 lasts_ = 0;          // updates that the current one is to answer still
@@ -83,7 +90,7 @@ template <int D> class Coherent {
   f32 foresight_ = 1;      // from which part of the way to its takeover on a generation's fat boxes hold their boxes
   f32 pace_ = 0;           // how far boxes move in an update, as a share of their size, in the mean
   f64 motion_ = 0, lates_ = 0;
-  f64 found_ = 0, lost_ = 0;  // of the last one, for each box: candidates, and boxes that had left before it was done
+  f64 found_ = 0, lost_ = 0;  // of the last one, for each box: candidates, and about how many were elsewhere
   f64 hits_ = 0;           // pairs of the last update that was answered; less than 0: none was
 
   Generation& current() { return generations_[current_]; }
@@ -100,19 +107,19 @@ template <int D> class Coherent {
 
   bool begun() const { return begun_; }
 
-  COLD void begin(f64 boxes, f64 hits, f64 pace, f64 fresh) {
+  COLD void begin(f64 boxes, f64 hits, f64 share, f64 pace, f64 fresh) {
     begun_ = true;
     make_room(u32(boxes), u32(boxes));  // not in the update that first looks at all of them
-    pace_ = f32(pace);
-    period_ = best_period(boxes, hits, 1, pace);
+    pace_ = f32(share * pace);
+    period_ = best_period(boxes, hits, share, pace);
     stage_ = Stage::begin;
     known_ = unchecked_ = false;
     slack_ = least_slack;
     hits_ = -1;
-    found_ = candidates(boxes, hits, 1, pace, ahead(period_)) / boxes;
+    found_ = candidates(boxes, hits, share, pace, 1.5 * ahead(period_)) / boxes;
     lost_ = 0;
     // The longer the first one takes, the less does an update pay for it, but the later does it answer.
-    making_ = i32(larger(f64(least_making), smaller(f64(most_making), work() * boxes / (bearable * fresh))));
+    making_ = i32(larger(f64(least_making), smaller(f64(most_making), work() * boxes / added(fresh))));
   }
 
   /// Finds the pairs, where a generation is there to answer; else false. Gives up where that costs more than `fresh`.
@@ -168,6 +175,8 @@ template <int D> class Coherent {
     return boxes * (box_cost + all_costs / period) + (candidate_cost(boxes) + hit_cost / period) * all;
   }
 
+  static f64 added(f64 fresh) { return larger(bearable * fresh, unnoticed); }
+
   /// Updates of whose motion a fat box must hold.
   f64 ahead(i32 period) const { return period + 1 + (1 - foresight_) * period; }
 
@@ -186,9 +195,12 @@ template <int D> class Coherent {
   }
 
   /// What making a generation costs for each box, going by the last one.
-  f64 work() const { return (note_cost + fatten_cost + enter_cost + sweep_cost + hit_cost * found_) * novelty() + mending(); }
+  f64 work() const {
+    const f64* each = stage_costs();
+    return each[0] + each[1] + each[2] + hit_cost * found_ + mending();
+  }
   f64 mending() const { return mend_cost + late_cost() * lost_; }
-  f64 novelty() const { return made_ < 2 ? new_cost : 1; }
+  const f64* stage_costs() const { return costs[made_ < 2]; }
   f64 late_cost() const { return late_base + late_each * found_; }
 
   /// Updates that a generation should answer: the work of making it balances its candidates, which are the more the
@@ -402,18 +414,19 @@ template <int D> class Coherent {
     if (stage_ == Stage::begin) {
       if (known_ && lasts_ > making_) return;
       open(scene);
+      if (!known_) return;
     }
     // What is left to do is shared by the updates that are left, but for mending, which comes in the last: only then can
     // be seen whether boxes are in fat ones that are to hold them from then on.
     f64 all = work() * boxes_, last = mending() * boxes_, left = larger(0, making_ - age_);
     f64 budget = left > 0 ? smaller((all - spent_) / (left + 1), (all - last - spent_) / left) : all;
-    budget = known_ && left == 0 ? __builtin_inf() : larger(budget, all / 8 / (left + 1));
+    budget = larger(budget, all / 8 / (left + 1));
+    if (left == 0) budget = known_ ? __builtin_inf() : larger(added(fresh), 2 * last / period_);
     while (begun_ && budget > 0 && stage_ != Stage::begin && (stage_ != Stage::mend || left == 0)) {
-      bool notes = stage_ == Stage::note;
       f64 spent = slice(scene, options, budget, fresh);
       budget -= spent;
       spent_ += spent;
-      if (notes && stage_ != Stage::note) return;  // boxes must move before their motion can be seen
+      if (stage_ == Stage::fatten) return;  // boxes must move before their motion can be seen
     }
   }
 
@@ -421,7 +434,8 @@ template <int D> class Coherent {
   COLD void open(const Scene<D>& scene) {
     Generation& g = next();
     boxes_ = scene.count;
-    at_ = 0;
+    at_ = noted_ = 0;
+    life_ = known_ ? period_ : period_ + period_ / 2;  // the first is mended meanwhile
     age_ = 0;
     motion_ = lates_ = spent_ = 0;
     make_room(boxes_, boxes_);
@@ -431,7 +445,7 @@ template <int D> class Coherent {
     g.candidates.count = 0;
     g.excludes = false;
     walls_ = Walls::empty();
-    stage_ = Stage::note;
+    stage_ = Stage::fatten;
     g.strips.begin(scene, 1 + spread * pace_ * f32(ahead(period_)), g.stats);
     g.strips.cut_alike(g.grown);
   }
@@ -440,20 +454,18 @@ template <int D> class Coherent {
   COLD f64 slice(const Scene<D>& scene, const Settings& options, f64 budget, f64 fresh) {
     Generation& g = next();
     if (stage_ == Stage::mend) return mend(scene, options, budget, fresh);
-    f64 each = (sweep_cost + hit_cost * found_) * boxes_ / g.stats.entries;
-    if (stage_ == Stage::note) each = note_cost;
-    if (stage_ == Stage::fatten) each = fatten_cost;
-    if (stage_ == Stage::enter) each = enter_cost;
-    each *= novelty();
+    f64 each = stage_costs()[u32(stage_) - u32(Stage::fatten)];
+    if (stage_ == Stage::sweep) each = (each + hit_cost * found_) * boxes_ / g.stats.entries;
+    if (stage_ == Stage::enter && at_ < g.strips.lists()) each = strip_cost;
     u32 many = u32(smaller(budget / each + 1, f64(max_slots))), all = boxes_, until = smaller(all, at_ + many);
     Scene<D> fat{g.fat.data(), boxes_, g.excluded.data()};
-    if (stage_ == Stage::note) {
-      for (u32 slot = at_; slot < smaller(until, scene.count); slot++) {
-        note(scene, slot);
-        walls_.template hold<D>(scene.box(slot));
-      }
-    } else if (stage_ == Stage::fatten) {
+    if (stage_ == Stage::fatten) {
+      u32 noted = noted_;
+      see(scene, u32(smaller(f64(at_) + f64(watched) * many, f64(all))));
+      if (age_ < making_) until = smaller(until, noted);
       make_fat(scene, options, until);
+      // A world that rested when it was looked at, and jumps: nothing will come of it.
+      if (!known_ && motion_ * sampled > few_late + until * (2 * pace_ + much_faster)) return forget(), budget;
       g.strips.count(fat, at_, until);
     } else if (stage_ == Stage::enter) {
       g.strips.enter(fat, at_, until);
@@ -470,14 +482,25 @@ template <int D> class Coherent {
     return spent;
   }
 
+  /// Notes where the boxes up to this one stand: when their fat boxes are made, in an update to come, it is known how they
+  /// move.
+  void see(const Scene<D>& scene, u32 until) {
+    for (; noted_ < until; noted_++) {
+      if (noted_ >= scene.count) continue;
+      note(scene, noted_);
+      walls_.template hold<D>(scene.box(noted_));
+    }
+  }
+
   /// Looks who has left its fat box before all was done.
   COLD f64 mend(const Scene<D>& scene, const Settings& options, f64 budget, f64 fresh) {
     Generation& g = next();
     u32 until = smaller(boxes_, scene.count);
     f64 spent = 0;
     if (at_ == 0) {
-      if ((elsewhere(scene) - few_late) * late_cost() > bearable_lost * fresh) return start_over(), budget;
-      lost_ = 0;
+      f64 many = elsewhere(scene);
+      if ((many - few_late) * late_cost() > bearable_lost * fresh) return start_over(), budget;
+      lost_ = many / boxes_;
     }
     for (; at_ < until && spent < smaller(budget, fresh / 2); at_++) {
       const f32* box = scene.box(at_);
@@ -486,10 +509,8 @@ template <int D> class Coherent {
       if (inside<D>(box, fat) || !is_near(box, fat)) continue;
       grow(g, until, scene, options, at_);
       spent += late_cost();
-      lost_ += 1.0 / boxes_;
     }
-    if (late_cost() * (lost_ * boxes_ - few_late) > fresh) start_over();
-    else if (at_ >= until || known_) take_over(scene, fresh);
+    if (at_ >= until || known_) take_over(scene, fresh);
     return spent;
   }
 
@@ -509,7 +530,7 @@ template <int D> class Coherent {
     begun_ = again;
     stage_ = Stage::begin;
     known_ = false;
-    making_ = most_making;
+    making_ = blind_making;
   }
 
   /// Whether a box is no further away from its fat one than it is long.
@@ -525,7 +546,7 @@ template <int D> class Coherent {
   /// Fat boxes from `at_` on.
   NOINLINE void make_fat(const Scene<D>& scene, const Settings& options, u32 until) {
     Generation& g = next();
-    f32 begins = f32(larger(0, making_ - age_)), reach = begins + f32(period_);
+    f32 begins = f32(larger(0, making_ - age_)), reach = begins + f32(life_);
     begins *= foresight_;
     g.excludes |= scene.excluded != nullptr;
     for (u32 slot = at_; slot < until; slot++) {
@@ -568,7 +589,7 @@ template <int D> class Coherent {
       strike(g, n);
       forget_grown(g, n);
     }
-    lasts_ = making_ + period_ - age_;
+    lasts_ = making_ + life_ - age_;
     unchecked_ = known_ = true;
     found_ = f64(g.candidates.count) / boxes_;
     stage_ = Stage::begin;

@@ -253,7 +253,7 @@ template <int D> class Incremental {
       else pause_ = considered;
       return;
     }
-    if (by_generations <= worth * fresh_) coherent_.begin(n, hits, share * speed, fresh_);
+    if (by_generations <= worth * fresh_) coherent_.begin(n, hits, share, speed, fresh_);
     else if (by_cells <= worth * fresh_) plan(scene);
     else pause_ = first_pause;
     planned_ = n;

@@ -168,6 +168,8 @@ template <int D> class StripSweep {
   }
 
   u32 boxes() const { return boxes_; }
+  /// Strips of the outermost cut.
+  u32 lists() const { return cut_.lists(); }
 
   /// Calls `what` with the slot of each box of the last update once, those of a strip after those of the one before.
   template <class What> void each_in_order(What what) const {
