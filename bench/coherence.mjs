@@ -94,14 +94,14 @@ export function judge({ count, pairs, kept, wrong, bytes, playings, times }) {
   const figures = techniques.map((name, k) => {
     const of = ([from, to]) => {
       const mine = least[k].slice(from, to);
-      return { ...spread(mine), ...(k > 0 && against(mine, least[0].slice(from, to))) };
+      return { ...spread(mine), ...(k > 0 && against(mine, least[0].slice(from, to), count)) };
     };
     return [name, { ...of(parts.steady), filling: of(parts.filling), bytes: bytes[name] }];
   });
   const itself = Object.fromEntries(
     Object.entries(parts).map(([part, range]) => [
       part,
-      against(least.at(-1).slice(...range), least[0].slice(...range)),
+      against(least.at(-1).slice(...range), least[0].slice(...range), count),
     ]),
   );
   return { count, pairs, kept, wrong, playings, figures: Object.fromEntries(figures), itself };

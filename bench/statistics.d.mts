@@ -17,6 +17,7 @@ export function spread(times: readonly number[]): { mean: number; p95: number; w
 export function against(
   times: readonly number[],
   others: readonly number[],
+  boxes: number,
 ): { ratio: number; worstRatio: number; worstFrame: number };
 export function guessTime(
   points: readonly { count: number; ms: number | undefined }[],

@@ -20,8 +20,8 @@ template <int D> class Space {
   // Below this many boxes testing all against all costs less than looking at them first.
   static constexpr u32 handful = 24;
 
-  // Bytes a box, pairs included, that an update takes in ordinary scenes.
-  static constexpr u32 usual_bytes = D == 2 ? 448 : 640;
+  // Bytes a box, pairs included, that an update takes in ordinary scenes; and that stand once all is kept.
+  static constexpr u32 usual_bytes = D == 2 ? 448 : 640, kept_bytes = D == 2 ? 352 : 480;
 
   // Bytes a pair that the tables take in which pairs are looked up.
   static constexpr u32 bytes_to_look_up = 24;
@@ -185,7 +185,7 @@ template <int D> class Space {
     exposed_ = true;
     // Growing later would cut the caller's view off, so take now what an update usually needs. Memory that is
     // not touched costs nothing.
-    heap::reach(u64(count) * usual_bytes + (1 << 18));
+    reach(count, 1 << 18);
     return boxes_.data();
   }
 
@@ -284,7 +284,7 @@ template <int D> class Space {
     stats.pairs = f64(pairs.count);
     // Growing later would cut the views of the pairs off, in the midst of a loop over them: what a few more boxes, the
     // first filter, double or gap, and the first question take is taken now.
-    heap::reach(u64(ids_.count()) * usual_bytes + pairs.count * bytes_to_look_up + (1 << 16));
+    reach(ids_.count(), pairs.count * bytes_to_look_up + (1 << 16));
     stats.bytes = f64(heap::used);
     explain();
     return -1;
@@ -400,6 +400,12 @@ template <int D> class Space {
   }
 
  private:
+  /// Takes memory for the updates to come of so many boxes, and so many bytes.
+  COLD static void reach(u64 count, u64 more) {
+    u64 usual = count * usual_bytes, all = usual + count * kept_bytes;
+    heap::reach(larger(usual, all - smaller(all, u64(heap::used))) + more);
+  }
+
   /// What `automatic` stands for now.
   Technique choose() const {
     if (technique != Technique::automatic) return technique;

@@ -121,8 +121,9 @@ test('of a frame that was played several times the least counts, and a worst fra
   ]);
   expect(times).toEqual([1, 4, 3]);
   expect(spread(times)).toEqual({ mean: 8 / 3, p95: 4, worst: 4 });
-  expect(against(times, [2, 2, 4])).toEqual({ ratio: 1, worstRatio: 2, worstFrame: 1 });
-  expect(against([0.001, 0.01], [0.00001, 0.01])).toMatchObject({ worstRatio: 0.5 }); // far less than a frame
+  expect(against(times, [2, 2, 4], 100)).toEqual({ ratio: 1, worstRatio: 2, worstFrame: 1 });
+  expect(against([0.001, 0.01], [0.00001, 0.01], 100)).toMatchObject({ worstRatio: 0.5 }); // far less than a frame
+  expect(against([0.3, 2], [0.06, 2], 100_000)).toMatchObject({ worstRatio: 1 }); // nothing was found anew
 });
 
 describe('what is played where little changes', () => {

@@ -3,6 +3,7 @@
 import { readFileSync } from 'node:fs';
 import { BroadPhase, init } from 'broadphase';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { createRandom } from '../src/scenes/random.ts';
 import { setBox } from './set-box.ts';
 
 const mebibyte = 2 ** 20;
@@ -238,6 +239,23 @@ describe('views of memory', () => {
       expect(space.update().pairCount).toBe(4950);
       expect(space.boxes(100) === view).toBe(true);
     }
+  });
+
+  test.each([2, 3] as const)('of boxes stay when what is found begins to be kept, %i dimensions', (dimensions) => {
+    const random = createRandom(3);
+    const count = 10_000;
+    const width = 2 * dimensions;
+    const world = 10 * (count / 0.2) ** (1 / dimensions);
+    const space = new BroadPhase({ dimensions });
+    const view = space.boxes(count);
+    for (let k = 0; k < view.length; k++)
+      view[k] = k % width < dimensions ? random() * world : view[k - dimensions]! + 10;
+    for (let frame = 0; frame < 150; frame++) {
+      expect(space.boxes(count) === view, `frame ${frame}`).toBe(true);
+      for (let k = 0; k < view.length; k++) view[k]! += (Math.floor(k / width) % 3) - 1;
+      space.update();
+    }
+    expect(space.stats.reason).toMatch(/is kept/);
   });
 
   test('of boxes that were cut off are noticed by the next update', () => {
