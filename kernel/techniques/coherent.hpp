@@ -12,7 +12,7 @@
 // All is given up where many boxes leave their fat ones at once, or where it does not pay.
 // Cost: a pass over the boxes that may have moved and one over the candidates, some two or three times as many as pairs,
 // and a share of two or three strip sweeps: 4 to 10 ns a box in 2D, 10 to 30 in 3D. The updates in which the first
-// generation is made, up to twenty, cost a fifth more than strip-sweep, and a half where memory is used first.
+// generation is made, up to fifty, cost about an eighth more than strip-sweep.
 // Memory, beside that of strip-sweep: about 180 (2D) or 300 (3D) bytes a box.
 // Part of `incremental`, which says when. From: L. Verlet, 1967; see motion.hpp. Making the next generation a slice at a
 // time is ours.
@@ -34,11 +34,11 @@ template <int D> class Coherent {
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where none is late
   static constexpr f64 spread = D == 2 ? 0.75 : 0.67;  // of motion along an axis, to that along the fastest
   // What the work of a generation costs for each box, in nanoseconds: making its fat box and counting it, entering it in
-  // its strip, sweeping that; where memory is used again, and where for the first time.
-  static constexpr f64 costs[2][3] = {{D == 2 ? 15 : 18, D == 2 ? 12 : 17, D == 2 ? 14 : 31},
+  // its strip, sweeping that; where memory is used again, and where for the first time, as it is by the first two.
+  static constexpr f64 costs[2][3] = {{D == 2 ? 17 : 20, D == 2 ? 7 : 13, D == 2 ? 18 : 31},
                                       {D == 2 ? 40 : 52, D == 2 ? 17 : 32, D == 2 ? 30 : 60}};
   static constexpr f64 strip_cost = D == 2 ? 1800 : 500;  // the first entry of a strip, often in memory that is used for the first time
-  static constexpr f64 mend_cost = D == 2 ? 4 : 8, hit_cost = D == 2 ? 3 : 6;  // a last look; and for each candidate
+  static constexpr f64 mend_cost = D == 2 ? 4 : 10, hit_cost = D == 2 ? 3 : 6;  // a last look; and for each candidate
   // What an update costs for each box, and for a box that is late and each of its candidates.
   static constexpr f64 box_cost = D == 2 ? 2 : 3, late_base = 400, late_each = 300;
   // And for each candidate; five times as much where the boxes of a scene are far more than the cache holds.
@@ -456,7 +456,7 @@ template <int D> class Coherent {
     if (stage_ == Stage::mend) return mend(scene, options, budget, fresh);
     f64 each = stage_costs()[u32(stage_) - u32(Stage::fatten)];
     if (stage_ == Stage::sweep) each = (each + hit_cost * found_) * boxes_ / g.stats.entries;
-    if (stage_ == Stage::enter && at_ < g.strips.lists()) each = strip_cost;
+    if (stage_ == Stage::enter && made_ < 2 && at_ < g.strips.lists()) each = strip_cost;
     u32 many = u32(smaller(budget / each + 1, f64(max_slots))), all = boxes_, until = smaller(all, at_ + many);
     Scene<D> fat{g.fat.data(), boxes_, g.excluded.data()};
     if (stage_ == Stage::fatten) {
