@@ -48,6 +48,7 @@ template <int D> class Coherent {
   static constexpr f64 bearable_lost = 0.5;  // what seeing to those that are not may cost, as a share of strip sweep
   static constexpr u32 watched = 3;  // it is noted where a box stands about so many updates before its fat box is made
   static constexpr u32 sampled = 4;  // of so many boxes one is asked how fast it is
+  static constexpr f64 most_found = 2;  // times as many candidates as expected: it is given up too
   static constexpr f64 much_faster = 0.1;  // than expected, in sizes: what is begun is given up
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
 
@@ -472,6 +473,8 @@ template <int D> class Coherent {
     } else {
       all = u32(g.stats.entries);
       until = all - g.strips.sweep(many, g.candidates);
+      // Far more than expected, among boxes that crowd at a wall: more would come, and all would have to be tested.
+      if (!known_ && g.candidates.count > most_found * found_ * boxes_) return forget(), budget;
     }
     f64 spent = (until - at_) * each;
     at_ = until;
