@@ -255,7 +255,7 @@ template <int D> class Coherent {
   }
 
   /// Sees to it that fat boxes hold their boxes again; false where all is given up.
-  NOINLINE bool follow(const Scene<D>& scene, const Settings& options, f64 fresh) {
+  COLD bool follow(const Scene<D>& scene, const Settings& options, f64 fresh) {
     Generation& g = current();
     u32 n = scene.count, had = count_, both = smaller(n, had);
     make_room(n, had);
@@ -487,7 +487,7 @@ template <int D> class Coherent {
 
   /// Notes where the boxes up to this one stand: when their fat boxes are made, in an update to come, it is known how they
   /// move.
-  void see(const Scene<D>& scene, u32 until) {
+  COLD void see(const Scene<D>& scene, u32 until) {
     for (; noted_ < until; noted_++) {
       if (noted_ >= scene.count) continue;
       note(scene, noted_);

@@ -390,7 +390,7 @@ template <int D> class Incremental {
 
   /// Puts a mover into all cells that its new fat box touches, `found`, where it is not in already with one that still
   /// holds it: then its candidates hold for as long as it is in both.
-  void enter(const Scene<D>& scene, u32 slot, const f32* fat, Found& found, Stats& stats) {
+  COLD void enter(const Scene<D>& scene, u32 slot, const f32* fat, Found& found, Stats& stats) {
     const f32* box = scene.box(slot);
     if (found.many()) {
       fat = box;
