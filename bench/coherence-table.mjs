@@ -82,9 +82,9 @@ export function coherenceGoals(rows) {
   const tricks = of('adversarial');
   const others = played.filter(({ kind }) => kind !== 'adversarial');
   // What is as much for all anew against itself is the machine.
-  const worst = ({ figures, itself }) => figures.auto.worstRatio / Math.max(1, itself.steady.worstRatio);
-  const worstFilling = ({ figures, itself }) =>
-    figures.auto.filling.worstRatio / Math.max(1, itself.filling.worstRatio);
+  const beyond = (its, machine) => its.worstRatio / Math.max(1, machine.worstRatio);
+  const worst = ({ figures, itself }) => beyond(figures.auto, itself.steady);
+  const worstFilling = ({ figures, itself }) => beyond(figures.auto.filling, itself.filling);
   const wrong = played.filter((row) => row.wrong);
   return [
     goal('100,000 still and 1,000 moving: 0.1 ms', of('tiles'), mean, 0.1, ms),

@@ -91,18 +91,12 @@ export async function coherence(chosen, { seed, rounds }, done) {
 export function judge({ count, pairs, kept, wrong, bytes, playings, times }) {
   const least = times.map(leastOfEach);
   const parts = { filling: [0, phases.filling], steady: [phases.settled, undefined] };
+  const held = (k, part) => against(least[k].slice(...part), least[0].slice(...part), count);
   const figures = techniques.map((name, k) => {
-    const of = ([from, to]) => {
-      const mine = least[k].slice(from, to);
-      return { ...spread(mine), ...(k > 0 && against(mine, least[0].slice(from, to), count)) };
-    };
+    const of = (part) => ({ ...spread(least[k].slice(...part)), ...(k > 0 && held(k, part)) });
     return [name, { ...of(parts.steady), filling: of(parts.filling), bytes: bytes[name] }];
   });
-  const itself = Object.fromEntries(
-    Object.entries(parts).map(([part, range]) => [
-      part,
-      against(least.at(-1).slice(...range), least[0].slice(...range), count),
-    ]),
-  );
+  const again = techniques.length;
+  const itself = { filling: held(again, parts.filling), steady: held(again, parts.steady) };
   return { count, pairs, kept, wrong, playings, figures: Object.fromEntries(figures), itself };
 }

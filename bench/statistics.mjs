@@ -51,7 +51,7 @@ export function spread(times) {
 
 /**
  * A frame of fewer milliseconds, or milliseconds a box, counts as one of so many, where others are held against it. Where
- * all boxes are static nothing is found anew; where some move no technique does that in less.
+ * all boxes are static nothing is found anew; where some may meet, finding all anew took 13 nanoseconds a box or more.
  */
 const leastFrame = 0.02;
 const leastPerBox = 5e-6;

@@ -13,7 +13,7 @@
 // Cost: a pass over the boxes that may have moved and one over the candidates, some two or three times as many as pairs,
 // and a share of two or three strip sweeps: 4 to 10 ns a box in 2D, 10 to 30 in 3D. The updates in which the first
 // generation is made, up to fifty, cost about an eighth more than strip-sweep.
-// Memory, beside that of strip-sweep: about 180 (2D) or 300 (3D) bytes a box.
+// Memory, beside that of strip-sweep: 170 to 210 (2D) or 280 to 360 (3D) bytes a box.
 // Part of `incremental`, which says when. From: L. Verlet, 1967; see motion.hpp. Making the next generation a slice at a
 // time is ours.
 #pragma once
@@ -83,7 +83,6 @@ template <int D> class Coherent {
   bool known_ = false;     // where boxes were is known from the generation before
   Walls walls_;            // when it was begun
   i32 period_ = 16;        // updates that it is to answer
-  i32 life_ = 16;          // updates that its fat boxes are to hold
   i32 making_ = 0;         // updates in which it is made, after the one that begins it
   i32 age_ = 0;            // updates since that
   i32 lasts_ = 0;          // updates that the current one is to answer still
@@ -176,7 +175,11 @@ template <int D> class Coherent {
     return boxes * (box_cost + all_costs / period) + (candidate_cost(boxes) + hit_cost / period) * all;
   }
 
+  /// What making the first generation may add to an update, in nanoseconds.
   static f64 added(f64 fresh) { return larger(bearable * fresh, unnoticed); }
+
+  /// Updates that fat boxes are to hold from the takeover on: the first are mended meanwhile.
+  i32 life() const { return known_ ? period_ : period_ + period_ / 2; }
 
   /// Updates of whose motion a fat box must hold.
   f64 ahead(i32 period) const { return period + 1 + (1 - foresight_) * period; }
@@ -420,9 +423,11 @@ template <int D> class Coherent {
     // What is left to do is shared by the updates that are left, but for mending, which comes in the last: only then can
     // be seen whether boxes are in fat ones that are to hold them from then on.
     f64 all = work() * boxes_, last = mending() * boxes_, left = larger(0, making_ - age_);
-    f64 budget = left > 0 ? smaller((all - spent_) / (left + 1), (all - last - spent_) / left) : all;
-    budget = larger(budget, all / 8 / (left + 1));
-    if (left == 0) budget = known_ ? __builtin_inf() : larger(added(fresh), 2 * last / period_);
+    f64 budget = known_ ? __builtin_inf() : larger(added(fresh), 2 * last / period_);
+    if (left > 0) {
+      budget = smaller((all - spent_) / (left + 1), (all - last - spent_) / left);
+      budget = larger(budget, all / 8 / (left + 1));
+    }
     while (begun_ && budget > 0 && stage_ != Stage::begin && (stage_ != Stage::mend || left == 0)) {
       f64 spent = slice(scene, options, budget, fresh);
       budget -= spent;
@@ -436,7 +441,6 @@ template <int D> class Coherent {
     Generation& g = next();
     boxes_ = scene.count;
     at_ = noted_ = 0;
-    life_ = known_ ? period_ : period_ + period_ / 2;  // the first is mended meanwhile
     age_ = 0;
     motion_ = lates_ = spent_ = 0;
     make_room(boxes_, boxes_);
@@ -549,7 +553,7 @@ template <int D> class Coherent {
   /// Fat boxes from `at_` on.
   NOINLINE void make_fat(const Scene<D>& scene, const Settings& options, u32 until) {
     Generation& g = next();
-    f32 begins = f32(larger(0, making_ - age_)), reach = begins + f32(life_);
+    f32 begins = f32(larger(0, making_ - age_)), reach = begins + f32(life());
     begins *= foresight_;
     g.excludes |= scene.excluded != nullptr;
     for (u32 slot = at_; slot < until; slot++) {
@@ -592,7 +596,7 @@ template <int D> class Coherent {
       strike(g, n);
       forget_grown(g, n);
     }
-    lasts_ = making_ + life_ - age_;
+    lasts_ = making_ + life() - age_;
     unchecked_ = known_ = true;
     found_ = f64(g.candidates.count) / boxes_;
     stage_ = Stage::begin;
