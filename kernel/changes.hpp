@@ -18,15 +18,6 @@ template <u32 bytes> bool differ(const void* one, const void* other) {
   return any(different);
 }
 
-/// The place of the first 8 bytes that differ, from `from` on; `until` where none do. All are multiples of 8.
-NOINLINE inline u64 first_difference(const void* one, const void* other, u64 from, u64 until) {
-  const u8* a = static_cast<const u8*>(one);
-  const u8* b = static_cast<const u8*>(other);
-  for (; from + 64 <= until && !differ<64>(a + from, b + from); from += 64) {}
-  for (; from < until && load<u64>(a + from) == load<u64>(b + from); from += 8) {}
-  return from;
-}
-
 class Changes {
   Buffer<u32> list_, bits_;
   u32 count_ = 0, words_ = 0;
@@ -52,6 +43,31 @@ class Changes {
   }
 
   void note_all() { some_ = false; }
+
+  /// Notes which boxes are not what they were, each given as one or two parts of so many bytes, and copies them there if
+  /// it is to; false where most are not.
+  template <u32 bytes> NOINLINE bool compare(const void* now, void* before, u32 slots, u32 parts, bool copies) {
+    const u8* a = static_cast<const u8*>(now);
+    u8* b = static_cast<u8*>(before);
+    u32 count = slots * parts;
+    u32 sample = smaller(slots, 64u), many = 0;
+    for (u64 k = 0; k < sample; k++) {
+      u64 at = count * k / sample * bytes;
+      many += differ<bytes>(a + at, b + at);
+    }
+    if (many > sample / 2) return false;
+    for (u32 k = 0; k < count; k += 4) {
+      if (k + 4 <= count && !differ<4 * bytes>(a + u64(k) * bytes, b + u64(k) * bytes)) continue;
+      ROLLED
+      for (u32 part = k; part < smaller(k + 4, count); part++) {
+        u64 at = u64(part) * bytes;
+        if (!differ<bytes>(a + at, b + at)) continue;
+        if (copies) __builtin_memcpy(b + at, a + at, bytes);
+        note(part / parts);
+      }
+    }
+    return !most(slots);
+  }
 
   /// From now on nothing has changed.
   void clear(u32 slots) {

@@ -447,8 +447,14 @@ template <int D> class Space {
     const u32* slots = as_given ? techniques_.unexpected(ran_, {boxes_.data(), ids_.count(), nullptr}, many) : nullptr;
     if (!slots) return bad_in_place();
     looked_at = true;
+    return bad_of(slots, many);
+  }
+
+  /// The id of the first bad box among these, or -1.
+  i32 bad_of(const u32* slots, u32 many) const {
     for (u32 k = 0; k < many; k++) {
-      if (first_bad(boxes_.data() + u64(slots[k]) * width, 1) >= 0) return i32(ids_.id(slots[k]));
+      u32 slot = slots[k];
+      if (slot < ids_.count() && first_bad(boxes_.data() + u64(slot) * width, 1) >= 0) return i32(ids_.id(slot));
     }
     return -1;
   }
@@ -457,20 +463,9 @@ template <int D> class Space {
   COLD i32 see_written(bool& looked_at) {
     u32 n = ids_.count();
     if (copied_ == n && !changes_.all()) {
-      constexpr u32 bytes = width * sizeof(f32);
-      u64 at = 0, end = u64(n) * bytes;
-      bool little = alike(boxes_.data(), before_.data(), n, bytes);
-      while (little && (at = first_difference(boxes_.data(), before_.data(), at, end)) < end) {
-        u32 slot = u32(at / bytes);
-        const f32* box = boxes_.data() + u64(slot) * width;
-        if (first_bad(box, 1) >= 0) return i32(ids_.id(slot));  // not copied: it will be seen again, and what follows it
-        __builtin_memcpy(before_.data() + u64(slot) * width, box, bytes);
-        changes_.note(slot);
-        little = !changes_.most(n);
-        at = u64(slot + 1) * bytes;
-      }
+      bool little = changes_.compare<width * sizeof(f32)>(boxes_.data(), before_.data(), n, 1, true);
       compared(little);
-      if (little) return -1;
+      if (little) return bad_of(changes_.list(), changes_.count());
     }
     copied_ = 0;
     changes_.note_all();
@@ -485,35 +480,15 @@ template <int D> class Space {
   /// Notes which of the boxes that were staged differ from those that stand.
   COLD void note_staged() {
     if (changes_.all() || !compares()) return changes_.note_all();
-    u32 n = ids_.count();
     const void* now = staged_.data();
-    const void* before = boxes_.data();
-    u32 bytes = width * sizeof(f32);
+    void* before = boxes_.data();
     if (rounding_) {
       now = staged_exact_.data();
       before = exact_.data();
-      bytes = width * sizeof(f64);
     }
-    u64 at = 0, end = u64(n) * bytes;
-    bool little = alike(now, before, n, bytes);
-    while (little && (at = first_difference(now, before, at, end)) < end) {
-      u32 slot = u32(at / bytes);
-      changes_.note(slot);
-      little = !changes_.most(n);
-      at = u64(slot + 1) * bytes;
-    }
+    bool little = changes_.compare<width * sizeof(f32)>(now, before, ids_.count(), rounding_ ? 2 : 1, false);
     compared(little);
     if (!little) changes_.note_all();
-  }
-
-  /// Whether of a sample of n items most are what they were.
-  COLD static bool alike(const void* now, const void* before, u32 n, u32 bytes) {
-    u32 sample = smaller(n, 64u), different = 0;
-    for (u32 k = 0; k < sample; k++) {
-      u64 at = u64(n) * k / sample * bytes;
-      different += first_difference(now, before, at, at + bytes) < at + bytes;
-    }
-    return different <= sample / 2;
   }
 
   /// Whether boxes are compared with those of before; not for a while where it was of no use.

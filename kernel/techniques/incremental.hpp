@@ -502,12 +502,9 @@ template <int D> class Incremental {
     bool listed = scene.changes && !scene.changes->all(), fills = queued_ > 2 * portion_;
     if (fills && !listed) unchecked_ = true;
     if (listed && !unchecked_) {
-      const u32* list = scene.changes->list();
-      for (u32 k = 0; k < scene.changes->count(); k++) {
-        if (list[k] < both) check(scene, list[k], sweeps);
-      }
+      check(scene, scene.changes->list(), scene.changes->count(), both, sweeps);
     } else if (!fills) {
-      for (u32 slot = 0; slot < both; slot++) check(scene, slot, sweeps);
+      check(scene, nullptr, both, both, sweeps);
       unchecked_ = false;
     }
     if (any_woken_) unsettle(pairs, larger(n, had));
@@ -516,16 +513,20 @@ template <int D> class Incremental {
     for (u32 slot = had; slot < n; slot++) expect(scene, slot);
   }
 
-  /// Finds out whether a mover has left its fat boxes, wakes a box at rest that is not what it was, and sees to it that
-  /// one with another tag is put in anew.
-  void check(const Scene<D>& scene, u32 slot, bool& sweeps) {
-    const Known& known = known_[slot];
-    const f32* box = scene.box(slot);
-    u32 excluded = scene.excluded_of(slot);
-    if (known.tag == excluded) {
-      if (!inside<D>(box, known.box)) add_late(slot);
-    } else if (known.tag != (excluded | rests) || !equal(box, known.box)) {
-      changed(scene, slot, sweeps);
+  /// Finds out which movers have left their fat boxes, wakes boxes at rest that are not what they were, and sees to it that
+  /// those with other tags are put in anew. Looks at the slots of a list that are below `both`, or at as many from 0 on.
+  NOINLINE void check(const Scene<D>& scene, const u32* list, u32 many, u32 both, bool& sweeps) {
+    for (u32 k = 0; k < many; k++) {
+      u32 slot = list ? list[k] : k;
+      if (slot >= both) continue;
+      const Known& known = known_[slot];
+      const f32* box = scene.box(slot);
+      u32 excluded = scene.excluded_of(slot);
+      if (known.tag == excluded) {
+        if (!inside<D>(box, known.box)) add_late(slot);
+      } else if (known.tag != (excluded | rests) || !equal(box, known.box)) {
+        changed(scene, slot, sweeps);
+      }
     }
   }
 
