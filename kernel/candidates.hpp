@@ -51,15 +51,15 @@ template <int D> class Candidates {
     }
     pair_count_ = u32(Pairs::between(pairs_.data(), out));
     u32 near[8], many = 0;
-    for (u32 j = 0; j < stills.count; j += 4) {
+    for (u32 j = 0; j < stills.count; j += 8) {
       u32 hits = bitmask(mover.hits(resting, j, load<u32x4>(resting.tag + j)));
-      u8x16 front = load<u8x16>(detail::swizzles.of[hits]);
-      store(near + many, swizzle(bits<u8x16>(u32x4{0, 1, 2, 3} + splat(j)), front));
-      many += detail::bits_set[hits];
-      if (many < 4) continue;
-      copy(mover.slot, stills, near);
-      store(near, load<u32x4>(near + 4));
-      many -= 4;
+      hits |= bitmask(mover.hits(resting, j + 4, load<u32x4>(resting.tag + j + 4))) << 4;
+      for (; hits; hits &= hits - 1) {
+        near[many++] = j + u32(__builtin_ctz(hits));
+        if (many < 4) continue;
+        copy(mover.slot, stills, near);
+        many = 0;
+      }
     }
     if (many == 0) return;
     store(near + many, splat(stills.count));  // behind the last all is NaN
@@ -101,16 +101,23 @@ template <int D> class Candidates {
       *out = pair;
       out += !(~bitmask(hit) & ((1 << D) - 1));
     }
+    f32x4 lows[D], highs[D];
+    for (int a = 0; a < D; a++) {
+      lows[a] = splat(least[a]);
+      highs[a] = splat(most[a]);
+    }
     const Meeting* meeting = meetings_.data();
     for (const Meeting* end = meeting + meeting_count_; meeting < end; meeting++) {
       const f32* box = boxes + u64(meeting->mover[0]) * width;
-      i32x4 hits = ~i32x4{};
+      i32x4 hits[D];
       for (int a = 0; a < D; a++) {
         f32x4 first = splat(box[a]), second = load<f32x4>(meeting->bounds[a]), corner = max(first, second);
-        hits &= (second <= splat(box[D + a])) & (first <= load<f32x4>(meeting->bounds[D + a]));
-        hits &= (corner >= splat(low[a])) & ~(corner >= splat(high[a]));
+        hits[a] = (second <= splat(box[D + a])) & (first <= load<f32x4>(meeting->bounds[D + a]));
+        hits[a] &= (corner >= lows[a]) & ~(corner >= highs[a]);
       }
-      out = append(out, load<u32x4>(meeting->mover), load<u32x4>(meeting->slots), bitmask(hits));
+      i32x4 all = hits[0] & hits[1];
+      if constexpr (D == 3) all &= hits[2];
+      out = append(out, load<u32x4>(meeting->mover), load<u32x4>(meeting->slots), bitmask(all));
     }
     pairs.count = Pairs::between(pairs.list.data(), out);
   }
@@ -124,11 +131,15 @@ template <int D> class Candidates {
   }
 
   /// Copies four boxes at rest.
-  template <class Stills> COLD void copy(u32x4 mover, const Stills& stills, const u32* from) {
+  template <class Stills> NOINLINE void copy(u32x4 mover, const Stills& stills, const u32* from) {
     Meeting& to = open(mover);
-    for (u32 k = 0; k < 4; k++) {
-      for (u32 r = 0; r < width; r++) to.bounds[r][k] = stills.row(r)[from[k]];
-      to.slots[k] = stills.tags()[from[k]] & slot_mask;
+    u32 a = from[0], b = from[1], c = from[2], d = from[3];
+    ROLLED
+    for (u32 r = 0; r < width; r++) {
+      const f32* row = stills.row(r);
+      store(to.bounds[r], f32x4{row[a], row[b], row[c], row[d]});
     }
+    const u32* tags = stills.tags();
+    store(to.slots, u32x4{tags[a], tags[b], tags[c], tags[d]} & splat(slot_mask));
   }
 };
