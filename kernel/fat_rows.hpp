@@ -45,6 +45,7 @@ template <int D, u32 more> struct FatRows {
   /// Takes the box at a place away; the last one comes there.
   void take(u32 at) {
     u32 last = --count;
+    ROLLED
     for (u32 k = 0; k < height; k++) row(k)[at] = row(k)[last];
     row(0)[last] = __builtin_nanf("");
     tags()[last] = slot_mask;

@@ -300,6 +300,30 @@ test.each([2, 3] as const)(
   },
 );
 
+test('boxes that all stand in a row are kept too, though a row cannot be made ready a part at a time', () => {
+  const random = createRandom(12);
+  const count = 3000;
+  const boxes = new Float32Array(4 * count);
+  for (let id = 0; id < count; id++) {
+    const x = random() * 8 * count;
+    boxes.set([x, 0, x + 10, 10], 4 * id);
+  }
+  const space = new BroadPhase().setAll(boxes);
+  let answered = 0;
+  for (let frame = 0; frame < 220; frame++) {
+    for (let id = 0; id < count; id += 20) {
+      boxes[4 * id]! += 0.5;
+      boxes[4 * id + 2]! += 0.5;
+      space.set(id, boxes[4 * id]!, 0, boxes[4 * id + 2]!, 10);
+    }
+    space.update();
+    if (space.stats.reason.includes('is kept')) answered++;
+    if (frame % 10 > 1) continue;
+    expect(keysOf(space.pairs), `frame ${frame}`).toEqual(keysOf(findPairs(boxes)));
+  }
+  expect(answered, 'updates answered from what is kept').toBeGreaterThan(40);
+});
+
 test('auto says what it chose and why', () => {
   const random = createRandom(9);
   const space = new BroadPhase();

@@ -31,6 +31,7 @@ template <int D> class Coherent {
   static constexpr i32 blind_making = 16;  // of one whose fat boxes must hold from when they are made
   // What making the first generation may add to an update, as a share of strip sweep or in nanoseconds.
   static constexpr f64 bearable = 0.12, unnoticed = 1e4;
+  static constexpr f64 bearable_once = 0.5, unnoticed_once = 8e4;  // the same for what cannot be shared out: one strip
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where none is late
   static constexpr f64 spread = D == 2 ? 0.75 : 0.67;  // of motion along an axis, to that along the fastest
   // What the work of a generation costs for each box, in nanoseconds: making its fat box and counting it, entering it in
@@ -48,7 +49,6 @@ template <int D> class Coherent {
   static constexpr f64 bearable_lost = 0.5;  // what seeing to those that are not may cost, as a share of strip sweep
   static constexpr u32 watched = 3;  // it is noted where a box stands about so many updates before its fat box is made
   static constexpr u32 sampled = 4;  // of so many boxes one is asked how fast it is
-  static constexpr f64 most_found = 2;  // times as many candidates as expected: it is given up too
   static constexpr f64 much_faster = 0.1;  // than expected, in sizes: what is begun is given up
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
 
@@ -107,9 +107,9 @@ template <int D> class Coherent {
 
   bool begun() const { return begun_; }
 
-  COLD void begin(f64 boxes, f64 hits, f64 share, f64 pace, f64 fresh) {
-    begun_ = true;
-    make_room(u32(boxes), u32(boxes));  // not in the update that first looks at all of them
+  /// Begins the first generation. `lists`: the strips of strip-sweep; where they are so few that sweeping one of fat boxes,
+  /// which is done at once, would take too long for an update, nothing is begun.
+  COLD void begin(f64 boxes, f64 lists, f64 hits, f64 share, f64 pace, f64 fresh) {
     pace_ = f32(share * pace);
     period_ = best_period(boxes, hits, share, pace);
     stage_ = Stage::begin;
@@ -118,6 +118,11 @@ template <int D> class Coherent {
     hits_ = -1;
     found_ = candidates(boxes, hits, share, pace, 1.5 * ahead(period_)) / boxes;
     lost_ = 0;
+    for (int a = 1; a < D; a++) lists /= growth();
+    f64 strip = (stage_costs()[2] + hit_cost * found_) * boxes / larger(lists, 1);
+    begun_ = strip <= larger(bearable_once * fresh, unnoticed_once);
+    if (!begun_) return;
+    make_room(u32(boxes), u32(boxes));  // not in the update that first looks at all of them
     // The longer the first one takes, the less does an update pay for it, but the later does it answer.
     making_ = i32(larger(f64(least_making), smaller(f64(most_making), work() * boxes / added(fresh))));
   }
@@ -180,6 +185,9 @@ template <int D> class Coherent {
 
   /// Updates that fat boxes are to hold from the takeover on: the first are mended meanwhile.
   i32 life() const { return known_ ? period_ : period_ + period_ / 2; }
+
+  /// How many times as long as boxes fat ones are.
+  f64 growth() const { return 1 + spread * pace_ * ahead(period_); }
 
   /// Updates of whose motion a fat box must hold.
   f64 ahead(i32 period) const { return period + 1 + (1 - foresight_) * period; }
@@ -446,12 +454,13 @@ template <int D> class Coherent {
     make_room(boxes_, boxes_);
     g.fat.reserve(u64(boxes_) * width + padding);
     g.excluded.reserve(boxes_);
-    g.candidates.list.reserve(u64(smaller(found_, 16.0) * boxes_) + Pairs::slack);
+    // Room for half as many again: where that is not enough they are copied, which takes long.
+    g.candidates.list.reserve(u64(smaller(1.5 * found_, 16.0) * boxes_) + Pairs::slack);
     g.candidates.count = 0;
     g.excludes = false;
     walls_ = Walls::empty();
     stage_ = Stage::fatten;
-    g.strips.begin(scene, 1 + spread * pace_ * f32(ahead(period_)), g.stats);
+    g.strips.begin(scene, growth(), g.stats);
     g.strips.cut_alike(g.grown);
   }
 
@@ -477,8 +486,6 @@ template <int D> class Coherent {
     } else {
       all = u32(g.stats.entries);
       until = all - g.strips.sweep(many, g.candidates);
-      // Far more than expected, among boxes that crowd at a wall: more would come, and all would have to be tested.
-      if (!known_ && g.candidates.count > most_found * found_ * boxes_) return forget(), budget;
     }
     f64 spent = (until - at_) * each;
     at_ = until;

@@ -253,10 +253,11 @@ template <int D> class Incremental {
       else pause_ = considered;
       return;
     }
-    if (by_generations <= worth * fresh_) coherent_.begin(n, hits, share, speed, fresh_);
-    else if (by_cells <= worth * fresh_) plan(scene);
-    else pause_ = first_pause;
+    if (by_generations <= worth * fresh_) coherent_.begin(n, anew_.lists(), hits, share, speed, fresh_);
     planned_ = n;
+    if (coherent_.begun()) return;
+    if (by_cells <= worth * fresh_) plan(scene);
+    else pause_ = first_pause;
   }
 
   /// Updates in which every cell should have one turn, given how far movers move in one as a share of their size: what
