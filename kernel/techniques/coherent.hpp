@@ -13,7 +13,7 @@
 // Cost: a pass over the boxes that may have moved and one over the candidates, some two or three times as many as pairs,
 // and a share of two or three strip sweeps: 4 to 10 ns a box in 2D, 10 to 30 in 3D. The updates in which the first
 // generation is made, up to fifty, cost about an eighth more than strip-sweep.
-// Memory, beside that of strip-sweep: 170 to 210 (2D) or 280 to 360 (3D) bytes a box.
+// Memory, beside that of strip-sweep: 180 to 230 (2D) or 290 to 400 (3D) bytes a box.
 // Part of `incremental`, which says when. From: L. Verlet, 1967; see motion.hpp. Making the next generation a slice at a
 // time is ours.
 #pragma once
