@@ -2,7 +2,8 @@
 // Idea: two that move are a pair of slots. A box at rest is where it was when it was found, so it is copied, next to the
 // others that the same mover may meet: four at a time are tested against one, and nobody has to fetch them from where they
 // stand, each in another line of the cache.
-// Cost: 3 to 5 ns for two that move, about as much for one that moves and four at rest, 10 where the caches are cold;
+// Cost: 3 to 5 ns for two that move, about as much for one that moves and four at rest, 10 where the caches are cold, and
+// 17, its cell included, where each cell has but two or three of these; to find them again 1 ns for each box at rest;
 // 8 bytes a pair that moves, 24 (2D) or 32 (3D) for a box at rest where a mover meets four.
 #pragma once
 #include "fat_rows.hpp"
@@ -54,7 +55,7 @@ template <int D> class Candidates {
     for (u32 j = 0; j < stills.count; j += 8) {
       u32 hits = bitmask(mover.hits(resting, j, load<u32x4>(resting.tag + j)));
       hits |= bitmask(mover.hits(resting, j + 4, load<u32x4>(resting.tag + j + 4))) << 4;
-      for (; hits; hits &= hits - 1) {
+      for (; hits; hits &= hits - 1) {  // most eights have none
         near[many++] = j + u32(__builtin_ctz(hits));
         if (many < 4) continue;
         copy(mover.slot, stills, near);
@@ -101,7 +102,7 @@ template <int D> class Candidates {
       *out = pair;
       out += !(~bitmask(hit) & ((1 << D) - 1));
     }
-    f32x4 lows[D], highs[D];
+    f32x4 lows[D], highs[D];  // made in the loop they would go through memory each time
     for (int a = 0; a < D; a++) {
       lows[a] = splat(least[a]);
       highs[a] = splat(most[a]);

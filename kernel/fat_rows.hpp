@@ -7,7 +7,8 @@
 /// Fat boxes as structure of arrays that grow: minima, maxima, tags, then `more` rows of the owner's.
 /// Behind the last box the first row is NaN, which overlaps nothing, and no tag names a slot.
 template <int D, u32 more> struct FatRows {
-  static constexpr u32 width = 2 * D, height = width + 1 + more, padding = 8;
+  static constexpr u32 width = 2 * D, height = width + 1 + more;
+  static constexpr u32 padding = 8;  // so many are tested at a time, at most: what is read behind the last box
   static constexpr u32 nowhere = 0xffffffff;
   Buffer<f32> values;
   u32 stride = 0, count = 0;

@@ -465,6 +465,7 @@ template <int D> class Space {
     if (copied_ == n && !changes_.all()) {
       bool little = changes_.compare<width * sizeof(f32)>(boxes_.data(), before_.data(), n, 1, true);
       compared(little);
+      // A bad one is copied like any other; until it is mended it stays on the list, which is looked at whole.
       if (little) return bad_of(changes_.list(), changes_.count());
     }
     copied_ = 0;
