@@ -92,7 +92,6 @@ class Events {
         next = at + 1;
       }
     }
-    ROLLED
     for (u64 p = 0; p < old_count; p++) {
       *ended_end = old[p];
       ended_end += !met[p];

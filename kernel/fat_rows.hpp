@@ -8,7 +8,7 @@
 /// Behind the last box the first row is NaN, which overlaps nothing, and no tag names a slot.
 template <int D, u32 more> struct FatRows {
   static constexpr u32 width = 2 * D, height = width + 1 + more;
-  static constexpr u32 padding = 8;  // so many are tested at a time, at most: what is read behind the last box
+  static constexpr u32 padding = more ? 4 : 8;  // so many are tested at a time, at most: what is read behind the last box
   static constexpr u32 nowhere = 0xffffffff;
   Buffer<f32> values;
   u32 stride = 0, count = 0;
@@ -33,6 +33,16 @@ template <int D, u32 more> struct FatRows {
   COLD void release() {
     values.release();
     stride = count = 0;
+  }
+
+  /// Reads from each line of the cache that boxes are in: see Candidates.
+  NOINLINE u32 fetch() const {
+    u32 read = 0;
+    ROLLED
+    for (u32 r = 0; r < height; r++) {
+      for (u32 k = 0; k < count; k += cache_line / sizeof(f32)) read ^= bits<u32>(row(r)[k]);
+    }
+    return read;
   }
 
   /// Adds a box; gives its place.

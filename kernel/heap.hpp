@@ -13,7 +13,7 @@
 // Around the code of a whole file that may be small rather than fast.
 #define SMALL_CODE _Pragma("clang attribute push(__attribute__((minsize)), apply_to = function)")
 #define END_OF_SMALL_CODE _Pragma("clang attribute pop")
-// Before a loop that is long enough without being unrolled.
+// Before a loop of known length that is long enough without being unrolled.
 #define ROLLED _Pragma("clang loop unroll(disable)")
 #else
 #define COLD __attribute__((noinline, cold))
@@ -45,6 +45,8 @@ struct Failure {
 };
 [[noreturn]] inline void fail(Fault what, f64 bytes) { throw Failure{what, bytes}; }
 #endif
+
+inline constexpr u32 cache_line = 64;  // bytes that come from memory together, on all that matters
 
 namespace heap {
 

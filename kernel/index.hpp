@@ -172,7 +172,6 @@ template <int D> class Index {
       ROLLED for (u32 lane = 0; lane < smaller(n - s, 4u); lane++) sort_.put_bits(s + lane, key[lane]);
     }
     sort_.sort(n);
-    ROLLED
     for (u32 k = 0; k < n; k++) slots[k] = sort_.index(k);
     if (!named_) return;
     placed_ids_.reserve(n);

@@ -32,7 +32,6 @@ class PairOrder {
     u32* counts = counts_.reserve(values);
     for (u32 p = 0; p < passes; p++) {  // an even number: the last one ends in the list
       __builtin_memset(counts, 0, values * sizeof(u32));
-      ROLLED
       for (u64 k = 0; k < count; k++) counts[from[k] >> shifts[p] & (values - 1)]++;
       u32 at = 0;
       ROLLED
@@ -41,7 +40,6 @@ class PairOrder {
         counts[v] = at;
         at += here;
       }
-      ROLLED
       for (u64 k = 0; k < count; k++) to[counts[from[k] >> shifts[p] & (values - 1)]++] = from[k];
       u64* done = from;
       from = to;

@@ -55,7 +55,7 @@ class Hits {
   }
 
   void insert(u32 at, Hit hit) {
-    ROLLED for (; at > 0 && hit < list_[at - 1]; at--) list_[at] = list_[at - 1];
+    for (; at > 0 && hit < list_[at - 1]; at--) list_[at] = list_[at - 1];
     list_[at] = hit;
   }
 
@@ -350,7 +350,7 @@ template <int D> class Queries {
       store(to + lane, sum);
       close |= at_most(sum, splat(limit)) << lane;
     }
-    ROLLED for (u32 left = index_.rounded() ? close : 0; left; left &= left - 1) {
+    for (u32 left = index_.rounded() ? close : 0; left; left &= left - 1) {
       u32 lane = u32(__builtin_ctz(left));
       f64 box[2 * D];
       index_.box(number * 8 + lane, box);

@@ -47,7 +47,6 @@ class RadixSort {
         counts[v] = at;
         at += count;
       }
-      ROLLED
       for (u32 k = 0; k < n; k++) {
         Entry entry = from_[k];
         to_[counts[entry.key >> (p * digit) & (values - 1)]++] = entry;

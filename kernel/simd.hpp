@@ -23,6 +23,7 @@ typedef f32 f32x4 __attribute__((vector_size(16)));
 typedef i32 i32x4 __attribute__((vector_size(16)));
 typedef u32 u32x4 __attribute__((vector_size(16)));
 typedef f64 f64x2 __attribute__((vector_size(16)));
+typedef u64 u64x2 __attribute__((vector_size(16)));
 typedef f32 f32x2 __attribute__((vector_size(8)));
 typedef i16 i16x8 __attribute__((vector_size(16)));
 typedef u8 u8x16 __attribute__((vector_size(16)));
@@ -58,6 +59,9 @@ inline u32 bitmask(i16x8 a, i16x8 b) {
 /// One bit a lane: whether a is at most b.
 inline u32 at_most(f64x2 a, f64x2 b) { return wasm_i64x2_bitmask(bits<v128_t>(a <= b)); }
 inline bool any(i32x4 v) { return wasm_v128_any_true(bits<v128_t>(v)); }
+/// Two doubles as float32 in the lower lanes, and back.
+inline f32x4 narrow(f64x2 v) { return bits<f32x4>(wasm_f32x4_demote_f64x2_zero(bits<v128_t>(v))); }
+inline f64x2 widen(f32x4 v) { return bits<f64x2>(wasm_f64x2_promote_low_f32x4(bits<v128_t>(v))); }
 inline u32x4 min(u32x4 a, u32x4 b) { return bits<u32x4>(wasm_u32x4_min(bits<v128_t>(a), bits<v128_t>(b))); }
 inline u32x4 max(u32x4 a, u32x4 b) { return bits<u32x4>(wasm_u32x4_max(bits<v128_t>(a), bits<v128_t>(b))); }
 /// min and max of floats; where one is NaN the result is the second.
@@ -75,6 +79,8 @@ inline u32 bitmask(i16x8 a, i16x8 b) {
 }
 inline u32 at_most(f64x2 a, f64x2 b) { return u32(_mm_movemask_pd(bits<__m128d>(a <= b))); }
 inline bool any(i32x4 v) { return !_mm_testz_si128(bits<__m128i>(v), bits<__m128i>(v)); }
+inline f32x4 narrow(f64x2 v) { return bits<f32x4>(_mm_cvtpd_ps(bits<__m128d>(v))); }
+inline f64x2 widen(f32x4 v) { return bits<f64x2>(_mm_cvtps_pd(bits<__m128>(v))); }
 inline u32x4 min(u32x4 a, u32x4 b) { return bits<u32x4>(_mm_min_epu32(bits<__m128i>(a), bits<__m128i>(b))); }
 inline u32x4 max(u32x4 a, u32x4 b) { return bits<u32x4>(_mm_max_epu32(bits<__m128i>(a), bits<__m128i>(b))); }
 inline f32x4 min(f32x4 a, f32x4 b) { return bits<f32x4>(_mm_min_ps(bits<__m128>(a), bits<__m128>(b))); }

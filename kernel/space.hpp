@@ -74,19 +74,21 @@ template <int D> class Space {
 
   /// Adds or moves a box: D minima, then D maxima, none NaN, no minimum above its maximum.
   void set(u32 id, const f64* box) {
-    f32 low_high[width];
-    bool exact = round_outward(box, low_high);
+    f32x4 first, last;  // never in memory: see round_outward
+    bool exact = round_outward(box, first, last);
     if (!exact && !rounding_) start_rounding();
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) {
       make_room(u64(ids_.count()) + 1, ids_.count());
       slot = ids_.insert(id);
       if (filters_.active()) filters_.insert(slot);
-    } else if (is_as_before(slot, low_high, box)) {
+    } else if (changes_.asks() && changes_.tell(is_as_before(slot, first, last, box))) {
       return;
     }
     changes_.note(slot);
-    __builtin_memcpy(boxes_.data() + u64(slot) * width, low_high, sizeof(low_high));
+    f32* to = boxes_.data() + u64(slot) * width;
+    store(to, first);
+    store(to + width - 4, last);
     if (rounding_) {
       __builtin_memcpy(exact_.data() + u64(slot) * width, box, width * sizeof(f64));
       rounded_[slot] = !exact;
@@ -505,10 +507,11 @@ template <int D> class Space {
   }
 
   /// Whether a box stands in a slot as it is given.
-  bool is_as_before(u32 slot, const f32* low_high, const f64* box) const {
+  bool is_as_before(u32 slot, f32x4 first, f32x4 last, const f64* box) const {
     u64 at = u64(slot) * width;
     if (rounding_) return !differ<width * sizeof(f64)>(exact_.data() + at, box);
-    return !differ<width * sizeof(f32)>(boxes_.data() + at, low_high);
+    const f32* old = boxes_.data() + at;
+    return !any((load<i32x4>(old) ^ bits<i32x4>(first)) | (load<i32x4>(old + width - 4) ^ bits<i32x4>(last)));
   }
 
   /// What was staged is now what stands in the space; `rounded`: with doubles that float32 cannot hold.
@@ -610,14 +613,17 @@ template <int D> class Space {
     return -1;
   }
 
-  /// Rounds a box outward; says whether float32 holds its numbers.
-  static bool round_outward(const f64* box, f32* to) {
+  /// A box rounded outward: its first and its last four numbers. Says whether float32 holds it.
+  static bool round_outward(const f64* box, f32x4& first, f32x4& last) {
+    f32x4 pairs[D];
     bool exact = true;
-    for (u32 k = 0; k < width; k++) {
-      to[k] = f32(box[k]);
-      exact &= f64(to[k]) == box[k];
+    for (u32 a = 0; a < D; a++) {
+      // Read one by one, as they were written: a read of more than one write waits for all writes before it.
+      f64x2 numbers = {box[2 * a], box[2 * a + 1]};
+      pairs[a] = round_down(numbers, f64x2{2 * a < D ? 0.0 : -0.0, 2 * a + 1 < D ? 0.0 : -0.0}, exact);
     }
-    for (u32 k = 0; k < width && !exact; k++) to[k] = k < D ? round_down(box[k]) : round_up(box[k]);
+    first = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 4, 5);
+    last = __builtin_shufflevector(pairs[D - 2], pairs[D - 1], 0, 1, 4, 5);
     return exact;
   }
 
@@ -630,7 +636,10 @@ template <int D> class Space {
       bool good = true;
       for (int a = 0; a < D; a++) good &= box[a] <= box[D + a];
       if (!good) return i32(s);
-      bool exact = round_outward(box, to + u64(s) * width);
+      f32x4 first, last;
+      bool exact = round_outward(box, first, last);
+      store(to + u64(s) * width, first);
+      store(to + u64(s) * width + width - 4, last);
       staged_rounded_[s] = !exact;
       rounded |= !exact;
     }

@@ -158,14 +158,12 @@ template <int D> SHARED Statistics<D> judge(u32 n) {
     extents(sample[a], n, found.low[a], found.high[a]);
     f64 extent = found.high[a] - found.low[a];
     f64 sum = 0;
-    ROLLED
     for (u32 k = 0; k < n; k++) {
       f64 size = f64(sample[D + a][k]) - f64(sample[a][k]);
       if (size > 0) sum += smaller(size, extent);  // not where both are the same infinity: NaN
     }
     found.size[a] = sum / n;
     f64 scale = extent > 0 ? side / extent : 0;
-    ROLLED
     for (u32 k = 0; k < n; k++) {
       f64 at = (f64(sample[a][k]) - found.low[a]) * scale;
       u32 index = at > 0 ? u32(smaller(at, f64(side - 1))) : 0;
@@ -177,7 +175,6 @@ template <int D> SHARED Statistics<D> judge(u32 n) {
   static u16 histogram[cells];
   for (u32 c = 0; c < cells; c++) histogram[c] = 0;
   f64 meetings = 0;
-  ROLLED
   for (u32 k = 0; k < n; k++) meetings += 2 * histogram[cell[k]]++;
   found.crowding = n < 64 ? 1 : larger(1.0, meetings * cells / (f64(n) * (n - 1)));
   return found;

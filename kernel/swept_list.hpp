@@ -36,11 +36,9 @@ template <int D> class SweptList {
       store(cells + k, at);
       for (int lane = 0; lane < 4; lane++) starts[at[lane]]++;
     }
-    ROLLED
     for (u32 k = whole; k < count; k++) starts[cells[k] = axes(splat(items[k].lo(0)))[0]]++;
     u32 at = 0;
     u64 crowd = 0;  // the sum of the squares: what the unsorted cells cost
-    ROLLED
     for (u32 c = 0; c < count; c++) {
       u32 size = starts[c];
       starts[c] = at;
@@ -48,7 +46,6 @@ template <int D> class SweptList {
       crowd += u64(size) * size;
     }
     ItemsAt<D> ordered(ordered_, 0);
-    ROLLED
     for (u32 k = 0; k < count; k++) ordered.put(starts[cells[k]]++, items[k]);
     lanes_.fill(ordered, count);
 
@@ -61,7 +58,6 @@ template <int D> class SweptList {
       u32x4 until = {starts[at[0]], starts[at[1]], starts[at[2]], starts[at[3]]};
       store(end + k, until);
     }
-    ROLLED
     for (u32 k = 0; k < count; k++) tests += end[k] - k - 1;
     if (crowd > uneven * count && 3 * crowd > tests) return order_by_sorting(items, count);
     return tests;
@@ -117,11 +113,9 @@ template <int D> class SweptList {
   /// The same by a full sort: for strips where cells of one size do not fit.
   u64 order_by_sorting(const ItemsAt<D>& items, u32 count) {
     sort_.begin(count);
-    ROLLED
     for (u32 k = 0; k < count; k++) sort_.put(k, items[k].lo(0));
     sort_.sort(count);
     ItemsAt<D> ordered(ordered_, 0);
-    ROLLED
     for (u32 k = 0; k < count; k++) ordered.put(k, items[sort_.index(k)]);
     lanes_.fill(ordered, count);
     const f32* lo = lanes_.lo(0);
@@ -150,7 +144,6 @@ template <int D> class SweptList {
   /// Cells along the sweep axis, as many as there are items, over the range of those that are finite.
   static Axis axis_of(const ItemsAt<D>& items, u32 count) {
     f32x4 least = items[0].first(), most = least;
-    ROLLED
     for (u32 k = 1; k < count; k++) {
       f32x4 x = items[k].first();
       least = min(least, x);
@@ -160,7 +153,6 @@ template <int D> class SweptList {
     if (!detail::is_finite(low) || !detail::is_finite(high)) {
       low = __builtin_inff();
       high = -low;
-      ROLLED
       for (u32 k = 0; k < count; k++) {
         f32 x = items[k].lo(0);
         if (!detail::is_finite(x)) continue;

@@ -79,7 +79,6 @@ class Wrap {
     count = count_ + ghosts;
     if (excluded) {
       u32* bits = excluded_.reserve(count);
-      ROLLED
       for (u32 k = 0; k < count; k++) bits[k] = excluded[k < count_ ? k : owners_[k - count_] & slot_mask];
       excluded = bits;
     }

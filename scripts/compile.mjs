@@ -19,6 +19,9 @@ export const flags = [
   '-fno-exceptions',
   '-fno-rtti',
   '-ffp-contract=off',
+  // Nor does it pay to unroll loops of which it does not know how long they are.
+  '-mllvm',
+  '-unroll-runtime=false',
   '-Ikernel',
   '-Wall',
   '-Wextra',

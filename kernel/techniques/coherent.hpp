@@ -243,7 +243,6 @@ template <int D> class Coherent {
       late_count_ += !(bitmask(expected(slot)) == 15 && excluded[slot] == scene.excluded_of(slot));
     };
     if (scene.changes && !scene.changes->all() && !unchecked_) {
-      ROLLED
       for (u32 k = 0; k < scene.changes->count(); k++) {
         if (scene.changes->list()[k] < until) check(scene.changes->list()[k]);
       }

@@ -44,7 +44,10 @@ template <int D> class Incremental {
   static constexpr u32 sample_share = 8;     // ... while they are filled, where it is one in so many of a sample
   static constexpr f32 least_period = 4, most_period = 64, growth = 1.15f;
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where few are late
-  static constexpr f64 few_late = 0.3;       // ... so many for each box that has its turn: it costs as much to be late
+  static constexpr f64 few_late = 1;         // ... one for each box that has its turn: it costs as much to be late
+  // Where boxes are many what an update needs stands far from the caches, and to wait for one thing after the other takes
+  // longer than to work on them. So what so many cells need is read beforehand, all at once.
+  static constexpr u32 together = 16;
   static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 watched = 512;        // boxes whose motion is looked at before anything is kept
   static constexpr f64 worth = 0.85;         // what is to be kept must promise to cost this share of a strip-sweep
@@ -98,6 +101,7 @@ template <int D> class Incremental {
   bool unchecked_ = false;  // boxes may have changed that were not looked at since
   enum class By : u32 { strips, generations, cells } by_ = By::strips;  // what answered the last update
   u32 cursor_ = 0;       // the cell whose turn is next
+  u32 read_ = 0;         // of what is read only to have it near
   u32 now_ = 0;          // updates, counted
   f32 period_ = 16, target_ = 16;  // updates in which every cell has one turn, and what that is to become
   f32 slack_ = least_slack;  // fat boxes reach to all sides, in motions of one update
@@ -662,13 +666,32 @@ template <int D> class Incremental {
 
   /// Lets the next cells have their turn.
   void take_turns(const Scene<D>& scene, const Settings& options, Stats& stats) {
-    u32 turns = smaller(leaves_, u32(f32(leaves_) / period_) + 1);
+    u32 turns = smaller(leaves_, u32(f32(leaves_) / period_) + 1), near = 0;
     for (; turns > 0 && leaves_ > 0; turns--) {
+      if (near == 0) {
+        near = smaller(turns, together);
+        fetch_for_turns(scene, smaller(leaves_, cursor_ + near));
+      }
+      near--;
       turn(cells_[cursor_], scene, options, stats);
       if (++cursor_ < leaves_) continue;
       cursor_ = 0;
       // Not by more than fat boxes reach further.
       period_ = larger(period_ * (2 - growth), smaller(period_ * growth, target_));
+    }
+  }
+
+  /// Reads what the turns of the next cells are going to read, up to one.
+  COLD void fetch_for_turns(const Scene<D>& scene, u32 until) {
+    for (u32 c = cursor_; c < until; c++) {
+      if (cells_[c].movers.count > 0) read_ ^= cells_[c].movers.fetch() ^ cells_[c].stills.fetch();
+    }
+    for (u32 c = cursor_; c < until; c++) {
+      const Movers& movers = cells_[c].movers;
+      for (u32 k = 0; k < movers.count; k++) {
+        u32 slot = movers.tags()[k] & slot_mask;
+        read_ ^= known_[slot].tag ^ bits<u32>(scene.box(slot)[0]);
+      }
     }
   }
 
@@ -766,6 +789,11 @@ template <int D> class Incremental {
     }
     pairs.count = pairs.kept = head;
     for (u32 c = 0; c < leaves_; c++) {
+      if (c % together == 0) {
+        u32 until = smaller(leaves_, c + together);
+        for (u32 k = c; k < until; k++) read_ ^= cells_[k].candidates.fetch();
+        for (u32 k = c; k < until; k++) read_ ^= cells_[k].candidates.fetch_boxes(scene.boxes);
+      }
       const Cell& cell = cells_[c];
       if (cell.candidates.count() == 0) continue;
       cell.candidates.report(scene.boxes, cell.low, cell.high, pairs);

@@ -332,16 +332,13 @@ template <int D> class StripSweep {
     u32 across = cut.across(), lists = cut.rows();
     u32* offsets = offsets_[depth].data();
     if constexpr (D == 3) {
-      ROLLED
       for (u32 l = 0; l < lists; l++) {
         if (l % across) offsets[l] += offsets[l - 1];
       }
     }
-    ROLLED
     for (u32 l = across; l < lists; l++) offsets[l] += offsets[l - across];
     u64 base = total;
     f64 tests = 0;  // relative to those of the uncut items
-    ROLLED
     for (u32 l = 0; l < lists; l++) {
       u32 here = offsets[l];
       offsets[l] = u32(total);

@@ -101,10 +101,8 @@ template <int D> class SweepAndPrune {
     Axis axis = Axis::make(world.low[axis_], world.high[axis_], n);
     Axes axes(axis, axis, axis, axis);
     for (u32 k = 0; k < n; k += 4) store(cells + k, axes(load<f32x4>(keys_.data() + k)));
-    ROLLED
     for (u32 k = 0; k < n; k++) starts[cells[k]]++;
     u32 at = 0;
-    ROLLED
     for (u32 c = 0; c < n; c++) {
       u32 size = starts[c];
       starts[c] = at;
@@ -112,7 +110,6 @@ template <int D> class SweepAndPrune {
     }
     dealt_keys_.reserve(n + 4);
     dealt_order_.reserve(n);
-    ROLLED
     for (u32 k = 0; k < n; k++) {
       u32 to = starts[cells[k]]++;
       dealt_keys_[to] = keys_[k];
