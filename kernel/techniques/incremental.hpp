@@ -45,8 +45,9 @@ template <int D> class Incremental {
   static constexpr f32 least_period = 4, most_period = 64, growth = 1.15f;
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where few are late
   static constexpr f64 few_late = 1;         // ... one for each box that has its turn: it costs as much to be late
-  // Where boxes are many what an update needs stands far from the caches, and to wait for one thing after the other takes
-  // longer than to work on them. So what so many cells need is read beforehand, all at once.
+  // Where so many move, what an update needs is more than the nearer caches hold, and to wait for one thing after the other
+  // takes longer than to work on it. So what so many cells need is read beforehand, all at once.
+  static constexpr f64 too_many_to_be_near = 3000;
   static constexpr u32 together = 16;
   static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 watched = 512;        // boxes whose motion is looked at before anything is kept
@@ -101,7 +102,8 @@ template <int D> class Incremental {
   bool unchecked_ = false;  // boxes may have changed that were not looked at since
   enum class By : u32 { strips, generations, cells } by_ = By::strips;  // what answered the last update
   u32 cursor_ = 0;       // the cell whose turn is next
-  u32 read_ = 0;         // of what is read only to have it near
+  bool far_ = false;     // what cells need is read together
+  u32 read_ = 0;         // of what is read only for that
   u32 now_ = 0;          // updates, counted
   f32 period_ = 16, target_ = 16;  // updates in which every cell has one turn, and what that is to become
   f32 slack_ = least_slack;  // fat boxes reach to all sides, in motions of one update
@@ -666,7 +668,7 @@ template <int D> class Incremental {
 
   /// Lets the next cells have their turn.
   void take_turns(const Scene<D>& scene, const Settings& options, Stats& stats) {
-    u32 turns = smaller(leaves_, u32(f32(leaves_) / period_) + 1), near = 0;
+    u32 turns = smaller(leaves_, u32(f32(leaves_) / period_) + 1), near = far_ ? 0 : turns;
     for (; turns > 0 && leaves_ > 0; turns--) {
       if (near == 0) {
         near = smaller(turns, together);
@@ -789,7 +791,7 @@ template <int D> class Incremental {
     }
     pairs.count = pairs.kept = head;
     for (u32 c = 0; c < leaves_; c++) {
-      if (c % together == 0) {
+      if (far_ && c % together == 0) {
         u32 until = smaller(leaves_, c + together);
         for (u32 k = c; k < until; k++) read_ ^= cells_[k].candidates.fetch();
         for (u32 k = c; k < until; k++) read_ ^= cells_[k].candidates.fetch_boxes(scene.boxes);
@@ -857,6 +859,7 @@ template <int D> class Incremental {
       moving_ += cells_[c].movers.count;
       candidates_ += cells_[c].candidates.count();
     }
+    far_ = moving_ > too_many_to_be_near;
     if (cost(moving_, candidates_, period_) <= fresh_) return true;
     forget();
     return false;
