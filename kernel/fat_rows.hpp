@@ -35,13 +35,10 @@ template <int D, u32 more> struct FatRows {
     stride = count = 0;
   }
 
-  /// Reads from each line of the cache that boxes are in: see Candidates.
-  NOINLINE u32 fetch() const {
+  /// Reads all boxes: see read_lines.
+  COLD u32 fetch() const {
     u32 read = 0;
-    ROLLED
-    for (u32 r = 0; r < height; r++) {
-      for (u32 k = 0; k < count; k += cache_line / sizeof(f32)) read ^= bits<u32>(row(r)[k]);
-    }
+    for (u32 r = 0; r < height; r++) read ^= read_lines(row(r), count * sizeof(f32));
     return read;
   }
 

@@ -240,7 +240,7 @@ template <int D> class Space {
   }
 
   /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
-  i32 update() {
+  COLD i32 update() {
     Technique chosen = choose();
     bool follows = chosen == Technique::incremental;
     bool looked_at = false;

@@ -90,7 +90,7 @@ template <int D> class StripSweep {
   Stats* stats_ = nullptr;
 
  public:
-  void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
+  COLD void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     stats_ = &stats;
     boxes_ = entered_ = scene.count;
     if (scene.count < 2) return;
