@@ -30,7 +30,8 @@ template <int D> class Candidates {
 
   /// Reads what `report` is going to read, first of this, then the boxes: see read_lines.
   u32 fetch() const {
-    return read_lines(pairs_.data(), pair_count_ * sizeof(u64)) ^ read_lines(meetings_.data(), meeting_count_ * sizeof(Meeting));
+    return read_lines(pairs_.data(), pair_count_ * sizeof(u64)) ^
+           read_lines(meetings_.data(), meeting_count_ * sizeof(Meeting));
   }
   COLD u32 fetch_boxes(const f32* boxes) const {
     u32 read = 0;

@@ -8,7 +8,9 @@
 /// Behind the last box the first row is NaN, which overlaps nothing, and no tag names a slot.
 template <int D, u32 more> struct FatRows {
   static constexpr u32 width = 2 * D, height = width + 1 + more;
-  static constexpr u32 padding = more ? 4 : 8;  // so many are tested at a time, at most: what is read behind the last box
+  // So many are tested at a time, at most, which is what is read behind the last box: eight of those that rest, of which a
+  // cell has many and whose owners keep nothing more; four of those that move.
+  static constexpr u32 padding = more ? 4 : 8;
   static constexpr u32 nowhere = 0xffffffff;
   Buffer<f32> values;
   u32 stride = 0, count = 0;

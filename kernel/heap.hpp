@@ -46,7 +46,7 @@ struct Failure {
 [[noreturn]] inline void fail(Fault what, f64 bytes) { throw Failure{what, bytes}; }
 #endif
 
-/// Reads from each line of the cache that so many bytes stand in, so that they are on their way all at once. Gives what
+/// Reads from each line of the cache, of 64 bytes, that so many bytes stand in, so that they are on their way all at once. Gives what
 /// nobody needs, but no compiler knows that.
 NOINLINE inline u32 read_lines(const void* from, u32 bytes) {
   const u8* at = static_cast<const u8*>(from);
