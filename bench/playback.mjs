@@ -10,7 +10,8 @@ import { preparePlay } from './plays.mjs';
 
 /**
  * Frames that a technique plays before it is another's turn: what it keeps is then in the caches, as in a game. In the
- * first of them it is not, so turns begin with other frames in each playing.
+ * first of them it is not, so turns begin with other frames in each playing; and with another player, for the first frame
+ * of all is shorter for the first one.
  */
 const turn = 30;
 /** So many playings are enough, and so many the fewest: one alone would have no least of its times. */
@@ -84,7 +85,8 @@ function check(openPlay, order) {
 /** Plays all frames once with each technique; `played` is how often they were before. */
 function playing(openPlay, { row, techniques, frames }, played) {
   const players = techniques.map((technique) => ({ ...open(openPlay, technique), times: [] }));
-  const order = played % 2 === 1 ? [...players].reverse() : players;
+  const first = played % players.length;
+  const order = [...players.slice(first), ...players.slice(0, first)];
   const early = Math.floor(turn * ((played * goldenRatio) % 1));
   for (let from = -early; from < frames; from += turn) {
     for (const player of order) {

@@ -4,6 +4,27 @@
 #pragma once
 #include "sweep.hpp"
 
+/// Calls `what` with the place of each of the boxes in rows that overlaps this one and may meet its tag. Hits are few: so
+/// this exists once, whatever is done with them.
+template <int D>
+NOINLINE void each_overlapping(
+    const f32* rows, u32 stride, u32 count, const f32* fat, u32 tag, void (*what)(void*, u32), void* to) {
+  f32x4 lo[D], hi[D];
+  for (int a = 0; a < D; a++) {
+    lo[a] = splat(fat[a]);
+    hi[a] = splat(fat[D + a]);
+  }
+  u32x4 excluded = splat(tag & ~slot_mask);
+  for (u32 j = 0; j < count; j += 4) {
+    const f32* at = rows + j;
+    i32x4 all = ~i32x4{};
+    for (int a = 0; a < D; a++, at += stride) all &= load<f32x4>(at) <= hi[a];
+    for (int a = 0; a < D; a++, at += stride) all &= load<f32x4>(at) >= lo[a];
+    all &= bits<i32x4>((load<u32x4>(at) & excluded) == u32x4{});
+    for (u32 hits = bitmask(all); hits; hits &= hits - 1) what(to, j + u32(__builtin_ctz(hits)));
+  }
+}
+
 /// Fat boxes as structure of arrays that grow: minima, maxima, tags, then `more` rows of the owner's.
 /// Behind the last box the first row is NaN, which overlaps nothing, and no tag names a slot.
 template <int D, u32 more> struct FatRows {
@@ -73,22 +94,7 @@ template <int D, u32 more> struct FatRows {
 
   /// Calls `what` with the place of each whose fat box overlaps this one and may meet this tag.
   template <class What> void each_hit(const f32* fat, u32 tag, What what) const {
-    if (count == 0) return;
-    LaneView<D> lanes = view();
-    f32x4 lo[D], hi[D];
-    for (int a = 0; a < D; a++) {
-      lo[a] = splat(fat[a]);
-      hi[a] = splat(fat[D + a]);
-    }
-    u32x4 excluded = splat(tag & ~slot_mask);
-    for (u32 j = 0; j < count; j += 4) {
-      i32x4 all = bits<i32x4>((load<u32x4>(lanes.tag + j) & excluded) == u32x4{});
-      for (int a = 0; a < D; a++) {
-        all &= load<f32x4>(lanes.lo[a] + j) <= hi[a];
-        all &= load<f32x4>(lanes.hi[a] + j) >= lo[a];
-      }
-      for (u32 hits = bitmask(all); hits; hits &= hits - 1) what(j + u32(__builtin_ctz(hits)));
-    }
+    each_overlapping<D>(values.data(), stride, count, fat, tag, [](void* to, u32 at) { (*static_cast<What*>(to))(at); }, &what);
   }
 
  private:

@@ -21,7 +21,10 @@ template <int D> class Space {
   static constexpr u32 handful = 24;
 
   // Bytes a box, pairs included, that an update takes in ordinary scenes; and that stand once all is kept.
-  static constexpr u32 usual_bytes = D == 2 ? 448 : 640, kept_bytes = D == 2 ? 352 : 480;
+  static constexpr u32 usual_bytes = D == 2 ? 448 : 640, kept_bytes = D == 2 ? 352 : 640;
+
+  // Updates until it is asked again whether a technique that keeps nothing has seen these boxes before.
+  static constexpr u32 unheld = 8;
 
   // Bytes a pair that the tables take in which pairs are looked up.
   static constexpr u32 bytes_to_look_up = 24;
@@ -441,17 +444,6 @@ template <int D> class Space {
     return bad < 0 ? -1 : i32(ids_.id(u32(bad)));  // since it was written, a removal may have moved it
   }
 
-  /// The same; where the technique looks at all boxes, only those are looked at here that it does not find where it
-  /// expects them.
-  COLD i32 bad_unexpected(bool& looked_at) {
-    u32 many = 0;
-    bool as_given = !filters_.active() && !(options_.wrap[0] > 0);
-    const u32* slots = as_given ? techniques_.unexpected(ran_, {boxes_.data(), ids_.count(), nullptr}, many) : nullptr;
-    if (!slots) return bad_in_place();
-    looked_at = true;
-    return bad_of(slots, many);
-  }
-
   /// The id of the first bad box among these, or -1.
   i32 bad_of(const u32* slots, u32 many) const {
     for (u32 k = 0; k < many; k++) {
@@ -471,9 +463,28 @@ template <int D> class Space {
       if (little) return bad_of(changes_.list(), changes_.count());
     }
     copied_ = 0;
-    changes_.note_all();
-    i32 bad = bad_unexpected(looked_at);
-    if (bad >= 0 || !compares()) return bad;
+    Scene<D> scene{boxes_.data(), n, nullptr};
+    bool keeps = false, held = false;
+    const u32* slots = nullptr;
+    u32 many = 0;
+    techniques_.with_incremental(ran_, [&](auto& incremental) {
+      keeps = incremental.keeps();
+      if (filters_.active() || options_.wrap[0] > 0) return;
+      if (keeps) {
+        slots = incremental.unexpected(scene, many);
+      } else if (changes_.none() && n == seen_ && compares()) {
+        held = incremental.holds(scene);
+        blind_ = held ? 0 : unheld;
+      }
+    });
+    looked_at = slots;
+    i32 bad = -1;
+    if (!held) {
+      changes_.note_all();
+      bad = slots ? bad_of(slots, many) : bad_in_place();
+    }
+    // To copy boxes takes memory, which takes long to be used for the first time: not before something is kept.
+    if (bad >= 0 || !(held || (keeps && compares()))) return bad;
     before_.reserve(u64(n) * width);
     __builtin_memcpy(before_.data(), boxes_.data(), u64(n) * width * sizeof(f32));
     copied_ = n;

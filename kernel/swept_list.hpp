@@ -18,15 +18,16 @@ template <int D> class SweptList {
   Buffer<u32> end_;      // per ordered item, how far to look
   RadixSort sort_;
   LongSweep<D> long_sweep_;
+  // Items that there is memory for. Where one list is longer than another, another may be longer still: memory that is
+  // used for the first time takes long.
+  u32 room_ = 0;
 
  public:
   /// Orders the items; returns the number of tests that `find` will make.
   u64 order(const ItemsAt<D>& items, u32 count) {
-    lanes_.reserve(count);
-    ordered_.grow(count, 0);
-    end_.reserve(count + 4);
-    u32* cells = cells_.reserve(count);
-    u32* starts = starts_.reserve(count + 1);
+    if (count > room_) make_room(room_ ? count + count / 4 : count);
+    u32* cells = cells_.data();
+    u32* starts = starts_.data();
     __builtin_memset(starts, 0, (count + 1) * sizeof(u32));
     Axis axis = axis_of(items, count);
     Axes axes(axis, axis, axis, axis);
@@ -107,9 +108,20 @@ template <int D> class SweptList {
     end_.release();
     sort_.release();
     long_sweep_.release();
+    room_ = 0;
   }
 
  private:
+  COLD void make_room(u32 count) {
+    room_ = 0;
+    lanes_.reserve(count);
+    ordered_.grow(count, 0);
+    end_.reserve(count + 4);
+    cells_.reserve(count);
+    starts_.reserve(count + 1);
+    room_ = count;
+  }
+
   /// The same by a full sort: for strips where cells of one size do not fit.
   u64 order_by_sorting(const ItemsAt<D>& items, u32 count) {
     sort_.begin(count);

@@ -82,12 +82,9 @@ template <int D> class Techniques {
     }
   }
 
-  /// The slots of the boxes that are not where `incremental` expects them, see there; null where it did not run last.
-  const u32* unexpected(Technique ran, const Scene<D>& scene, u32& many) {
-    const u32* slots = nullptr;
-    auto ask = [&](auto& incremental) { slots = incremental.unexpected(scene, many); };
-    if (ran == Technique::incremental) call(ask, incremental_);
-    return slots;
+  /// Calls `what` with `incremental`, where it ran last.
+  template <class What> void with_incremental(Technique ran, What what) {
+    if (ran == Technique::incremental) call(what, incremental_);
   }
 };
 

@@ -130,4 +130,33 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
       expect(pairs).toBe(findPairs(boxes, { dimensions }).length / 2);
     }
   });
+
+  // Before anything is kept the boxes are not copied: what rests is known by what strip-sweep has found them in.
+  test.each([300, 3000])('one of %i boxes written in place that moves at once is seen, and that none does', (count) => {
+    const random = createRandom(count);
+    const width = 2 * dimensions;
+    const world = 10 * (count / 0.2) ** (1 / dimensions);
+    for (let trial = 0; trial < 25; trial++) {
+      const space = new BroadPhase({ dimensions });
+      const boxes = space.boxes(count);
+      for (let k = 0; k < boxes.length; k++) {
+        boxes[k] = k % width < dimensions ? random() * world : boxes[k - dimensions]! + 10 * random();
+      }
+      space.update();
+      const mover = trial === 0 ? 0 : Math.floor(random() * count);
+      const side = mover * width + dimensions + (trial % dimensions);
+      const was = boxes[side]!;
+      boxes[side] = world;
+      space.update();
+      expect(keysOf(space.pairs), `${mover} has become longer`).toEqual(keysOf(findPairs(boxes, { dimensions })));
+      boxes[side] = was;
+      space.update();
+      expect(keysOf(space.pairs), `${mover} is as before`).toEqual(keysOf(findPairs(boxes, { dimensions })));
+    }
+    const resting = new BroadPhase({ dimensions });
+    resting.boxes(count).fill(1);
+    resting.update();
+    resting.boxes(count);
+    expect(resting.update().stats.tests, 'the second update of a world at rest').toBe(0);
+  });
 });

@@ -12,7 +12,7 @@
 // All is given up where many boxes leave their fat ones at once, or where it does not pay.
 // Cost: a pass over the boxes that may have moved and one over the candidates, some two or three times as many as pairs,
 // and a share of two or three strip sweeps: 4 to 10 ns a box in 2D, 10 to 30 in 3D. The updates in which the first
-// generation is made, up to fifty, cost about an eighth more than strip-sweep.
+// generation is made, up to eighty, cost about a twelfth more than strip-sweep.
 // Memory, beside that of strip-sweep: 180 to 230 (2D) or 290 to 400 (3D) bytes a box.
 // Part of `incremental`, which says when. From: L. Verlet, 1967; see motion.hpp. Making the next generation a slice at a
 // time is ours.
@@ -27,21 +27,21 @@ template <int D> class Coherent {
   static constexpr f64 late_share = 0.5;  // all is given up where those that leave their fat ones cost this share of fresh
   static constexpr f64 few_late = 64;  // so many are no reason
   static constexpr f64 few_late_share = 0.2, few_lost_share = 0.15;  // of what an update costs: it may cost to serve these
-  static constexpr i32 least_period = 3, most_period = 64, least_making = 2, most_making = 40;  // these of the first
-  static constexpr i32 blind_making = 16;  // of one whose fat boxes must hold from when they are made
+  static constexpr i32 least_period = 3, most_period = 64, least_making = 2, most_making = 72;  // these of the first
   // What making the first generation may add to an update, as a share of strip sweep or in nanoseconds.
-  static constexpr f64 bearable = 0.12, unnoticed = 1e4;
+  static constexpr f64 bearable = 0.08, unnoticed = 1e4;
   static constexpr f64 bearable_once = 0.5, unnoticed_once = 8e4;  // the same for what cannot be shared out: one strip
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where none is late
   static constexpr f64 spread = D == 2 ? 0.75 : 0.67;  // of motion along an axis, to that along the fastest
   // What the work of a generation costs for each box, in nanoseconds: making its fat box and counting it, entering it in
   // its strip, sweeping that; where memory is used again, and where for the first time, as it is by the first two.
   static constexpr f64 costs[2][3] = {{D == 2 ? 17 : 20, D == 2 ? 7 : 13, D == 2 ? 18 : 31},
-                                      {D == 2 ? 40 : 52, D == 2 ? 17 : 32, D == 2 ? 30 : 60}};
-  static constexpr f64 strip_cost = D == 2 ? 1800 : 500;  // the first entry of a strip, often in memory that is used for the first time
+                                      {D == 2 ? 40 : 52, D == 2 ? 21 : 32, D == 2 ? 30 : 60}};
+  static constexpr f64 strip_cost = D == 2 ? 2600 : 1000;  // the first entry of a strip, often in memory that is used for the first time
   static constexpr f64 mend_cost = D == 2 ? 4 : 10, hit_cost = D == 2 ? 3 : 6;  // a last look; and for each candidate
   // What an update costs for each box, and for a box that is late and each of its candidates.
   static constexpr f64 box_cost = D == 2 ? 2 : 3, late_base = 400, late_each = 300;
+  static constexpr f64 late_anew = 3;  // times as much where nobody has read what was made: by the first two generations
   // And for each candidate; five times as much where the boxes of a scene are far more than the cache holds.
   static constexpr f64 cached_cost = D == 2 ? 2 : 3, uncached_cost = 4 * cached_cost, cached_boxes = 4e5;
   static constexpr f64 all_costs = costs[0][0] + costs[0][1] + costs[0][2] + mend_cost;
@@ -63,6 +63,7 @@ template <int D> class Coherent {
     Stats stats;
     FatBins<D> grown;     // the fat boxes that are not those that were entered any more
     Buffer<u8> marks;     // per slot: is_grown, struck
+    constexpr explicit Generation(StripSweep<D>& anew) : strips(anew.swept()) {}
   };
 
   Generation generations_[2];
@@ -98,6 +99,8 @@ template <int D> class Coherent {
   f32* from(u32 slot) const { return from_.data() + u64(slot) * (D + 1); }
 
  public:
+  constexpr explicit Coherent(StripSweep<D>& anew) : generations_{Generation(anew), Generation(anew)} {}
+
   /// What an update is going to cost for so many boxes and pairs, where such a share of the boxes moves, so far as a
   /// share of their size. `listed`: it will be known which have moved.
   COLD f64 cost(f64 boxes, f64 hits, f64 share, f64 pace, bool listed) const {
@@ -124,7 +127,7 @@ template <int D> class Coherent {
     if (!begun_) return;
     make_room(u32(boxes), u32(boxes));  // not in the update that first looks at all of them
     // The longer the first one takes, the less does an update pay for it, but the later does it answer.
-    making_ = i32(larger(f64(least_making), smaller(f64(most_making), work() * boxes / added(fresh))));
+    making_ = i32(larger(f64(least_making), smaller(f64(most_making), 1.15 * work() * boxes / added(fresh))));
   }
 
   /// Finds the pairs, where a generation is there to answer; else false. Gives up where that costs more than `fresh`.
@@ -211,9 +214,10 @@ template <int D> class Coherent {
     const f64* each = stage_costs();
     return each[0] + each[1] + each[2] + hit_cost * found_ + mending();
   }
-  f64 mending() const { return mend_cost + late_cost() * lost_; }
+  f64 mending() const { return mend_cost + mend_late_cost() * lost_; }
   const f64* stage_costs() const { return costs[made_ < 2]; }
   f64 late_cost() const { return late_base + late_each * found_; }
+  f64 mend_late_cost() const { return (made_ < 2 ? late_anew : 1) * late_cost(); }
 
   /// Updates that a generation should answer: the work of making it balances its candidates, which are the more the
   /// further fat boxes reach.
@@ -371,7 +375,7 @@ template <int D> class Coherent {
     for (int a = 0; a < D; a++) {
       // Where it goes now nobody knows, but about how fast.
       f32 size = box[D + a] - box[a], beyond = larger(0.0f, larger(old[a] - box[a], box[D + a] - old[D + a]));
-      f32 reach = larger(spare(old, box, a), smaller(8 * beyond, size));
+      f32 reach = larger(spare(old, box, a) / 2, smaller(8 * beyond, size));
       if (!(old[a] <= old[D + a])) reach = 2 * pace_ * size * f32(larger(1, lasts_));
       if (options.margin > 0) reach = f32(options.margin);
       fat[a] = smaller(smaller(box[a], box[a] - reach), old[a]);
@@ -430,16 +434,17 @@ template <int D> class Coherent {
     // What is left to do is shared by the updates that are left, but for mending, which comes in the last: only then can
     // be seen whether boxes are in fat ones that are to hold them from then on.
     f64 all = work() * boxes_, last = mending() * boxes_, left = larger(0, making_ - age_);
-    f64 budget = known_ ? __builtin_inf() : larger(added(fresh), 2 * last / period_);
+    f64 budget = known_ ? __builtin_inf() : larger(larger(added(fresh), all / making_), 2 * last / period_);
     if (left > 0) {
-      budget = smaller((all - spent_) / (left + 1), (all - last - spent_) / left);
-      budget = larger(budget, all / 8 / (left + 1));
+      f64 share = smaller((all - spent_) / (left + 1), (all - last - spent_) / left);
+      budget = smaller(budget, larger(share, all / 8 / (left + 1)));
     }
     while (begun_ && budget > 0 && stage_ != Stage::begin && (stage_ != Stage::mend || left == 0)) {
+      Stage at = stage_;
       f64 spent = slice(scene, options, budget, fresh);
       budget -= spent;
       spent_ += spent;
-      if (stage_ == Stage::fatten) return;  // boxes must move before their motion can be seen
+      if (stage_ == at) return;  // all that is to be spent on it now, or boxes must move before their motion can be seen
     }
   }
 
@@ -484,7 +489,9 @@ template <int D> class Coherent {
       g.strips.enter(fat, at_, until);
     } else {
       all = u32(g.stats.entries);
-      until = all - g.strips.sweep(many, g.candidates);
+      // Strips are swept whole: half of one more, half of one less.
+      u32 half = all / g.strips.lists() / 2;
+      until = all - g.strips.sweep(larger(many, half + 1) - half, g.candidates);
     }
     f64 spent = (until - at_) * each;
     at_ = until;
@@ -509,19 +516,20 @@ template <int D> class Coherent {
   COLD f64 mend(const Scene<D>& scene, const Settings& options, f64 budget, f64 fresh) {
     Generation& g = next();
     u32 until = smaller(boxes_, scene.count);
-    f64 spent = 0;
+    f64 spent = 0, most = smaller(budget, larger(fresh / 2, unnoticed));
     if (at_ == 0) {
       f64 many = elsewhere(scene);
-      if ((many - few_late) * late_cost() > bearable_lost * fresh) return start_over(), budget;
+      spent = smaller(most / 2, asked * mend_cost);
+      if ((many - few_late) * late_cost() > bearable_lost * fresh) return forget(), budget;  // motion that none can foresee
       lost_ = many / boxes_;
     }
-    for (; at_ < until && spent < smaller(budget, fresh / 2); at_++) {
+    for (; at_ < until && spent < most; at_++) {
       const f32* box = scene.box(at_);
       const f32* fat = g.fat.data() + u64(at_) * width;
       spent += mend_cost;
       if (inside<D>(box, fat) || !is_near(box, fat)) continue;
       grow(g, until, scene, options, at_);
-      spent += late_cost();
+      spent += mend_late_cost();
     }
     if (at_ >= until || known_) take_over(scene, fresh);
     return spent;
@@ -532,18 +540,6 @@ template <int D> class Coherent {
     u32 n = smaller(boxes_, scene.count), stride = n / asked + 1, out = 0;
     for (u32 slot = 0; slot < n; slot += stride) out += !inside<D>(scene.box(slot), next().fat.data() + u64(slot) * width);
     return f64(out) * stride;
-  }
-
-  /// Motion was not to be foreseen: all anew, with fat boxes that hold their boxes from when they are made. If they were
-  /// such already, all is given up.
-  COLD void start_over() {
-    bool again = foresight_ > 0;
-    foresight_ = 0;
-    forget();
-    begun_ = again;
-    stage_ = Stage::begin;
-    known_ = false;
-    making_ = blind_making;
   }
 
   /// Whether a box is no further away from its fat one than it is long.

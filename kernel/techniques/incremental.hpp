@@ -16,7 +16,7 @@
 // until then strip-sweep does.
 // Cost: where all move by a hundredth of their size a fifth of strip-sweep, by a tenth of it 0.4 in 2D and 0.5 in 3D;
 // where 5 % move 0.15 to 0.25, of a million 0.3, and with `set` only the movers count. The first updates, in which the
-// first generation is made, up to fifty, cost about an eighth more.
+// first generation is made, up to eighty, cost about a twelfth more.
 // Memory, beside that of strip-sweep: about 120 (2D) or 210 (3D) bytes a box that moves, 100 or 150 one at rest.
 // Wins where boxes rest, or move slowly. Is strip-sweep where they jump.
 // From: candidates kept with a margin, L. Verlet, 1967 (see motion.hpp); k-d tree, J. Bentley, 1975. The combination
@@ -38,7 +38,7 @@ template <int D> class Incremental {
   static constexpr u32 huge_cells = 32;      // boxes that touch more cells than this are huge
   static constexpr u32 most_huge = 64;
   static constexpr u32 enlisting = 8;        // updates in which it is noted for each box that it waits to be put into cells
-  static constexpr u32 filling = 60, filling_alone = 150;  // ... and is, while generations answer or not
+  static constexpr u32 filling = 48, filling_alone = 150;  // ... and is, while generations answer or not
   static constexpr u32 ahead = 8;            // its motion is known from so many updates
   static constexpr u32 late_share = 40;      // all is given up where one in so many leaves its fat box at once
   static constexpr u32 sample_share = 8;     // ... while they are filled, where it is one in so many of a sample
@@ -114,7 +114,7 @@ template <int D> class Incremental {
   u32 watching_ = 0;     // how many boxes there were then
 
  public:
-  constexpr explicit Incremental(StripSweep<D>& anew) : anew_(anew) {}
+  constexpr explicit Incremental(StripSweep<D>& anew) : anew_(anew), coherent_(anew) {}
 #if !defined(__wasm__)
   ~Incremental() { release(); }
 #endif
@@ -131,6 +131,10 @@ template <int D> class Incremental {
   const u32* unexpected(const Scene<D>& scene, u32& many) {
     return by_ == By::generations ? coherent_.unexpected(scene, many) : nullptr;
   }
+
+  /// Whether the last update was answered by what is kept; where it was not, whether these are its boxes.
+  bool keeps() const { return by_ != By::strips; }
+  bool holds(const Scene<D>& scene) const { return anew_.holds(scene); }
 
   /// The cells, or the strips.
   COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {

@@ -76,7 +76,8 @@ template <int D> class StripSweep {
   }
 
   Items<D> entries_;       // by strip; deeper cuts stack theirs on top
-  SweptList<D> swept_;     // the items of one strip
+  SweptList<D> own_;
+  SweptList<D>& swept_;    // the items of one strip
   Buffer<Range> ranges_;   // per item that is being cut
   Buffer<u32> offsets_[deepest + 1];  // per cut: where each strip's entries begin
   Buffer<Region> leaves_;  // the strips in use
@@ -90,6 +91,11 @@ template <int D> class StripSweep {
   Stats* stats_ = nullptr;
 
  public:
+  constexpr StripSweep() : swept_(own_) {}
+  /// In memory of another one, for what is needed only while a strip is swept.
+  constexpr explicit StripSweep(SweptList<D>& swept) : swept_(swept) {}
+  constexpr SweptList<D>& swept() const { return swept_; }
+
   COLD void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     stats_ = &stats;
     boxes_ = entered_ = scene.count;
@@ -167,6 +173,20 @@ template <int D> class StripSweep {
     bins.divide(order_.axis[0], cut_.world.low[0], cut_.world.high[0]);
   }
 
+  /// Whether these are the boxes of the last update.
+  COLD bool holds(const Scene<D>& scene) const {
+    SceneItems<D> items{scene, order_};
+    ItemsAt<D> entries(entries_, 0);
+    // First a few from all over: where much rests, those that do not may stand together.
+    for (u32 step = entered_ / 64 + 1;; step = 1) {
+      for (u32 k = 0; k < entered_; k += step) {
+        u32 tag = tag_at(k);
+        if (!same(entries[k], with_tag(items[tag & slot_mask], tag))) return false;
+      }
+      if (step == 1) return boxes_ == scene.count;
+    }
+  }
+
   u32 boxes() const { return boxes_; }
   /// Strips of the outermost cut.
   u32 lists() const { return cut_.lists(); }
@@ -193,7 +213,7 @@ template <int D> class StripSweep {
 
   COLD void release() {
     entries_.release();
-    swept_.release();
+    own_.release();
     ranges_.release();
     for (auto& offsets : offsets_) offsets.release();
     leaves_.release();
