@@ -159,4 +159,20 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     resting.boxes(count);
     expect(resting.update().stats.tests, 'the second update of a world at rest').toBe(0);
   });
+
+  test('a box alone that is written in place is where it was written, or is bad', () => {
+    const space = new BroadPhase({ dimensions, technique: 'incremental' });
+    const found = (x: number) =>
+      (dimensions === 2 ? space.queryBox(x, 0, x, 0) : space.queryBox(x, 0, 0, x, 0, 0)).length;
+    for (const x of [5, 5, 700, 700]) {
+      const boxes = space.boxes(1);
+      boxes.fill(0);
+      boxes[0] = x;
+      boxes[dimensions] = x;
+      space.update();
+      expect([found(5), found(700)]).toEqual([Number(x === 5), Number(x === 700)]);
+    }
+    space.boxes(1)[0] = Number.NaN;
+    expect(() => space.update()).toThrow(/\b0\b/);
+  });
 });

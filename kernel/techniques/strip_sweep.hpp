@@ -175,6 +175,7 @@ template <int D> class StripSweep {
 
   /// Whether these are the boxes of the last update.
   COLD bool holds(const Scene<D>& scene) const {
+    if (boxes_ != scene.count || boxes_ < 2) return false;  // one alone was not entered
     SceneItems<D> items{scene, order_};
     ItemsAt<D> entries(entries_, 0);
     // First a few from all over: where much rests, those that do not may stand together.
@@ -183,7 +184,7 @@ template <int D> class StripSweep {
         u32 tag = tag_at(k);
         if (!same(entries[k], with_tag(items[tag & slot_mask], tag))) return false;
       }
-      if (step == 1) return boxes_ == scene.count;
+      if (step == 1) return true;
     }
   }
 
