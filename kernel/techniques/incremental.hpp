@@ -38,7 +38,7 @@ template <int D> class Incremental {
   static constexpr u32 huge_cells = 32;      // boxes that touch more cells than this are huge
   static constexpr u32 most_huge = 64;
   static constexpr u32 enlisting = 8;        // updates in which it is noted for each box that it waits to be put into cells
-  static constexpr u32 filling = 48, filling_alone = 150;  // ... and is, while generations answer or not
+  static constexpr u32 filling = 40, filling_alone = 150;  // ... and is, while generations answer or not
   static constexpr u32 ahead = 8;            // its motion is known from so many updates
   static constexpr u32 late_share = 40;      // all is given up where one in so many leaves its fat box at once
   static constexpr u32 sample_share = 8;     // ... while they are filled, where it is one in so many of a sample
