@@ -102,8 +102,8 @@ template <int D> class Candidates {
 
   /// Appends those that overlap and whose corner, the larger of their two lower ones, is at or above `least`, and not at
   /// or above `most`.
-  void report(const f32* boxes, const f32* least, const f32* most, Pairs& pairs) const {
-    u64* out = pairs.room(pairs.list.data() + pairs.count, pair_count_ + 4 * u64(meeting_count_));
+  /// Behind `out` there is room for all; gives where it ends.
+  NOINLINE u64* report(const f32* boxes, const f32* least, const f32* most, u64* out) const {
     f32x4 low = load<f32x4>(least), high = load<f32x4>(most);
     const u64* list = pairs_.data();
     for (u32 k = 0; k < pair_count_; k++) {
@@ -133,7 +133,7 @@ template <int D> class Candidates {
       if constexpr (D == 3) all &= hits[2];
       out = append(out, load<u32x4>(meeting->mover), load<u32x4>(meeting->slots), bitmask(all));
     }
-    pairs.count = Pairs::between(pairs.list.data(), out);
+    return out;
   }
 
  private:

@@ -47,7 +47,7 @@ template <int D> class Incremental {
   static constexpr f64 few_late = 1;         // ... one for each box that has its turn: it costs as much to be late
   // Where so many move, what an update needs is more than the nearer caches hold, and to wait for one thing after the other
   // takes longer than to work on it. So what so many cells need is read beforehand, all at once.
-  static constexpr f64 too_many_to_be_near = 3000;
+  static constexpr u32 too_many_to_be_near = 2500;
   static constexpr u32 together = 16;
   static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 watched = 512;        // boxes whose motion is looked at before anything is kept
@@ -102,7 +102,6 @@ template <int D> class Incremental {
   bool unchecked_ = false;  // boxes may have changed that were not looked at since
   enum class By : u32 { strips, generations, cells } by_ = By::strips;  // what answered the last update
   u32 cursor_ = 0;       // the cell whose turn is next
-  bool far_ = false;     // what cells need is read together
   u32 read_ = 0;         // of what is read only for that
   u32 now_ = 0;          // updates, counted
   f32 period_ = 16, target_ = 16;  // updates in which every cell has one turn, and what that is to become
@@ -198,8 +197,9 @@ template <int D> class Incremental {
     fresh_ = entry_cost * stats.entries + test_cost * stats.tests;
   }
 
-  /// Finds the pairs in cells, or fills them a little further.
+  /// Finds the pairs in cells, or fills them a little further, or gives them up.
   void use_cells(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+    if (by_ == By::cells && cost(moving_, candidates_, period_) > fresh_) return forget();  // strip-sweep is sooner
     moving_ = candidates_ = turned_ = motion_ = 0;
     if (count_ == 0) return enlist(scene);  // another update than the one that made the cells: both take their time
     follow(scene, pairs);
@@ -208,7 +208,7 @@ template <int D> class Incremental {
     if (leaves_ == 0 || queued_ > 0) return;
     take_turns(scene, options, stats);
     if (leaves_ > 0) serve_late(scene, options, stats);
-    if (leaves_ > 0 && pays()) report(scene, pairs, stats);
+    if (leaves_ > 0) report(scene, pairs, stats);
   }
 
   f32* last(u32 slot) const { return known_[slot].box; }
@@ -353,22 +353,18 @@ template <int D> class Incremental {
   void cells_of(const f32* box, Found& out) const { out.count = halves_.touched(box, out.cell, huge_cells); }
 
   /// Whether a box touches no cell but this.
-  static bool within(const Cell& cell, const f32* box) {
-    u32 low = bitmask(load<f32x4>(box) >= load<f32x4>(cell.low));
-    u32 high = bitmask(load<f32x4>(box + D) >= load<f32x4>(cell.high));
-    return !((~low | high) & ((1 << D) - 1));
-  }
+  static bool within(const Cell& cell, const f32* box) { return contains(cell, load<f32x4>(box), load<f32x4>(box + D)); }
   /// Whether it touches this one.
-  static bool touches(const Cell& cell, const f32* box) {
-    u32 low = bitmask(load<f32x4>(box + D) >= load<f32x4>(cell.low));
-    u32 high = bitmask(load<f32x4>(box) >= load<f32x4>(cell.high));
-    return !((~low | high) & ((1 << D) - 1));
-  }
+  static bool touches(const Cell& cell, const f32* box) { return contains(cell, load<f32x4>(box + D), load<f32x4>(box)); }
   /// Whether this cell is the one to report two boxes.
   static bool reports(const Cell& cell, const f32* one, const f32* other) {
     f32x4 corner = max(load<f32x4>(one), load<f32x4>(other));
-    u32 low = bitmask(corner >= load<f32x4>(cell.low)), high = bitmask(corner >= load<f32x4>(cell.high));
-    return !((~low | high) & ((1 << D) - 1));
+    return contains(cell, corner, corner);
+  }
+  /// Whether one corner is not before a cell, and another not behind it.
+  static bool contains(const Cell& cell, f32x4 first, f32x4 last) {
+    u32 both = bitmask((first >= load<f32x4>(cell.low)) & ~(last >= load<f32x4>(cell.high)));
+    return !(~both & ((1 << D) - 1));
   }
 
   // --- boxes in cells ---
@@ -670,9 +666,12 @@ template <int D> class Incremental {
     }
   }
 
+  /// Whether movers are so many.
+  bool far() const { return count_ - resting_ > too_many_to_be_near; }
+
   /// Lets the next cells have their turn.
   void take_turns(const Scene<D>& scene, const Settings& options, Stats& stats) {
-    u32 turns = smaller(leaves_, u32(f32(leaves_) / period_) + 1), near = far_ ? 0 : turns;
+    u32 turns = smaller(leaves_, u32(f32(leaves_) / period_) + 1), near = far() ? 0 : turns;
     for (; turns > 0 && leaves_ > 0; turns--) {
       if (near == 0) {
         near = smaller(turns, together);
@@ -793,18 +792,28 @@ template <int D> class Incremental {
     if (head > pairs.kept) {
       __builtin_memcpy(pairs.list.data() + pairs.kept, settled_.list.data() + pairs.kept, (head - pairs.kept) * sizeof(u64));
     }
-    pairs.count = pairs.kept = head;
+    pairs.kept = head;
+    u64* out = pairs.list.data() + head;
+    bool far = this->far();
+    u32 moving = 0, candidates = 0, tests = 0;
     for (u32 c = 0; c < leaves_; c++) {
-      if (far_ && c % together == 0) {
+      if (far && c % together == 0) {
         u32 until = smaller(leaves_, c + together);
         for (u32 k = c; k < until; k++) read_ ^= cells_[k].candidates.fetch();
         for (u32 k = c; k < until; k++) read_ ^= cells_[k].candidates.fetch_boxes(scene.boxes);
       }
       const Cell& cell = cells_[c];
-      if (cell.candidates.count() == 0) continue;
-      cell.candidates.report(scene.boxes, cell.low, cell.high, pairs);
-      stats.tests += cell.candidates.tests();
+      if (cell.movers.count == 0) continue;
+      const Candidates<D>& its = cell.candidates;
+      out = its.report(scene.boxes, cell.low, cell.high, pairs.room(out, its.tests()));
+      moving += cell.movers.count;
+      candidates += its.count();
+      tests += its.tests();
     }
+    pairs.count = Pairs::between(pairs.list.data(), out);
+    moving_ = moving;
+    candidates_ = candidates;
+    stats.tests += tests;
     if (huge_count_ > 0) report_huge(scene, pairs, stats);
     stats.cells = leaves_;
     stats.entries = moving_ + resting_;
@@ -855,18 +864,6 @@ template <int D> class Incremental {
         }
       }
     }
-  }
-
-  /// Whether what is kept answers sooner than strip-sweep would; where not, it is given up.
-  COLD bool pays() {
-    for (u32 c = 0; c < leaves_; c++) {
-      moving_ += cells_[c].movers.count;
-      candidates_ += cells_[c].candidates.count();
-    }
-    far_ = moving_ > too_many_to_be_near;
-    if (cost(moving_, candidates_, period_) <= fresh_) return true;
-    forget();
-    return false;
   }
 
   /// Chooses how far fat boxes reach, by what turns cost and what candidates cost.
