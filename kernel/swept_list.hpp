@@ -23,6 +23,11 @@ template <int D> class SweptList {
   u32 room_ = 0;
 
  public:
+  /// Room for lists of so many items.
+  void reserve(u32 count) {
+    if (count > room_) make_room(count);
+  }
+
   /// Orders the items; returns the number of tests that `find` will make.
   u64 order(const ItemsAt<D>& items, u32 count) {
     if (count > room_) make_room(room_ ? count + count / 4 : count);

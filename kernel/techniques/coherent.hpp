@@ -434,7 +434,7 @@ template <int D> class Coherent {
     // What is left to do is shared by the updates that are left, but for mending, which comes in the last: only then can
     // be seen whether boxes are in fat ones that are to hold them from then on.
     f64 all = work() * boxes_, last = mending() * boxes_, left = larger(0, making_ - age_);
-    f64 budget = known_ ? __builtin_inf() : larger(larger(added(fresh), all / making_), 2 * last / period_);
+    f64 budget = known_ ? __builtin_inf() : larger(larger(added(fresh), all / making_), 1.5 * last / period_);
     if (left > 0) {
       f64 share = smaller((all - spent_) / (left + 1), (all - last - spent_) / left);
       budget = smaller(budget, larger(share, all / 8 / (left + 1)));
@@ -614,6 +614,8 @@ template <int D> class Coherent {
       foresight_ = foreseen ? smaller(1.0f, foresight_ + 0.1f) : foresight_ / 2;
       period_ = best_period(boxes_, hits_, 1, pace_);
     }
-    making_ = lasts_ - 1;  // in all updates but the one that begins it: so they are alike
+    // In all updates but the one that begins it: so they are alike. The first that one answers finds nothing in the caches,
+    // and does nothing else.
+    making_ = lasts_ - 1 - (made_ == 1);
   }
 };

@@ -360,12 +360,15 @@ template <int D> class StripSweep {
     for (u32 l = across; l < lists; l++) offsets[l] += offsets[l - across];
     u64 base = total;
     f64 tests = 0;  // relative to those of the uncut items
+    u32 longest = 0;
     for (u32 l = 0; l < lists; l++) {
       u32 here = offsets[l];
+      longest = larger(longest, here);
       offsets[l] = u32(total);
       total += here;
       tests += f64(here) * here;
     }
+    if (in_parts_) swept_.reserve(longest);  // not in the part that comes to it
     // It pays when it saves a third of the tests, or when it copies little: then it closes in on a crowd, for the
     // next cut to spread it.
     bool pays = tests * 3 < 2 * f64(size) * size || (total - base) * 2 < size * 3;
