@@ -324,6 +324,42 @@ test('boxes that all stand in a row are kept too, though a row cannot be made re
   expect(answered, 'updates answered from what is kept').toBeGreaterThan(40);
 });
 
+test('what is kept of a world at rest is given up while more and more boxes begin to move', () => {
+  const count = 4000;
+  const world = Math.sqrt(count * 200);
+  const random = createRandom(3);
+  const boxes = new Float32Array(4 * count);
+  for (let k = 0; k < count; k++) {
+    const [x, y] = [random() * world, random() * world];
+    boxes.set([x, y, x + 10, y + 10], 4 * k);
+  }
+  const steps = Float32Array.from({ length: 4 * count }, () => 2 * random() - 1);
+  const kept = new BroadPhase();
+  const fresh = new BroadPhase({ technique: 'strip-sweep' });
+  const firstMovers = count / 20;
+  const settled = 150;
+  let [atRest, givenUp] = [0, 0];
+  for (let frame = 0; frame < 400; frame++) {
+    const moving = Math.min(count, firstMovers + (Math.max(0, frame - settled) * count) / 200);
+    for (let k = 0; k < moving; k++) {
+      for (let axis = 0; axis < 2; axis++) {
+        const at = 4 * k + axis;
+        if (boxes[at]! < 0 || boxes[at]! > world) steps[at] = -steps[at]!;
+        boxes[at]! += steps[at]!;
+        boxes[at + 2]! += steps[at]!;
+      }
+    }
+    kept.setAll(boxes).update();
+    fresh.setAll(boxes).update();
+    if (frame % 5 === 0) expect(keysOf(kept.pairs), `frame ${frame}`).toEqual(keysOf(fresh.pairs));
+    const { reason } = kept.stats;
+    if (frame < settled) atRest += Number(reason.includes('is kept'));
+    else givenUp += Number(reason.includes('is found anew'));
+  }
+  expect(atRest, 'updates answered from what is kept').toBeGreaterThan(50);
+  expect(givenUp, 'updates answered anew').toBeGreaterThan(10);
+});
+
 test('auto says what it chose and why', () => {
   const random = createRandom(9);
   const space = new BroadPhase();
