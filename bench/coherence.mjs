@@ -46,6 +46,7 @@ export function rows(cases, traces) {
     { name: 'static2d', kind: 'static', scene: 'static2d', count: 10_000, nativeMs: 0.2 },
     { name: 'static2d, movers set', kind: 'static', scene: 'static2d', count: 100_000, by: 'set', nativeMs: 4.6 },
     { name: 'static2d', kind: 'static', scene: 'static2d', count: 100_000, nativeMs: 4.6 },
+    { name: 'static2d, movers set', kind: 'static', scene: 'static2d', count: 1_000_000, by: 'set', nativeMs: 117 },
     { name: 'static2d', kind: 'static', scene: 'static2d', count: 1_000_000, nativeMs: 117 },
     ...moving,
     { name: `uniform2d, up to ${fast} a frame`, kind: 'many', scene: 'uniform2d', count: 1_000_000, speed: fast },

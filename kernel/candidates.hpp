@@ -6,7 +6,7 @@
 // 17, its cell included, where each cell has but two or three of these; to find them again 1 ns for each box at rest;
 // 8 bytes a pair that moves, 24 (2D) or 32 (3D) for a box at rest where a mover meets four.
 #pragma once
-#include "fat_rows.hpp"
+#include "fat_boxes.hpp"
 
 template <int D> class Candidates {
   static constexpr u32 width = 2 * D;
@@ -57,19 +57,22 @@ template <int D> class Candidates {
   /// The mover at a place, with those that move, from `from` on, and those at rest.
   template <class Movers, class Stills> NOINLINE void meet(const Movers& movers, u32 at, u32 from, const Stills& stills) {
     u64* out = pairs_.grow(u64(pair_count_) + movers.count + Pairs::slack, pair_count_) + pair_count_;
-    LaneView<D> lanes = movers.view(), resting = stills.view();
-    Probe<D> mover(lanes, at);
-    for (u32 j = from; j < movers.count; j += 4) {
-      u32x4 tags = load<u32x4>(lanes.tag + j), slots = tags & splat(slot_mask);
-      out = append(out, mover.slot, slots, bitmask(mover.hits(lanes, j, tags) & (slots != mover.slot)));
+    Probe<D> mover = movers.probe(at);
+    for (u32 j = from; j < movers.count; j = (j | 3) + 1) {
+      const f32* block = movers.block_of(j);
+      u32x4 slots = load<u32x4>(block + 4 * width) & splat(slot_mask);
+      out = append(out, mover.slot, slots, bitmask(hits(mover, block) & (slots != mover.slot)) & 15u << j % 4);
     }
     pair_count_ = u32(Pairs::between(pairs_.data(), out));
     u32 near[8], many = 0;
-    for (u32 j = 0; j < stills.count; j += 8) {
-      u32 hits = bitmask(mover.hits(resting, j, load<u32x4>(resting.tag + j)));
-      hits |= bitmask(mover.hits(resting, j + 4, load<u32x4>(resting.tag + j + 4))) << 4;
-      for (; hits; hits &= hits - 1) {  // most eights have none
-        near[many++] = j + u32(__builtin_ctz(hits));
+    const f32* block = stills.block_of(0);
+    for (u32 j = 0; j < stills.count; j += 64) {
+      u64 found = 0;  // a bit for each: in which four there are some nobody could guess
+      for (u32 k = 0; k < smaller(stills.count - j, 64u); k += 4, block += Stills::block) {
+        found |= u64(bitmask(hits(mover, block))) << k;
+      }
+      for (; found; found &= found - 1) {
+        near[many++] = j + u32(__builtin_ctzll(found));
         if (many < 4) continue;
         copy(mover.slot, stills, near);
         many = 0;
@@ -145,15 +148,12 @@ template <int D> class Candidates {
   }
 
   /// Copies four boxes at rest.
-  template <class Stills> NOINLINE void copy(u32x4 mover, const Stills& stills, const u32* from) {
+  template <class Stills> COLD void copy(u32x4 mover, const Stills& stills, const u32* from) {
     Meeting& to = open(mover);
-    u32 a = from[0], b = from[1], c = from[2], d = from[3];
+    const f32 *a = stills.numbers(from[0]), *b = stills.numbers(from[1]), *c = stills.numbers(from[2]), *d = stills.numbers(from[3]);
     ROLLED
-    for (u32 r = 0; r < width; r++) {
-      const f32* row = stills.row(r);
-      store(to.bounds[r], f32x4{row[a], row[b], row[c], row[d]});
-    }
-    const u32* tags = stills.tags();
-    store(to.slots, u32x4{tags[a], tags[b], tags[c], tags[d]} & splat(slot_mask));
+    for (u32 k = 0; k < 4 * width; k += 4) store(to.bounds[k / 4], f32x4{a[k], b[k], c[k], d[k]});
+    u32 tags = 4 * width;
+    store(to.slots, bits<u32x4>(f32x4{a[tags], b[tags], c[tags], d[tags]}) & splat(slot_mask));
   }
 };

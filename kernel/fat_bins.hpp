@@ -1,13 +1,13 @@
-// A few fat boxes that come and go, to be searched: in rows, in bins along one axis.
+// A few fat boxes that come and go, to be searched, in bins along one axis.
 // Idea: a box stands in each bin that it touches; two are tested in the first bin that both touch.
 // Cost: a bin or two for each search, a quarter of a nanosecond for each box in them.
 #pragma once
-#include "fat_rows.hpp"
+#include "fat_boxes.hpp"
 #include "statistics.hpp"
 
 template <int D> class FatBins {
   static constexpr u32 bins = 32;
-  FatRows<D, 0> rows_[bins];
+  FatBoxes<D, 0> bins_[bins];
   Axis along_;
   int axis_ = 0;
 
@@ -19,36 +19,36 @@ template <int D> class FatBins {
   }
 
   COLD void put(const f32* fat, u32 tag) {
-    for (u32 b = bin(fat[axis_]); b <= bin(fat[D + axis_]); b++) rows_[b].put(fat, tag);
+    for (u32 b = bin(fat[axis_]); b <= bin(fat[D + axis_]); b++) bins_[b].put(fat, tag);
   }
 
   /// Takes away a box that is there.
   COLD void take(const f32* fat, u32 slot) {
-    for (u32 b = bin(fat[axis_]); b <= bin(fat[D + axis_]); b++) rows_[b].take(rows_[b].find(slot));
+    for (u32 b = bin(fat[axis_]); b <= bin(fat[D + axis_]); b++) bins_[b].take(bins_[b].find(slot));
   }
 
   /// Calls `what` with the slot of each that overlaps this one and may meet this tag, once.
   template <class What> void each_hit(const f32* fat, u32 tag, What what) const {
     u32 first = bin(fat[axis_]), last = bin(fat[D + axis_]);
     for (u32 b = first; b <= last; b++) {
-      const FatRows<D, 0>& rows = rows_[b];
-      rows.each_hit(fat, tag, [&](u32 at) {
-        if (b == first || bin(rows.row(u32(axis_))[at]) == b) what(rows.tags()[at] & slot_mask);
+      const FatBoxes<D, 0>& boxes = bins_[b];
+      boxes.each_hit(fat, tag, [&](u32 at) {
+        if (b == first || bin(boxes.numbers(at)[4 * axis_]) == b) what(boxes.slot(at));
       });
     }
   }
 
   /// Calls `what` with the slot of each, perhaps several times, and takes away those for which it says so.
   template <class What> COLD void leave(What what) {
-    for (FatRows<D, 0>& rows : rows_) {
-      for (u32 k = rows.count; k-- > 0;) {
-        if (what(rows.tags()[k] & slot_mask)) rows.take(k);
+    for (FatBoxes<D, 0>& boxes : bins_) {
+      for (u32 k = boxes.count; k-- > 0;) {
+        if (what(boxes.slot(k))) boxes.take(k);
       }
     }
   }
 
   COLD void release() {
-    for (FatRows<D, 0>& rows : rows_) rows.release();
+    for (FatBoxes<D, 0>& boxes : bins_) boxes.release();
   }
 
  private:

@@ -14,14 +14,12 @@ inline f32 round_down(f64 x) {
 }
 inline f32 round_up(f64 x) { return -round_down(-x); }
 
-/// Two doubles as float32, in the lower lanes: down, or up where `sign` is -0. `exact` stays where float32 holds both.
-inline f32x4 round_down(f64x2 x, f64x2 sign, bool& exact) {
+/// Two doubles as float32, in the lower lanes: down, or up where `sign` is -0.
+inline f32x4 round_down(f64x2 x, f64x2 sign) {
   f64x2 at = bits<f64x2>(bits<u64x2>(x) ^ bits<u64x2>(sign));
   f32x4 near = narrow(at);
   i32x4 above = bits<i32x4>(widen(near) > at), b = bits<i32x4>(near);
   above = __builtin_shufflevector(above, above, 0, 2, 0, 2);
   b -= (b >> 31 | 1) & above;
-  u32x4 signs = bits<u32x4>(narrow(sign));
-  exact &= !any(bits<i32x4>(widen(bits<f32x4>(b)) != at));
-  return bits<f32x4>(bits<u32x4>(b) ^ signs);
+  return bits<f32x4>(bits<u32x4>(b) ^ bits<u32x4>(narrow(sign)));
 }

@@ -626,12 +626,20 @@ template <int D> class Space {
 
   /// A box rounded outward: its first and its last four numbers. Says whether float32 holds it.
   static bool round_outward(const f64* box, f32x4& first, f32x4& last) {
+    f64x2 numbers[D];
     f32x4 pairs[D];
-    bool exact = true;
+    i32x4 rounded = {};
     for (u32 a = 0; a < D; a++) {
       // Read one by one, as they were written: a read of more than one write waits for all writes before it.
-      f64x2 numbers = {box[2 * a], box[2 * a + 1]};
-      pairs[a] = round_down(numbers, f64x2{2 * a < D ? 0.0 : -0.0, 2 * a + 1 < D ? 0.0 : -0.0}, exact);
+      numbers[a] = f64x2{box[2 * a], box[2 * a + 1]};
+      pairs[a] = narrow(numbers[a]);
+      rounded |= bits<i32x4>(widen(pairs[a]) != numbers[a]);
+    }
+    bool exact = !any(rounded);  // most often of all boxes or of none
+    if (!exact) {
+      for (u32 a = 0; a < D; a++) {
+        pairs[a] = round_down(numbers[a], f64x2{2 * a < D ? 0.0 : -0.0, 2 * a + 1 < D ? 0.0 : -0.0});
+      }
     }
     first = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 4, 5);
     last = __builtin_shufflevector(pairs[D - 2], pairs[D - 1], 0, 1, 4, 5);

@@ -14,6 +14,13 @@ template <int D> struct Probe {
   f32x4 lo[D], hi[D];
   u32x4 slot, excluded;
 
+  /// A box the numbers of which are so far apart.
+  Probe(const f32* box, u32 apart, u32 tag) : slot(splat(tag & slot_mask)), excluded(splat(tag & ~slot_mask)) {
+    for (u32 axis = 0; axis < D; axis++) {
+      lo[axis] = splat(box[axis * apart]);
+      hi[axis] = splat(box[(D + axis) * apart]);
+    }
+  }
   Probe(const LaneView<D>& lanes, u32 i) {
     for (int axis = 0; axis < D; axis++) {
       lo[axis] = splat(lanes.lo[axis][i]);

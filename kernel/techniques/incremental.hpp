@@ -1,6 +1,6 @@
 // Incremental: what the last updates have found out is kept, and an update costs what has changed.
 //
-// Idea: space is cut into cells of about a hundred boxes, once, by a k-d tree over a sample. A box that moves stands in
+// Idea: space is cut into cells of two hundred boxes or less, once, by a k-d tree over a sample. A box that moves stands in
 // every cell it may come to in the next updates, as a fat box that reaches as far as its motion will take it. A cell
 // keeps the pairs of fat boxes that overlap in it: its candidates. While boxes stay in their fat ones, which one pass
 // over all that may have changed finds out, an update does nothing but test each candidate. Two boxes can be candidates
@@ -32,7 +32,7 @@ template <int D> class Incremental {
   static constexpr u32 padding = 4;          // vector loads may read this many floats past the last box
   static constexpr u32 rests = 1, waiting = 2, is_huge = 4;  // in a tag of ours, below the exclusion bits
   static constexpr u32 few = 200;            // fewer boxes are not worth keeping anything
-  static constexpr u32 cell_boxes = D == 2 ? 64 : 100;  // at least so many to a cell, and less than twice as many
+  static constexpr u32 cell_boxes = 128;        // at least so many to a cell, and less than twice as many
   static constexpr u32 most_in_cell = 4096;  // where it comes to this, the cells are no good
   static constexpr u32 samples_a_cell = 4, most_samples = 1 << 16;
   static constexpr u32 huge_cells = 32;      // boxes that touch more cells than this are huge
@@ -58,12 +58,12 @@ template <int D> class Incremental {
   // box that may have moved; a mover, a candidate and a turn, all dearer where they are so many that they fill the caches.
   static constexpr f64 entry_cost = D == 2 ? 13 : 22, test_cost = D == 2 ? 0.8 : 1.1, look_cost = 2;
   static constexpr f64 copies = D == 2 ? 1.25 : 1.6;  // cells that a mover stands in
-  static constexpr f64 mover_cost = 4, candidate_cost = 4.5, turn_cost = 200, cached_movers = 40000;
+  static constexpr f64 mover_cost = 4, candidate_cost = 4.5, turn_cost = 250, cached_movers = 40000;
 
   // Rows of a fat box that moves: where the box stood when it was made, and in which update that was.
   static constexpr u32 from_row = width + 1, when_row = width + 1 + D;
-  using Movers = FatRows<D, D + 1>;
-  using Stills = FatRows<D, 0>;
+  using Movers = FatBoxes<D, D + 1>;
+  using Stills = FatBoxes<D, 0>;
 
   struct Cell {
     f32 low[4], high[4];  // where a corner must be for this cell to report: at or above low, not at or above high
@@ -372,17 +372,18 @@ template <int D> class Incremental {
   static u32 tag_of(u32 slot, u32 tag) { return slot | (tag & ~slot_mask); }
 
   /// Notes when and where a fat box was made.
-  void stamp(const Cell& cell, u32 at, const f32* box) const {
-    for (int a = 0; a < D; a++) cell.movers.row(from_row + u32(a))[at] = box[a];
-    cell.movers.row(when_row)[at] = bits<f32>(now_);
+  NOINLINE void stamp(const Cell& cell, u32 at, const f32* box) const {
+    f32* its = cell.movers.numbers(at);
+    for (u32 a = 0; a < D; a++) its[4 * (from_row + a)] = box[a];
+    its[4 * when_row] = bits<f32>(now_);
   }
 
   /// How long ago that was.
-  u32 age(const Cell& cell, u32 at) const { return now_ - bits<u32>(cell.movers.row(when_row)[at]); }
+  u32 age(const Cell& cell, u32 at) const { return now_ - bits<u32>(cell.movers.numbers(at)[4 * when_row]); }
 
   /// Takes a mover and its candidates out of a cell; the last mover comes to its place.
   COLD static void take(Cell& cell, u32 at) {
-    cell.candidates.purge(cell.movers.tags()[at] & slot_mask);
+    cell.candidates.purge(cell.movers.slot(at));
     cell.movers.take(at);
   }
 
@@ -413,9 +414,10 @@ template <int D> class Incremental {
         if (cell.movers.count >= most_in_cell) return forget();
         at = cell.movers.put(fat, tag_of(slot, known_[slot].tag));
       } else if (holds(cell, at, box)) {
-        for (u32 a = 0; a < u32(D); a++) {
-          bounds[a] = larger(bounds[a], cell.movers.row(a)[at]);
-          bounds[D + a] = smaller(bounds[D + a], cell.movers.row(D + a)[at]);
+        const f32* its = cell.movers.numbers(at);
+        for (u32 a = 0; a < D; a++) {
+          bounds[a] = larger(bounds[a], its[4 * a]);
+          bounds[D + a] = smaller(bounds[D + a], its[4 * (D + a)]);
         }
         continue;
       } else {
@@ -430,8 +432,9 @@ template <int D> class Incremental {
 
   /// Whether a box is in its fat one in a cell.
   static bool holds(const Cell& cell, u32 at, const f32* box) {
+    const f32* its = cell.movers.numbers(at);
     bool is = true;
-    for (u32 a = 0; a < u32(D); a++) is &= cell.movers.row(a)[at] <= box[a] && box[D + a] <= cell.movers.row(D + a)[at];
+    for (u32 a = 0; a < D; a++) is &= its[4 * a] <= box[a] && box[D + a] <= its[4 * (D + a)];
     return is;
   }
 
@@ -446,10 +449,10 @@ template <int D> class Incremental {
       if (at != Movers::nowhere) take(cell, at);
       stats.tests += cell.movers.count + cell.stills.count;
       cell.movers.each_hit(box, tag, [&](u32 other) {
-        cell.candidates.add_still(cell.movers.tags()[other] & slot_mask, slot, box);
+        cell.candidates.add_still(cell.movers.slot(other), slot, box);
       });
       cell.stills.each_hit(box, tag, [&](u32 other) {
-        u32 its = cell.stills.tags()[other] & slot_mask;
+        u32 its = cell.stills.slot(other);
         // One that has woken, and waits, is no longer where it rested.
         if (!(known_[its].tag & waiting) && reports(cell, box, last(its))) settle(slot, its);
       });
@@ -586,7 +589,7 @@ template <int D> class Incremental {
     for (u32 c = 0; c < leaves_; c++) {
       Cell& cell = cells_[c];
       for (u32 k = cell.movers.count; k-- > 0;) {
-        u32 slot = cell.movers.tags()[k] & slot_mask;
+        u32 slot = cell.movers.slot(k);
         if (slot >= n || (known_[slot].tag & waiting)) take(cell, k);
       }
     }
@@ -694,7 +697,7 @@ template <int D> class Incremental {
     for (u32 c = cursor_; c < until; c++) {
       const Movers& movers = cells_[c].movers;
       for (u32 k = 0; k < movers.count; k++) {
-        u32 slot = movers.tags()[k] & slot_mask;
+        u32 slot = movers.slot(k);
         read_ ^= known_[slot].tag ^ bits<u32>(scene.box(slot)[0]);
       }
     }
@@ -703,7 +706,7 @@ template <int D> class Incremental {
   /// New fat boxes for the movers of a cell, and all candidates anew.
   void turn(Cell& cell, const Scene<D>& scene, const Settings& options, Stats& stats) {
     for (u32 k = cell.movers.count; k-- > 0;) {
-      u32 slot = cell.movers.tags()[k] & slot_mask, tag = known_[slot].tag;
+      u32 slot = cell.movers.slot(k), tag = known_[slot].tag;
       const f32* box = scene.box(slot);
       if (tag & rests) {
         cell.candidates.clear();  // it rests elsewhere; all candidates are to be collected anyway
@@ -712,8 +715,8 @@ template <int D> class Incremental {
       }
       f32 low[4], fat[width + padding];
       bool moved = false;
-      for (int a = 0; a < D; a++) {
-        low[a] = cell.movers.row(from_row + u32(a))[k];
+      for (u32 a = 0; a < D; a++) {
+        low[a] = cell.movers.numbers(k)[4 * (from_row + a)];
         moved |= low[a] != box[a];
       }
       u32 updates = age(cell, k);
@@ -774,7 +777,7 @@ template <int D> class Incremental {
         const Cell& cell = cells_[found.cell[c]];
         u32 at = cell.movers.find(slot);
         if (at == Movers::nowhere) continue;
-        for (int a = 0; a < D; a++) low[a] = cell.movers.row(from_row + u32(a))[at];
+        for (u32 a = 0; a < D; a++) low[a] = cell.movers.numbers(at)[4 * (from_row + a)];
         updates = larger(age(cell, at), 1u);
         break;
       }
@@ -829,7 +832,7 @@ template <int D> class Incremental {
     for (u32 c = 0; c < leaves_; c++) {
       const Cell& cell = cells_[c];
       for (u32 k = 0; k < cell.movers.count; k++) {
-        u32 slot = cell.movers.tags()[k] & slot_mask;
+        u32 slot = cell.movers.slot(k);
         const f32* box = scene.box(slot);
         if ((known_[slot].tag & rests) || !reports(cell, box, box)) continue;
         for (u32 h = 0; h < huge_count_; h++) try_pair(huge_[h], slot);
