@@ -15,7 +15,7 @@
 // not pay. Meanwhile, and where most boxes move, the generations of coherent.hpp give the answers, which are sooner there;
 // until then strip-sweep does.
 // Cost: where all move by a hundredth of their size a fifth of strip-sweep, by a tenth of it 0.4 in 2D and 0.5 in 3D;
-// where 5 % move 0.15 to 0.25, of a million 0.3, and with `set` only the movers count. The first updates, in which the
+// where 5 % move 0.12 to 0.2, of a million 0.3, and with `set` only the movers count. The first updates, in which the
 // first generation is made, up to eighty, cost about a twelfth more.
 // Memory, beside that of strip-sweep: about 120 (2D) or 210 (3D) bytes a box that moves, 100 or 150 one at rest.
 // Wins where boxes rest, or move slowly. Is strip-sweep where they jump.
@@ -797,10 +797,10 @@ template <int D> class Incremental {
     }
     pairs.kept = head;
     u64* out = pairs.list.data() + head;
-    bool far = this->far();
+    bool fetches = far();
     u32 moving = 0, candidates = 0, tests = 0;
     for (u32 c = 0; c < leaves_; c++) {
-      if (far && c % together == 0) {
+      if (fetches && c % together == 0) {
         u32 until = smaller(leaves_, c + together);
         for (u32 k = c; k < until; k++) read_ ^= cells_[k].candidates.fetch();
         for (u32 k = c; k < until; k++) read_ ^= cells_[k].candidates.fetch_boxes(scene.boxes);
