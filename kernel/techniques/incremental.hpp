@@ -1,6 +1,6 @@
 // Incremental: what the last updates have found out is kept, and an update costs what has changed.
 //
-// Idea: space is cut into cells of two hundred boxes or less, once, by a k-d tree over a sample. A box that moves stands in
+// Idea: space is cut into cells of 128 to 256 boxes, once, by a k-d tree over a sample. A box that moves stands in
 // every cell it may come to in the next updates, as a fat box that reaches as far as its motion will take it. A cell
 // keeps the pairs of fat boxes that overlap in it: its candidates. While boxes stay in their fat ones, which one pass
 // over all that may have changed finds out, an update does nothing but test each candidate. Two boxes can be candidates
@@ -32,7 +32,7 @@ template <int D> class Incremental {
   static constexpr u32 padding = 4;          // vector loads may read this many floats past the last box
   static constexpr u32 rests = 1, waiting = 2, is_huge = 4;  // in a tag of ours, below the exclusion bits
   static constexpr u32 few = 200;            // fewer boxes are not worth keeping anything
-  static constexpr u32 cell_boxes = 128;        // at least so many to a cell, and less than twice as many
+  static constexpr u32 cell_boxes = 128;     // at least so many to a cell, and less than twice as many
   static constexpr u32 most_in_cell = 4096;  // where it comes to this, the cells are no good
   static constexpr u32 samples_a_cell = 4, most_samples = 1 << 16;
   static constexpr u32 huge_cells = 32;      // boxes that touch more cells than this are huge
