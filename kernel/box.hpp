@@ -28,6 +28,8 @@ template <int D> struct Scene {
 
   const f32* box(u32 slot) const { return boxes + u64(slot) * 2 * D; }
   u32 excluded_of(u32 slot) const { return excluded ? excluded[slot] : 0; }
+  /// Whether it is known which boxes may have changed.
+  bool listed() const { return changes && !changes->all(); }
 };
 
 /// Which axis stands where in an item: axis[0] is swept, the others are binned.

@@ -54,6 +54,8 @@ class Filters {
  public:
   bool active() const { return active_; }
   bool changed() const { return active_ && changed_; }
+  /// Whether all boxes are searched, as in the last update.
+  bool search_all() const { return !active_ || !(changed_ || some_); }
   /// Per slot, while active.
   const Rule* rules() const { return rules_.data(); }
 

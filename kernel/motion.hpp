@@ -83,5 +83,11 @@ template <int D> i32x4 axes_in_order(const f32* box) {
   return (load<f32x4>(box) <= load<f32x4>(box + D)) | (D == 2 ? i32x4{0, 0, -1, -1} : i32x4{0, 0, 0, -1});
 }
 
+/// In which numbers two boxes are the same; in all lanes: they are.
+template <int D> i32x4 alike(const f32* one, const f32* other) {
+  i32x4 same = load<f32x4>(one) == load<f32x4>(other);
+  return D == 2 ? same : same & (load<f32x4>(one + 2) == load<f32x4>(other + 2));
+}
+
 /// Whether a box is in another.
 template <int D> bool inside(const f32* box, const f32* other) { return bitmask(sides_inside<D>(box, other)) == 15; }

@@ -56,6 +56,11 @@ inline u32 bitmask(i32x4 v) { return wasm_i32x4_bitmask(bits<v128_t>(v)); }
 inline u32 bitmask(i16x8 a, i16x8 b) {
   return wasm_i8x16_bitmask(wasm_i8x16_narrow_i16x8(bits<v128_t>(a), bits<v128_t>(b)));
 }
+/// In each lane, whether a condition holds in all lanes of the vector of that number.
+inline i32x4 all_lanes(i32x4 a, i32x4 b, i32x4 c, i32x4 d) {
+  v128_t first = wasm_i16x8_narrow_i32x4(bits<v128_t>(a), bits<v128_t>(b));
+  return bits<i32x4>(wasm_i8x16_narrow_i16x8(first, wasm_i16x8_narrow_i32x4(bits<v128_t>(c), bits<v128_t>(d)))) == -1;
+}
 /// One bit a lane: whether a is at most b.
 inline u32 at_most(f64x2 a, f64x2 b) { return wasm_i64x2_bitmask(bits<v128_t>(a <= b)); }
 inline bool any(i32x4 v) { return wasm_v128_any_true(bits<v128_t>(v)); }
@@ -76,6 +81,10 @@ inline u8x16 swizzle(u8x16 v, u8x16 index) {
 inline u32 bitmask(i32x4 v) { return u32(_mm_movemask_ps(bits<__m128>(v))); }
 inline u32 bitmask(i16x8 a, i16x8 b) {
   return u32(_mm_movemask_epi8(_mm_packs_epi16(bits<__m128i>(a), bits<__m128i>(b))));
+}
+inline i32x4 all_lanes(i32x4 a, i32x4 b, i32x4 c, i32x4 d) {
+  __m128i first = _mm_packs_epi32(bits<__m128i>(a), bits<__m128i>(b));
+  return bits<i32x4>(_mm_packs_epi16(first, _mm_packs_epi32(bits<__m128i>(c), bits<__m128i>(d)))) == -1;
 }
 inline u32 at_most(f64x2 a, f64x2 b) { return u32(_mm_movemask_pd(bits<__m128d>(a <= b))); }
 inline bool any(i32x4 v) { return !_mm_testz_si128(bits<__m128i>(v), bits<__m128i>(v)); }

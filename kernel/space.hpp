@@ -36,7 +36,8 @@ template <int D> class Space {
   Buffer<u8> rounded_, staged_rounded_;  // per slot, while `rounding_`: whether float32 cannot hold the box
   bool rounding_ = false;
   bool exposed_ = false;  // `boxes()` has handed out the memory: look at each update for what was written
-  Buffer<f32> before_;    // the boxes of the last update, while they are exposed and few of them change
+  bool unseen_ = false;   // all boxes were given at once: so too, though none is bad
+  Buffer<f32> before_;    // the boxes of the last update, while they are exposed and, though nothing is kept, few change
   u32 copied_ = 0;        // how many there are in it; 0: it is not in use
   u32 blind_ = 0, pause_ = 1;  // updates until it is tried again; how many the next pause has
   Filters filters_;
@@ -247,8 +248,9 @@ template <int D> class Space {
     Technique chosen = choose();
     bool follows = chosen == Technique::incremental;
     bool looked_at = false;
-    i32 bad = exposed_ && follows ? see_written(looked_at) : bad_in_place();
+    i32 bad = (exposed_ || unseen_) && follows ? see_written(looked_at) : bad_in_place();
     if (bad >= 0) return bad;
+    unseen_ = false;
     if (follows && chosen == ran_ && changes_.none() && ids_.count() == seen_ && !filters_.changed()) return rest();
     Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_, looked_at};
     if (filters_.active()) {
@@ -453,46 +455,44 @@ template <int D> class Space {
     return -1;
   }
 
-  /// Looks at boxes written in place, notes those that have changed, and gives the id of the first bad one, or -1.
+  /// Looks at boxes that nobody has noted, notes those that have changed, and gives the id of the first bad one, or -1.
   COLD i32 see_written(bool& looked_at) {
     u32 n = ids_.count();
-    if (copied_ == n && !changes_.all()) {
+    bool held = false;
+    const u32* slots = nullptr;
+    u32 many = 0;
+    techniques_.with_incremental(ran_, [&](auto& incremental) {
+      if (!filters_.search_all() || options_.wrap[0] > 0) return;
+      Scene<D> scene{boxes_.data(), n, filters_.active() ? filters_.excluded() : nullptr};
+      if (incremental.keeps()) {
+        slots = incremental.unexpected(scene, many);
+        held = slots && many == 0 && incremental.all_rest() && !rounding_;
+      } else if (copied_ != n && changes_.none() && n == seen_ && compares()) {
+        held = incremental.holds(scene);
+        blind_ = held ? 0 : unheld;
+      }
+    });
+    looked_at = slots;
+    if (!slots && copied_ == n && !changes_.all()) {
       bool little = changes_.compare<width * sizeof(f32)>(boxes_.data(), before_.data(), n, 1, true);
       compared(little);
       // A bad one is copied like any other; until it is mended it stays on the list, which is looked at whole.
       if (little) return bad_of(changes_.list(), changes_.count());
     }
     copied_ = 0;
-    Scene<D> scene{boxes_.data(), n, nullptr};
-    bool keeps = false, held = false;
-    const u32* slots = nullptr;
-    u32 many = 0;
-    techniques_.with_incremental(ran_, [&](auto& incremental) {
-      keeps = incremental.keeps();
-      if (filters_.active() || options_.wrap[0] > 0) return;
-      if (keeps) {
-        slots = incremental.unexpected(scene, many);
-      } else if (changes_.none() && n == seen_ && compares()) {
-        held = incremental.holds(scene);
-        blind_ = held ? 0 : unheld;
-      }
-    });
-    looked_at = slots;
-    i32 bad = -1;
-    if (!held) {
-      changes_.note_all();
-      bad = slots ? bad_of(slots, many) : bad_in_place();
-    }
-    // To copy boxes takes memory, which takes long to be used for the first time: not before something is kept.
-    if (bad >= 0 || !(held || (keeps && compares()))) return bad;
+    if (!held) changes_.note_all();
+    if (slots) return bad_of(slots, many);
+    if (!held) return bad_in_place();
     before_.reserve(u64(n) * width);
     __builtin_memcpy(before_.data(), boxes_.data(), u64(n) * width * sizeof(f32));
     copied_ = n;
     return -1;
   }
 
-  /// Notes which of the boxes that were staged differ from those that stand.
-  COLD void note_staged() {
+  /// Notes which of the boxes that were staged differ from those that stand, or that it is to be found out.
+  void note_staged() {
+    techniques_.with_incremental(ran_, [&](auto& incremental) { unseen_ = incremental.keeps(); });
+    if (unseen_) return;
     if (changes_.all() || !compares()) return changes_.note_all();
     const void* now = staged_.data();
     void* before = boxes_.data();
@@ -608,7 +608,7 @@ template <int D> class Space {
   }
 
   /// The first of `count` boxes with a NaN or with a minimum above its maximum, or -1.
-  static i32 first_bad(const f32* boxes, u32 count) {
+  NOINLINE static i32 first_bad(const f32* boxes, u32 count) {
     constexpr u32 all = D == 2 ? 3 : 7;
     for (u32 s = 0; s < count; s++) {
       f32x4 low = load<f32x4>(boxes + u64(s) * width);

@@ -3,7 +3,7 @@
 import { BroadPhase, findPairs } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../src/scenes/random.ts';
-import { keysOf } from './reference.ts';
+import { keysOf, pairOf } from './reference.ts';
 import { setBox } from './set-box.ts';
 
 const ways = ['boxes', 'floats', 'doubles', 'mixed'] as const;
@@ -103,6 +103,82 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     }
     expect(caught, 'found while what was found is kept').toBeGreaterThan(15);
   });
+
+  // What is kept knows where it expects each box. One at rest that grows shorter is still where it was, and nobody tells.
+  test.each([
+    ['boxes', false],
+    ['boxes', true],
+    ['floats', false],
+    ['doubles', false],
+  ] as const)(
+    'in a world mostly at rest, given by %s, all that is else than expected is seen (static: %s)',
+    (way, isStatic) => {
+      const count = 1203;
+      const width = 2 * dimensions;
+      const random = createRandom(count);
+      const world = 10 * (count / 0.2) ** (1 / dimensions);
+      const space = new BroadPhase({ dimensions });
+      const boxes = new Float64Array(count * width);
+      const give = () => {
+        if (way === 'boxes') space.boxes(count).set(boxes);
+        else space.setAll(way === 'floats' ? new Float32Array(boxes) : boxes);
+      };
+      for (let k = 0; k < boxes.length; k++) {
+        boxes[k] = k % width < dimensions ? Math.floor(random() * world) : boxes[k - dimensions]! + 10;
+      }
+      if (way === 'doubles') boxes[0]! -= 2 ** -40;
+      give();
+      const still = (id: number) => id % 20 !== 0;
+      if (isStatic) for (let id = 0; id < count; id++) if (still(id) && id < count / 2) space.setStatic(id);
+      const expected = () => {
+        const all = keysOf(findPairs(boxes, { dimensions }));
+        if (!isStatic) return all;
+        return all.filter((key) => pairOf(key).some((id) => !still(id) || id >= count / 2));
+      };
+      let seen = 0;
+      let caught = 0;
+      for (let frame = 0; frame < 340; frame++) {
+        for (let id = 0; id < count; id += 20) {
+          for (let k = id * width; k < (id + 1) * width; k++) boxes[k]! += frame % 80 < 40 ? 0.125 : -0.125;
+        }
+        const odd = Math.floor(random() * count);
+        const at = odd * width + dimensions + (frame % dimensions);
+        const was = boxes[at]!;
+        const kept = frame > 230 && space.stats.reason.includes('is kept');
+        if (kept && frame % 3 === 0) {
+          boxes[at] = was - 5;
+          seen++;
+        } else if (kept && way === 'boxes' && frame % 3 === 1) {
+          const other = (odd + 1 + Math.floor(random() * (count - 1))) % count;
+          const there = other * width + dimensions;
+          const good = boxes[there]!;
+          boxes[at] = Number.NaN;
+          boxes[there] = boxes[other * width]! - 0.0625;
+          give();
+          const before = space.pairs.slice();
+          for (let again = 0; again < 2; again++) {
+            expect(() => space.update(), `frame ${frame}`).toThrow(new RegExp(`\\b${Math.min(odd, other)}\\b`));
+          }
+          expect(space.pairs).toEqual(before);
+          boxes[at] = was;
+          boxes[there] = good;
+          caught++;
+        }
+        give();
+        space.update();
+        if (frame > 200) expect(keysOf(space.pairs), `frame ${frame}`).toEqual(expected());
+        boxes[at] = was;
+      }
+      expect(seen).toBeGreaterThan(20);
+      expect(caught).toBeGreaterThan(way === 'boxes' ? 20 : -1);
+      for (let frame = 0; frame < 150; frame++) {
+        give();
+        space.update();
+      }
+      expect(keysOf(space.pairs)).toEqual(expected());
+      if (way !== 'doubles') expect(space.stats.tests, 'all rests').toBe(0);
+    },
+  );
 
   test('boxes that are given again as they were cost nothing', () => {
     const random = createRandom(7);

@@ -17,8 +17,8 @@
 // Part of `incremental`, which says when. From: L. Verlet, 1967; see motion.hpp. Making the next generation a slice at a
 // time is ours.
 #pragma once
+#include "../expected.hpp"
 #include "../fat_bins.hpp"
-#include "../motion.hpp"
 #include "strip_sweep.hpp"
 
 template <int D> class Coherent {
@@ -57,7 +57,6 @@ template <int D> class Coherent {
   struct Generation {
     Buffer<f32> fat;       // per slot
     Buffer<u32> excluded;  // per slot, the exclusion bits its candidates were found with
-    bool excludes = false; // some may not be 0
     StripSweep<D> strips;
     Pairs candidates;
     Stats stats;
@@ -233,39 +232,10 @@ template <int D> class Coherent {
   }
 
   /// Finds the boxes that are not in their fat ones, or are none, among the first so many.
-  NOINLINE void look(const Scene<D>& scene, u32 until) {
-    const f32* fat = current().fat.data();
-    const u32* excluded = current().excluded.data();
-    bool excludes = current().excludes || scene.excluded;
-    u32* late = late_.reserve(u64(scene.count) + 1);
-    late_count_ = 0;
-    auto expected = [&](u32 slot) {
-      return sides_inside<D>(scene.box(slot), fat + u64(slot) * width) & axes_in_order<D>(scene.box(slot));
-    };
-    auto check = [&](u32 slot) __attribute__((noinline)) {
-      late[late_count_] = slot;
-      late_count_ += !(bitmask(expected(slot)) == 15 && excluded[slot] == scene.excluded_of(slot));
-    };
-    if (scene.changes && !scene.changes->all() && !unchecked_) {
-      for (u32 k = 0; k < scene.changes->count(); k++) {
-        if (scene.changes->list()[k] < until) check(scene.changes->list()[k]);
-      }
-      return;
-    }
-    for (u32 slot = 0; slot < until;) {
-      if (slot + 4 <= until) {  // nearly always all four are where they should be
-        i32x4 all = ~i32x4{};
-        if (excludes) all = load<u32x4>(excluded + slot) == (scene.excluded ? load<u32x4>(scene.excluded + slot) : u32x4{});
-        for (u32 k = slot; k < slot + 4; k++) all &= expected(k);
-        if (bitmask(all) == 15) {
-          slot += 4;
-          continue;
-        }
-      }
-      u32 end = smaller(slot + 4, until);
-      ROLLED
-      for (; slot < end; slot++) check(slot);
-    }
+  COLD void look(const Scene<D>& scene, u32 until) {
+    const Generation& g = current();
+    Expected<D> expected{g.fat.data(), g.excluded.data()};
+    late_count_ = expected.look(scene, until, unchecked_, late_);
   }
 
   /// Sees to it that fat boxes hold their boxes again; false where all is given up.
@@ -329,7 +299,6 @@ template <int D> class Coherent {
     g.marks[slot] = 0;
     for (u32 k = 0; k < width; k++) g.fat[u64(slot) * width + k] = __builtin_nanf("");
     g.excluded[slot] = scene.excluded_of(slot);
-    g.excludes |= scene.excluded != nullptr;
     note(scene, slot);
   }
 
@@ -461,7 +430,6 @@ template <int D> class Coherent {
     // Room for half as many again: where that is not enough they are copied, which takes long.
     g.candidates.list.reserve(u64(smaller(1.5 * found_, 16.0) * boxes_) + Pairs::slack);
     g.candidates.count = 0;
-    g.excludes = false;
     walls_ = Walls::empty();
     stage_ = Stage::fatten;
     g.strips.begin(scene, growth(), g.stats);
@@ -557,7 +525,6 @@ template <int D> class Coherent {
     Generation& g = next();
     f32 begins = f32(larger(0, making_ - age_)), reach = begins + f32(life());
     begins *= foresight_;
-    g.excludes |= scene.excluded != nullptr;
     for (u32 slot = at_; slot < until; slot++) {
       // Written in place, in order: what is written beyond a fat box is where the next one comes.
       f32* fat = g.fat.data() + u64(slot) * width;

@@ -30,7 +30,7 @@
 template <int D> class Incremental {
   static constexpr u32 width = 2 * D;
   static constexpr u32 padding = 4;          // vector loads may read this many floats past the last box
-  static constexpr u32 rests = 1, waiting = 2, is_huge = 4;  // in a tag of ours, below the exclusion bits
+  static constexpr u32 rests = Expected<D>::rests, waiting = 2, is_huge = 4;  // in a tag of ours, below the exclusion bits
   static constexpr u32 few = 200;            // fewer boxes are not worth keeping anything
   static constexpr u32 cell_boxes = 128;     // at least so many to a cell, and less than twice as many
   static constexpr u32 most_in_cell = 4096;  // where it comes to this, the cells are no good
@@ -72,12 +72,6 @@ template <int D> class Incremental {
     Candidates<D> candidates;
   };
 
-  struct Known {
-    f32 box[width];  // of a mover: while it is in here its candidates hold; else: at rest, or when it began to wait
-    u32 since;       // the update of that
-    u32 tag;         // exclusion bits, and those below them
-  };
-
   StripSweep<D>& anew_;
   Coherent<D> coherent_;
   Buffer<Cell> cells_;
@@ -86,7 +80,10 @@ template <int D> class Incremental {
   u32 count_ = 0;        // boxes that are followed
   u32 planned_ = 0;      // how many they were when the cells were made
   u32 enlisted_ = 0;     // of which so many are known to wait, before any is followed
-  Buffer<Known> known_;  // per slot
+  // Per slot:
+  Buffer<f32> known_;    // of a mover: while it is in here its candidates hold; else: at rest, or when it began to wait
+  Buffer<u32> since_;    // the update in which a box was, or began to wait, there
+  Buffer<u32> tags_;     // exclusion bits, and ours below them
   Buffer<u32> queue_;    // slots that wait to be put into cells
   u32 queued_ = 0, resting_ = 0;
   u32 portion_ = 0;      // boxes put into cells in an update, where many wait
@@ -128,8 +125,15 @@ template <int D> class Incremental {
   /// Where all boxes are looked at anyway, the slots of those that are not where they are expected or that are none,
   /// ascending; else null. If `update` comes next it need not look again.
   const u32* unexpected(const Scene<D>& scene, u32& many) {
-    return by_ == By::generations ? coherent_.unexpected(scene, many) : nullptr;
+    if (by_ == By::generations) return coherent_.unexpected(scene, many);
+    if (by_ == By::strips || scene.count > count_) return nullptr;
+    look(scene, scene.count, true);
+    many = late_count_;
+    return late_.data();
   }
+
+  /// Whether all boxes rest: where none is elsewhere, the pairs are those of before.
+  bool all_rest() const { return by_ == By::cells && resting_ == count_; }
 
   /// Whether the last update was answered by what is kept; where it was not, whether these are its boxes.
   bool keeps() const { return by_ != By::strips; }
@@ -156,6 +160,8 @@ template <int D> class Incremental {
     cells_.release();
     halves_.release();
     known_.release();
+    since_.release();
+    tags_.release();
     queue_.release();
     late_.release();
     settled_.list.release();
@@ -211,12 +217,9 @@ template <int D> class Incremental {
     if (leaves_ > 0) report(scene, pairs, stats);
   }
 
-  f32* last(u32 slot) const { return known_[slot].box; }
+  f32* last(u32 slot) const { return known_.data() + u64(slot) * width; }
 
-  static bool equal(const f32* a, const f32* b) {
-    u32 both = bitmask((load<f32x4>(a) == load<f32x4>(b)) & (load<f32x4>(a + D) == load<f32x4>(b + D)));
-    return !(~both & ((1 << D) - 1));
-  }
+  static bool equal(const f32* a, const f32* b) { return bitmask(alike<D>(a, b)) == 15; }
 
   /// Gives up what is kept, but for the memory of what is per slot.
   COLD void forget() {
@@ -254,7 +257,7 @@ template <int D> class Incremental {
     period_ = target_ = best_period(n * share, hits * share, speed);
     f64 candidates = hits * share;
     for (int a = 0; a < D; a++) candidates *= 1 + speed * period_;
-    bool listed = scene.changes && !scene.changes->all();
+    bool listed = scene.listed();
     f64 by_cells = cost(copies * n * share, candidates, period_) + (listed ? 0 : look_cost * n);
     f64 by_generations = coherent_.cost(n, hits, share, speed, listed);
     // Generations come first: they are soon there, and answer while cells are filled.
@@ -306,8 +309,12 @@ template <int D> class Incremental {
   COLD void enlist(const Scene<D>& scene) {
     u32 n = scene.count, until = smaller(n, enlisted_ + n / enlisting + 1);
     u64 room = u64(n) + n / 4;
-    if (enlisted_ == 0) known_.reserve(room);
-    for (; enlisted_ < until; enlisted_++) known_[enlisted_].tag = waiting | scene.excluded_of(enlisted_);
+    if (enlisted_ == 0) {
+      known_.reserve(room * width + padding);
+      since_.reserve(room);
+      tags_.reserve(room + padding);
+    }
+    for (; enlisted_ < until; enlisted_++) tags_[enlisted_] = waiting | scene.excluded_of(enlisted_);
     if (enlisted_ < n) return;
     count_ = n;
     queue_.reserve(room + 1);
@@ -333,12 +340,12 @@ template <int D> class Incremental {
 
   void note(const Scene<D>& scene, u32 slot) {
     __builtin_memcpy(last(slot), scene.box(slot), width * sizeof(f32));
-    known_[slot].since = now_;
+    since_[slot] = now_;
   }
 
   /// A new box waits to be put into cells.
   void expect(const Scene<D>& scene, u32 slot) {
-    known_[slot].tag = waiting | scene.excluded_of(slot);
+    tags_[slot] = waiting | scene.excluded_of(slot);
     note(scene, slot);
     queue_[queued_++] = slot;
   }
@@ -412,7 +419,7 @@ template <int D> class Incremental {
       u32 at = cell.movers.find(slot);
       if (at == Movers::nowhere) {
         if (cell.movers.count >= most_in_cell) return forget();
-        at = cell.movers.put(fat, tag_of(slot, known_[slot].tag));
+        at = cell.movers.put(fat, tag_of(slot, tags_[slot]));
       } else if (holds(cell, at, box)) {
         const f32* its = cell.movers.numbers(at);
         for (u32 a = 0; a < D; a++) {
@@ -440,7 +447,7 @@ template <int D> class Incremental {
 
   /// From now on a box rests, which was in the cells it touches now, or in none.
   COLD void rest(u32 slot, const f32* box, const Found& found, Stats& stats) {
-    u32 tag = known_[slot].tag = (known_[slot].tag & ~slot_mask) | rests;
+    u32 tag = tags_[slot] = (tags_[slot] & ~slot_mask) | rests;
     __builtin_memcpy(last(slot), box, width * sizeof(f32));
     resting_++;
     for (u32 k = 0; k < found.count; k++) {
@@ -454,12 +461,12 @@ template <int D> class Incremental {
       cell.stills.each_hit(box, tag, [&](u32 other) {
         u32 its = cell.stills.slot(other);
         // One that has woken, and waits, is no longer where it rested.
-        if (!(known_[its].tag & waiting) && reports(cell, box, last(its))) settle(slot, its);
+        if (!(tags_[its] & waiting) && reports(cell, box, last(its))) settle(slot, its);
       });
       cell.stills.put(box, tag_of(slot, tag));
     }
     for (u32 h = 0; h < huge_count_; h++) {
-      u32 its = known_[huge_[h]].tag;
+      u32 its = tags_[huge_[h]];
       if ((its & rests) && !(its & tag & ~slot_mask) && touch<D>(box, last(huge_[h]))) settle(slot, huge_[h]);
     }
   }
@@ -473,8 +480,8 @@ template <int D> class Incremental {
   COLD void wake(u32 slot) {
     woken_[slot / 32] |= 1u << slot % 32;
     any_woken_ = true;
-    known_[slot].tag |= waiting;
-    known_[slot].since = now_ - 1;
+    tags_[slot] |= waiting;
+    since_[slot] = now_ - 1;
     queue_[queued_++] = slot;
   }
 
@@ -483,7 +490,7 @@ template <int D> class Incremental {
     cells_of(last(slot), found);
     for (u32 k = 0; k < found.count; k++) take_still(cells_[found.cell[k]], slot);
     resting_--;
-    known_[slot].tag &= ~rests;
+    tags_[slot] &= ~rests;
   }
 
   // --- an update ---
@@ -492,30 +499,40 @@ template <int D> class Incremental {
   COLD void follow(const Scene<D>& scene, Pairs& pairs) {
     u32 n = scene.count, had = count_, both = smaller(n, had);
     if (n > had) {
-      known_.grow(n, had);
+      known_.grow(u64(n) * width + padding, u64(had) * width);
+      since_.grow(n, had);
+      tags_.grow(n, had);
       queue_.grow(n, queued_);
       u64 words = n / 32 + 1, known = had / 32 + 1;
       woken_.grow(words, known);
       for (u64 w = known; w < words; w++) woken_[w] = 0;
     }
     bool sweeps = n < had;
-    late_count_ = 0;
     for (u32 slot = n; slot < had; slot++) {
-      u32 tag = known_[slot].tag;
+      u32 tag = tags_[slot];
       if (!(tag & rests)) continue;
       if (!(tag & is_huge)) leave_rest(slot);
       woken_[slot / 32] |= 1u << slot % 32;
       any_woken_ = true;
     }
     if (n < had) unqueue(n);
-    // While cells are filled nobody asks who has moved, but for the last of these updates.
-    bool listed = scene.changes && !scene.changes->all(), fills = queued_ > 2 * portion_;
-    if (fills && !listed) unchecked_ = true;
-    if (listed && !unchecked_) {
-      check(scene, scene.changes->list(), scene.changes->count(), both, sweeps);
-    } else if (!fills) {
-      check(scene, nullptr, both, both, sweeps);
+    // While cells are filled, and nobody tells who may have moved, it is asked but in the last of these updates.
+    bool fills = queued_ > 2 * portion_;
+    unchecked_ |= fills && !scene.listed();
+    if (fills && unchecked_) {
+      late_count_ = 0;
+    } else {
+      if (!scene.looked_at || by_ != By::cells) look(scene, both, unchecked_);
       unchecked_ = false;
+    }
+    u32 many = late_count_;
+    late_count_ = 0;
+    for (u32 k = 0; k < many; k++) {
+      // Those that are late are left; one at rest that is not what it was wakes, one with another tag is put in anew.
+      u32 slot = late_[k];
+      late_[late_count_] = slot;
+      if (tags_[slot] == scene.excluded_of(slot)) late_count_++;
+      else changed(scene, slot, sweeps);
     }
     if (any_woken_) unsettle(pairs, larger(n, had));
     if (sweeps) sweep_out(n);
@@ -523,47 +540,30 @@ template <int D> class Incremental {
     for (u32 slot = had; slot < n; slot++) expect(scene, slot);
   }
 
-  /// Finds out which movers have left their fat boxes, wakes boxes at rest that are not what they were, and sees to it that
-  /// those with other tags are put in anew. Looks at the slots of a list that are below `both`, or at as many from 0 on.
-  NOINLINE void check(const Scene<D>& scene, const u32* list, u32 many, u32 both, bool& sweeps) {
-    for (u32 k = 0; k < many; k++) {
-      u32 slot = list ? list[k] : k;
-      if (slot >= both) continue;
-      const Known& known = known_[slot];
-      const f32* box = scene.box(slot);
-      u32 excluded = scene.excluded_of(slot);
-      if (known.tag == excluded) {
-        if (!inside<D>(box, known.box)) add_late(slot);
-      } else if (known.tag != (excluded | rests) || !equal(box, known.box)) {
-        changed(scene, slot, sweeps);
-      }
-    }
-  }
-
-  COLD void add_late(u32 slot) {
-    late_.grow(u64(late_count_) + 1, late_count_);
-    late_[late_count_++] = slot;
+  /// Finds the boxes that are not as expected, among the first so many: of those that may have changed, or of all.
+  COLD void look(const Scene<D>& scene, u32 until, bool all) {
+    late_count_ = Expected<D>{known_.data(), tags_.data()}.look(scene, until, all, late_);
   }
 
   COLD void changed(const Scene<D>& scene, u32 slot, bool& sweeps) {
-    u32 tag = known_[slot].tag, excluded = scene.excluded_of(slot);
+    u32 tag = tags_[slot], excluded = scene.excluded_of(slot);
     bool same = (tag & ~slot_mask) == excluded;
     if ((tag & rests) && !(tag & waiting)) {
       if (same && equal(scene.box(slot), last(slot))) return;
       if (tag & is_huge) {
         woken_[slot / 32] |= 1u << slot % 32;
         any_woken_ = true;
-        known_[slot].tag = excluded | is_huge;
-        known_[slot].since = now_;
+        tags_[slot] = excluded | is_huge;
+        since_[slot] = now_;
         resting_--;
       } else {
         wake(slot);
       }
     } else if (!same) {
-      known_[slot].tag = (tag & slot_mask) | excluded;
+      tags_[slot] = (tag & slot_mask) | excluded;
       if (tag & (waiting | is_huge)) return;
-      known_[slot].tag |= waiting;
-      known_[slot].since = now_;
+      tags_[slot] |= waiting;
+      since_[slot] = now_;
       __builtin_memcpy(last(slot), scene.box(slot), width * sizeof(f32));
       queue_[queued_++] = slot;
       sweeps = true;
@@ -590,7 +590,7 @@ template <int D> class Incremental {
       Cell& cell = cells_[c];
       for (u32 k = cell.movers.count; k-- > 0;) {
         u32 slot = cell.movers.slot(k);
-        if (slot >= n || (known_[slot].tag & waiting)) take(cell, k);
+        if (slot >= n || (tags_[slot] & waiting)) take(cell, k);
       }
     }
     u32 left = 0;
@@ -624,7 +624,7 @@ template <int D> class Incremental {
   COLD bool astray(const Scene<D>& scene) const {
     u32 stride = larger(1u, count_ / watched), known = 0, out = 0;
     for (u32 slot = 0; slot < count_; slot += stride) {
-      u32 tag = known_[slot].tag;
+      u32 tag = tags_[slot];
       if (tag & (waiting | is_huge)) continue;
       known++;
       out += !(tag & rests ? equal(scene.box(slot), last(slot)) : inside<D>(scene.box(slot), last(slot)));
@@ -640,10 +640,10 @@ template <int D> class Incremental {
     see(scene, many);
     for (; many > 0; many--) {
       u32 slot = queue_[--queued_];
-      if (known_[slot].tag & rests) leave_rest(slot);
-      known_[slot].tag = scene.excluded_of(slot);
+      if (tags_[slot] & rests) leave_rest(slot);
+      tags_[slot] = scene.excluded_of(slot);
       const f32* box = scene.box(slot);
-      u32 updates = now_ - known_[slot].since;
+      u32 updates = now_ - since_[slot];
       bool still = updates > still_for && equal(box, last(slot));
       f32 fat[width + padding];
       if (!still) fatten<D>(box, last(slot), larger(updates, 1u), 0, until, no_walls, slack_, options.margin, fat);
@@ -656,7 +656,7 @@ template <int D> class Incremental {
       if (found.many()) {
         if (huge_count_ == most_huge) return forget();
         huge_[huge_count_++] = slot;
-        known_[slot].tag |= is_huge;
+        tags_[slot] |= is_huge;
         note(scene, slot);
         continue;
       }
@@ -698,7 +698,7 @@ template <int D> class Incremental {
       const Movers& movers = cells_[c].movers;
       for (u32 k = 0; k < movers.count; k++) {
         u32 slot = movers.slot(k);
-        read_ ^= known_[slot].tag ^ bits<u32>(scene.box(slot)[0]);
+        read_ ^= tags_[slot] ^ bits<u32>(scene.box(slot)[0]);
       }
     }
   }
@@ -706,7 +706,7 @@ template <int D> class Incremental {
   /// New fat boxes for the movers of a cell, and all candidates anew.
   void turn(Cell& cell, const Scene<D>& scene, const Settings& options, Stats& stats) {
     for (u32 k = cell.movers.count; k-- > 0;) {
-      u32 slot = cell.movers.slot(k), tag = known_[slot].tag;
+      u32 slot = cell.movers.slot(k), tag = tags_[slot];
       const f32* box = scene.box(slot);
       if (tag & rests) {
         cell.candidates.clear();  // it rests elsewhere; all candidates are to be collected anyway
@@ -757,16 +757,13 @@ template <int D> class Incremental {
     u32 n = scene.count;
     if (by_ != By::cells) {
       // While cells were filled nobody looked.
-      late_count_ = 0;
-      for (u32 slot = 0; slot < n; slot++) {
-        if (known_[slot].tag == scene.excluded_of(slot) && !inside<D>(scene.box(slot), last(slot))) add_late(slot);
-      }
+      look(scene, n, true);
     }
     if (late_count_ > n / late_share + 64) return forget();
     for (u32 k = 0; k < late_count_; k++) {
       u32 slot = late_[k];
       const f32* box = scene.box(slot);
-      if (known_[slot].tag != scene.excluded_of(slot) || inside<D>(box, last(slot))) continue;  // it has had its turn
+      if (tags_[slot] != scene.excluded_of(slot) || inside<D>(box, last(slot))) continue;  // it has had its turn
       // Its motion is known where it is in a cell that it touches still.
       Found found;
       cells_of(box, found);
@@ -825,7 +822,7 @@ template <int D> class Incremental {
   /// The pairs of huge boxes that are not settled.
   COLD void report_huge(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
     auto try_pair = [&](u32 h, u32 slot) {
-      if ((known_[h].tag & known_[slot].tag & ~slot_mask) || !touch<D>(scene.box(h), scene.box(slot))) return;
+      if ((tags_[h] & tags_[slot] & ~slot_mask) || !touch<D>(scene.box(h), scene.box(slot))) return;
       pairs.room(pairs.list.data() + pairs.count, 1);
       pairs.list[pairs.count++] = pair_of(h, slot);
     };
@@ -834,7 +831,7 @@ template <int D> class Incremental {
       for (u32 k = 0; k < cell.movers.count; k++) {
         u32 slot = cell.movers.slot(k);
         const f32* box = scene.box(slot);
-        if ((known_[slot].tag & rests) || !reports(cell, box, box)) continue;
+        if ((tags_[slot] & rests) || !reports(cell, box, box)) continue;
         for (u32 h = 0; h < huge_count_; h++) try_pair(huge_[h], slot);
       }
     }
@@ -842,27 +839,27 @@ template <int D> class Incremental {
     for (u32 h = 0; h < huge_count_; h++) {
       u32 slot = huge_[h];
       const f32* box = scene.box(slot);
-      bool still = known_[slot].tag & rests;
+      bool still = tags_[slot] & rests;
       for (u32 g = 0; g < h; g++) {
-        if (!(still && (known_[huge_[g]].tag & rests))) try_pair(slot, huge_[g]);
+        if (!(still && (tags_[huge_[g]] & rests))) try_pair(slot, huge_[g]);
       }
       if (still) continue;
       if (resting_ > 0) {
         for (u32 other = 0; other < count_; other++) {
-          if ((known_[other].tag & rests) && !(known_[other].tag & is_huge)) try_pair(slot, other);
+          if ((tags_[other] & rests) && !(tags_[other] & is_huge)) try_pair(slot, other);
         }
         stats.tests += count_;
       }
       if (!equal(box, last(slot))) {
         __builtin_memcpy(last(slot), box, width * sizeof(f32));
-        known_[slot].since = now_;
-      } else if (now_ - known_[slot].since > still_for) {
+        since_[slot] = now_;
+      } else if (now_ - since_[slot] > still_for) {
         // It rests from the next update on.
-        known_[slot].tag |= rests;
+        tags_[slot] |= rests;
         resting_++;
         for (u32 other = 0; other < count_; other++) {
-          u32 its = known_[other].tag;
-          if (other == slot || !(its & rests) || (its & known_[slot].tag & ~slot_mask)) continue;
+          u32 its = tags_[other];
+          if (other == slot || !(its & rests) || (its & tags_[slot] & ~slot_mask)) continue;
           if (touch<D>(box, last(other))) settle(slot, other);
         }
       }
