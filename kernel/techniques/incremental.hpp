@@ -15,8 +15,8 @@
 // not pay. Meanwhile, and where most boxes move, the generations of coherent.hpp give the answers, which are sooner there;
 // until then strip-sweep does.
 // Cost: where all move by a hundredth of their size a fifth of strip-sweep, by a tenth of it 0.4 in 2D and 0.5 in 3D;
-// where 5 % move 0.12 to 0.2, of a million 0.3, and with `set` only the movers count. The first updates, in which the
-// first generation is made, up to eighty, cost about a twelfth more.
+// where 5 % move 0.12 to 0.15, of a million 0.24, with `set` 0.29; there only the movers count. The first updates, in
+// which the first generation is made, up to eighty, cost about a twelfth more.
 // Memory, beside that of strip-sweep: about 120 (2D) or 210 (3D) bytes a box that moves, 100 or 150 one at rest.
 // Wins where boxes rest, or move slowly. Is strip-sweep where they jump.
 // From: candidates kept with a margin, L. Verlet, 1967 (see motion.hpp); k-d tree, J. Bentley, 1975. The combination
@@ -30,7 +30,7 @@
 template <int D> class Incremental {
   static constexpr u32 width = 2 * D;
   static constexpr u32 padding = 4;          // vector loads may read this many floats past the last box
-  static constexpr u32 rests = Expected<D>::rests, waiting = 2, is_huge = 4;  // in a tag of ours, below the exclusion bits
+  static constexpr u32 rests = Expected<D>::rests, waiting = 2, is_huge = 4;  // in a tag, below the exclusion bits
   static constexpr u32 few = 200;            // fewer boxes are not worth keeping anything
   static constexpr u32 cell_boxes = 128;     // at least so many to a cell, and less than twice as many
   static constexpr u32 most_in_cell = 4096;  // where it comes to this, the cells are no good
