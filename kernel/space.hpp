@@ -187,6 +187,7 @@ template <int D> class Space {
       }
       renumber(count);
     }
+    if (rounding_) changes_.note_all();  // boxes that touch only as they are rounded are pairs from now on
     rounding_ = false;
     exposed_ = true;
     // Growing later would cut the caller's view off, so take now what an update usually needs. Memory that is

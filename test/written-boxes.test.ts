@@ -236,6 +236,29 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     expect(resting.update().stats.tests, 'the second update of a world at rest').toBe(0);
   });
 
+  // `boxes()` gives them as float32 holds them, rounded outward: those that only nearly touched as doubles do now.
+  test.each([1, 3, 400])('doubles are float32 once they are written in place, after %i updates at rest', (updates) => {
+    const count = 400;
+    const width = 2 * dimensions;
+    const doubles = Float64Array.from({ length: count * width }, (_, k) => (k % width < dimensions ? 0 : 5));
+    for (let id = 0; id < count; id++) {
+      doubles[id * width] = 20 * id;
+      doubles[id * width + dimensions] = 20 * id + 5;
+    }
+    doubles[dimensions] = 10 + 1 / 3;
+    doubles[width] = 10 + 1 / 3 + 1e-9;
+    const space = new BroadPhase({ dimensions });
+    for (let k = 0; k < updates; k++) {
+      space.setAll(doubles);
+      space.update();
+    }
+    expect(space.pairCount).toBe(0);
+    const boxes = space.boxes(count);
+    space.update();
+    expect(keysOf(space.pairs)).toEqual(keysOf(findPairs(boxes, { dimensions })));
+    expect(space.pairCount).toBe(1);
+  });
+
   test('a box alone that is written in place is where it was written, or is bad', () => {
     const space = new BroadPhase({ dimensions, technique: 'incremental' });
     const found = (x: number) =>

@@ -312,7 +312,7 @@ template <int D> class Incremental {
     if (enlisted_ == 0) {
       known_.reserve(room * width + padding);
       since_.reserve(room);
-      tags_.reserve(room + padding);
+      tags_.reserve(room);
     }
     for (; enlisted_ < until; enlisted_++) tags_[enlisted_] = waiting | scene.excluded_of(enlisted_);
     if (enlisted_ < n) return;
