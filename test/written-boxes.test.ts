@@ -1,4 +1,5 @@
-// Boxes that come all at once, by `boxes()` or `setAll`, of which few change: the library finds out which by comparing.
+// Boxes that come all at once, by `boxes()` or `setAll`, of which few change: the library finds out which by comparing,
+// or by looking where it expects them.
 // In between come what could mislead it: bad numbers, all changing at once, `set`, doubles, another way of giving them.
 import { BroadPhase, findPairs } from 'broadphase';
 import { describe, expect, test } from 'vitest';

@@ -545,11 +545,11 @@ template <int D> class Incremental {
     late_count_ = Expected<D>{known_.data(), tags_.data()}.look(scene, until, all, late_);
   }
 
+  /// Sees to a box that is not as expected, and not late.
   COLD void changed(const Scene<D>& scene, u32 slot, bool& sweeps) {
     u32 tag = tags_[slot], excluded = scene.excluded_of(slot);
     bool same = (tag & ~slot_mask) == excluded;
     if ((tag & rests) && !(tag & waiting)) {
-      if (same && equal(scene.box(slot), last(slot))) return;
       if (tag & is_huge) {
         woken_[slot / 32] |= 1u << slot % 32;
         any_woken_ = true;
@@ -755,10 +755,7 @@ template <int D> class Incremental {
   /// Gives movers that have left their fat boxes new ones.
   COLD void serve_late(const Scene<D>& scene, const Settings& options, Stats& stats) {
     u32 n = scene.count;
-    if (by_ != By::cells) {
-      // While cells were filled nobody looked.
-      look(scene, n, true);
-    }
+    if (by_ != By::cells) look(scene, n, true);  // while cells were filled nobody did
     if (late_count_ > n / late_share + 64) return forget();
     for (u32 k = 0; k < late_count_; k++) {
       u32 slot = late_[k];
