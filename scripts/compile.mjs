@@ -29,6 +29,7 @@ export const flags = [
   '-Wl,--no-entry',
   '-Wl,--export=__stack_pointer',
   '-Wl,--strip-all',
+  '-Wl,--compress-relocations',
   '-Wl,-z,stack-size=65536',
 ];
 
