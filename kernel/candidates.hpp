@@ -29,16 +29,14 @@ template <int D> class Candidates {
   u32 tests() const { return pair_count_ + 4 * meeting_count_; }
 
   /// Reads what `report` is going to read, first of this, then the boxes: see read_lines.
-  u32 fetch() const {
-    return read_lines(pairs_.data(), pair_count_ * sizeof(u64)) ^
-           read_lines(meetings_.data(), meeting_count_ * sizeof(Meeting));
+  void fetch() const {
+    read_lines(pairs_.data(), pair_count_ * sizeof(u64));
+    read_lines(meetings_.data(), meeting_count_ * sizeof(Meeting));
   }
-  COLD u32 fetch_boxes(const f32* boxes) const {
-    u32 read = 0;
-    const u32* slots = reinterpret_cast<const u32*>(pairs_.data());
-    for (u32 k = 0; k < 2 * pair_count_; k++) read ^= bits<u32>(boxes[u64(slots[k]) * width]);
-    for (u32 k = 0; k < meeting_count_; k++) read ^= bits<u32>(boxes[u64(meetings_[k].mover[0]) * width]);
-    return read;
+  void fetch_boxes(const f32* boxes) const {
+    constexpr u32 bytes = width * sizeof(f32);
+    read_rows(boxes, bytes, reinterpret_cast<const u32*>(pairs_.data()), 2 * pair_count_, 1);
+    read_rows(boxes, bytes, meetings_.data()->mover, meeting_count_, sizeof(Meeting) / sizeof(u32));
   }
 
   void clear() { pair_count_ = meeting_count_ = 0; }

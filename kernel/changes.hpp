@@ -19,11 +19,9 @@ template <u32 bytes> bool differ(const void* one, const void* other) {
 }
 
 class Changes {
-  static constexpr u32 sampled = 16;  // of so many that changed
   Buffer<u32> list_, bits_;
-  u32 count_ = 0, words_ = 0, same_ = 0;
+  u32 count_ = 0, words_ = 0;
   bool some_ = false;  // false: all may have changed
-  bool asks_ = false;  // of each box that is given, whether it is as before; else of some
 
  public:
   /// Room for that many slots; nothing is lost where memory ends.
@@ -45,16 +43,6 @@ class Changes {
   }
 
   void note_all() { some_ = false; }
-
-  /// Whether to look if a box that is given is as before, so that it need not be noted. To look at one that is far from the
-  /// caches takes as long as all else that is done with it, and a game that knows who moved gives no others: then it is
-  /// looked only now and then.
-  bool asks() const { return some_ && (asks_ || count_ % sampled == 0); }
-  /// What came of it.
-  bool tell(bool same) {
-    same_ += same;
-    return same;
-  }
 
   /// Notes which boxes are not what they were, each given as one or two parts of so many bytes, and copies them there if
   /// it is to; false where most are not.
@@ -85,8 +73,7 @@ class Changes {
   void clear(u32 slots) {
     make_room(slots);
     for (u32 k = 0; k < count_; k++) bits_[list_[k] / 32] = 0;
-    asks_ = same_ > count_ / 8;  // of all, more than one in nine was; of some, two in three
-    count_ = same_ = 0;
+    count_ = 0;
     some_ = true;
   }
 

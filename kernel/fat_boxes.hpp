@@ -53,7 +53,7 @@ template <int D, u32 more> struct FatBoxes {
   }
 
   /// Reads all boxes: see read_lines.
-  u32 fetch() const { return read_lines(values.data(), (count + 3) / 4 * block * sizeof(f32)); }
+  void fetch() const { read_lines(values.data(), (count + 3) / 4 * block * sizeof(f32)); }
 
   /// Adds a box; gives its place.
   u32 put(const f32* box, u32 tag) {

@@ -46,13 +46,23 @@ struct Failure {
 [[noreturn]] inline void fail(Fault what, f64 bytes) { throw Failure{what, bytes}; }
 #endif
 
-/// Reads from each line of the cache, of 64 bytes, that so many bytes stand in, so that they are on their way all at once. Gives what
-/// nobody needs, but no compiler knows that.
-NOINLINE inline u32 read_lines(const void* from, u32 bytes) {
+/// Where what is only read goes, to have it near: nobody needs it, but no compiler knows that.
+inline volatile u32 unneeded;
+
+/// Reads from each line of the cache, of 64 bytes, that so many bytes stand in, so that they are on their way all at once.
+NOINLINE inline void read_lines(const void* from, u32 bytes) {
   const u8* at = static_cast<const u8*>(from);
   u32 read = 0;
   for (u32 k = 0; k < bytes; k += 64) read ^= at[k];
-  return read;
+  unneeded = read;
+}
+
+/// Likewise from each of these rows of so many bytes, whose numbers stand `step` apart.
+NOINLINE inline void read_rows(const void* rows, u32 bytes, const u32* numbers, u32 count, u32 step) {
+  const u8* from = static_cast<const u8*>(rows);
+  u32 read = 0;
+  for (u32 k = 0; k < count; k++, numbers += step) read ^= from[u64(*numbers) * bytes];
+  unneeded = read;
 }
 
 namespace heap {

@@ -7,6 +7,7 @@
 #pragma once
 #include "events.hpp"
 #include "filters.hpp"
+#include "inbox.hpp"
 #include "neighbours.hpp"
 #include "queries.hpp"
 #include "rounding.hpp"
@@ -40,6 +41,7 @@ template <int D> class Space {
   Buffer<f32> before_;    // the boxes of the last update, while they are exposed and, though nothing is kept, few change
   u32 copied_ = 0;        // how many there are in it; 0: it is not in use
   u32 blind_ = 0, pause_ = 1;  // updates until it is tried again; how many the next pause has
+  Inbox<D> inbox_;        // of the boxes that are set
   Filters filters_;
   Changes changes_;  // since the last update, for the technique that asks
   Wrap wrap_;
@@ -86,21 +88,24 @@ template <int D> class Space {
       make_room(u64(ids_.count()) + 1, ids_.count());
       slot = ids_.insert(id);
       if (filters_.active()) filters_.insert(slot);
-    } else if (changes_.asks() && changes_.tell(is_as_before(slot, first, last, box))) {
-      return;
+      changes_.note(slot);
     }
-    changes_.note(slot);
-    f32* to = boxes_.data() + u64(slot) * width;
-    store(to, first);
-    store(to + width - 4, last);
     if (rounding_) {
-      __builtin_memcpy(exact_.data() + u64(slot) * width, box, width * sizeof(f64));
+      f64* to = exact_.data() + u64(slot) * width;
+      if (differ<width * sizeof(f64)>(to, box)) changes_.note(slot);
+      __builtin_memcpy(to, box, width * sizeof(f64));
       rounded_[slot] = !exact;
     }
+    inbox_.put(slot, first, last);
+    if (inbox_.full() || exposed_) settle();
   }
+
+  /// Puts the boxes of the inbox among the others. Who reads boxes calls it before.
+  NOINLINE void settle() { inbox_.empty(boxes_.data(), changes_); }
 
   /// Takes a box away; false where there is none.
   COLD bool remove(u32 id) {
+    settle();
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
     if (keeps_events) events.make_room(id);
@@ -119,7 +124,8 @@ template <int D> class Space {
   }
 
   /// The numbers a box was given with; false where there is none.
-  COLD bool get(u32 id, f64* box) const {
+  COLD bool get(u32 id, f64* box) {
+    settle();
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
     for (u32 k = 0; k < width; k++) box[k] = number(slot, k);
@@ -136,8 +142,8 @@ template <int D> class Space {
     copied_ = 0;
   }
 
-  /// Where everything stands, for a recorder: the ids (0: slots), the boxes, the doubles they were given as (0: none),
-  /// the rules (0: none).
+  /// Where everything stands, for a recorder and right after an update: the ids (0: slots), the boxes, the doubles they
+  /// were given as (0: none), the rules (0: none).
   COLD void contents(f64* out) const {
     out[0] = f64(u64(ids_.names()));
     out[1] = f64(u64(boxes_.data()));
@@ -161,6 +167,7 @@ template <int D> class Space {
     bool rounded = false;
     i32 bad = doubles ? round_staged(count, rounded) : first_bad(staged_.data(), count);
     if (bad >= 0) return bad;
+    settle();
     if (!exposed_ && rounding_ == rounded && ids_.same() && ids_.count() == count) note_staged();
     else renumber(count);
     take_staged(rounded);
@@ -170,6 +177,7 @@ template <int D> class Space {
   /// The boxes of ids 0 … count - 1, to be written in place. Ids from count on are removed, new ones are points
   /// at the origin.
   COLD f32* expose(u32 count) {
+    settle();
     u32 had = ids_.count();
     if (!ids_.same()) {
       f32* to = stage(count);
@@ -212,6 +220,7 @@ template <int D> class Space {
 
   /// Writes what stands in the space to `snapshot`. Returns the first bad id among boxes written in place, or -1.
   COLD i32 save() {
+    settle();
     i32 bad = bad_in_place();
     if (bad >= 0) return bad;
     if (!ordered_) changes_.note_all();  // those pairs are in another order
@@ -230,6 +239,7 @@ template <int D> class Space {
   /// Where the bytes are bad nothing changes.
   COLD SnapshotFault restore() {
     if (!snapshot.is_whole()) return SnapshotFault::damaged;
+    settle();
     const SnapshotHeader& head = snapshot.head();
     bool doubles = snapshot.doubles(), rounded = false;
     void* staged = doubles ? static_cast<void*>(stage_exact(head.count)) : stage(head.count);
@@ -246,6 +256,7 @@ template <int D> class Space {
 
   /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
   COLD i32 update() {
+    settle();
     Technique chosen = choose();
     bool follows = chosen == Technique::incremental;
     bool looked_at = false;
@@ -331,6 +342,7 @@ template <int D> class Space {
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
   /// all finite boxes.
   COLD void structure() {
+    settle();
     techniques_.with(ran_, [&](auto& used) { used.structure(cells, cell_count, stats); });
     f32 least[D], most[D];
     for (int a = 0; a < D; a++) {
@@ -378,7 +390,8 @@ template <int D> class Space {
   }
 
   /// The number of the first invariant that does not hold (see src/broad-phase.ts), or 0; `detail`: where.
-  COLD u32 validate(u32& detail) const {
+  COLD u32 validate(u32& detail) {
+    settle();
     detail = 0;
     if (!ids_.valid()) return 1;
     if (!exposed_) {
@@ -518,14 +531,6 @@ template <int D> class Space {
     blind_ = useful ? 0 : pause_;
   }
 
-  /// Whether a box stands in a slot as it is given.
-  bool is_as_before(u32 slot, f32x4 first, f32x4 last, const f64* box) const {
-    u64 at = u64(slot) * width;
-    if (rounding_) return !differ<width * sizeof(f64)>(exact_.data() + at, box);
-    const f32* old = boxes_.data() + at;
-    return !any((load<i32x4>(old) ^ bits<i32x4>(first)) | (load<i32x4>(old + width - 4) ^ bits<i32x4>(last)));
-  }
-
   /// What was staged is now what stands in the space; `rounded`: with doubles that float32 cannot hold.
   void take_staged(bool rounded) {
     boxes_.swap(staged_);
@@ -545,6 +550,7 @@ template <int D> class Space {
 
   /// The index takes over what stands in the space.
   COLD void see() {
+    settle();
     index_.see(boxes_.data(), rounding_ ? exact_.data() : nullptr, ids_, filters_.active() ? filters_.rules() : nullptr);
   }
 
@@ -571,6 +577,7 @@ template <int D> class Space {
 
   /// From now on the doubles are kept too.
   COLD void start_rounding() {
+    settle();
     u32 n = ids_.count();
     exact_.reserve(u64(n) * width);
     rounded_.reserve(n);

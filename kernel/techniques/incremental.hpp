@@ -99,7 +99,6 @@ template <int D> class Incremental {
   bool unchecked_ = false;  // boxes may have changed that were not looked at since
   enum class By : u32 { strips, generations, cells } by_ = By::strips;  // what answered the last update
   u32 cursor_ = 0;       // the cell whose turn is next
-  u32 read_ = 0;         // of what is read only for that
   u32 now_ = 0;          // updates, counted
   f32 period_ = 16, target_ = 16;  // updates in which every cell has one turn, and what that is to become
   f32 slack_ = least_slack;  // fat boxes reach to all sides, in motions of one update
@@ -692,13 +691,15 @@ template <int D> class Incremental {
   /// Reads what the turns of the next cells are going to read, up to one.
   COLD void fetch_for_turns(const Scene<D>& scene, u32 until) {
     for (u32 c = cursor_; c < until; c++) {
-      if (cells_[c].movers.count > 0) read_ ^= cells_[c].movers.fetch() ^ cells_[c].stills.fetch();
+      if (cells_[c].movers.count == 0) continue;
+      cells_[c].movers.fetch();
+      cells_[c].stills.fetch();
     }
     for (u32 c = cursor_; c < until; c++) {
       const Movers& movers = cells_[c].movers;
       for (u32 k = 0; k < movers.count; k++) {
         u32 slot = movers.slot(k);
-        read_ ^= tags_[slot] ^ bits<u32>(scene.box(slot)[0]);
+        unneeded = tags_[slot] ^ bits<u32>(scene.box(slot)[0]);
       }
     }
   }
@@ -796,8 +797,8 @@ template <int D> class Incremental {
     for (u32 c = 0; c < leaves_; c++) {
       if (fetches && c % together == 0) {
         u32 until = smaller(leaves_, c + together);
-        for (u32 k = c; k < until; k++) read_ ^= cells_[k].candidates.fetch();
-        for (u32 k = c; k < until; k++) read_ ^= cells_[k].candidates.fetch_boxes(scene.boxes);
+        for (u32 k = c; k < until; k++) cells_[k].candidates.fetch();
+        for (u32 k = c; k < until; k++) cells_[k].candidates.fetch_boxes(scene.boxes);
       }
       const Cell& cell = cells_[c];
       if (cell.movers.count == 0) continue;
