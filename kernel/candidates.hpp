@@ -6,6 +6,7 @@
 // 17, its cell included, where each cell has but two or three of these; to find them again 1 ns for each box at rest;
 // 8 bytes a pair that moves, 24 (2D) or 32 (3D) for a box at rest where a mover meets four.
 #pragma once
+#include "arena.hpp"
 #include "fat_boxes.hpp"
 
 template <int D> class Candidates {
@@ -19,49 +20,65 @@ template <int D> class Candidates {
     u32 mover[4];  // one would do, but for where the next one begins
   };
 
-  Buffer<u64> pairs_;  // as they are reported
-  Buffer<Meeting> meetings_;
+  static constexpr u32 more = 4;  // meetings there is room for, at a time
+
+  Arena::Place pairs_, meetings_;
   u32 pair_count_, meeting_count_;
 
+  u64* pairs() const { return reinterpret_cast<u64*>(pairs_.at); }  // as they are reported
+  Meeting* meetings() const { return reinterpret_cast<Meeting*>(meetings_.at); }
+
  public:
+  /// Where those of all cells stand. Each is to be read from front to back, so they stand apart.
+  struct Room {
+    Arena pairs, meetings;
+  };
+
   /// How many times something is tested.
   u32 count() const { return pair_count_ + meeting_count_; }
   u32 tests() const { return pair_count_ + 4 * meeting_count_; }
 
-  /// Reads what `report` is going to read, first of this, then the boxes: see read_lines.
-  void fetch() const {
-    read_lines(pairs_.data(), pair_count_ * sizeof(u64));
-    read_lines(meetings_.data(), meeting_count_ * sizeof(Meeting));
-  }
+  /// Reads the boxes that `report` is going to read: see read_lines.
   void fetch_boxes(const f32* boxes) const {
     constexpr u32 bytes = width * sizeof(f32);
-    read_rows(boxes, bytes, reinterpret_cast<const u32*>(pairs_.data()), 2 * pair_count_, 1);
-    read_rows(boxes, bytes, meetings_.data()->mover, meeting_count_, sizeof(Meeting) / sizeof(u32));
+    read_rows(boxes, bytes, reinterpret_cast<const u32*>(pairs()), 2 * pair_count_, 1);
+    read_rows(boxes, bytes, meetings()->mover, meeting_count_, sizeof(Meeting) / sizeof(u32));
   }
 
-  void clear() { pair_count_ = meeting_count_ = 0; }
-  COLD void release() {
-    pairs_.release();
-    meetings_.release();
+  COLD void clear(Room& room) {
+    room.pairs.release(pairs_);
+    room.meetings.release(meetings_);
+    pair_count_ = meeting_count_ = 0;
   }
 
-  /// One that moves and one that has come to rest.
-  COLD void add_still(u32 mover, u32 still, const f32* box) {
-    Meeting& to = open(splat(mover));
-    for (u32 k = 0; k < width; k++) store(to.bounds[k], f32x4{box[k], nan, nan, nan});
-    store(to.slots, splat(still));
+  /// One that moves and one that has come to rest: with the last others that this mover may meet, or apart.
+  COLD void add_still(Room& room, u32 mover, u32 still, const f32* box) {
+    u32 at = meeting_count_;
+    while (at > 0 && meetings()[at - 1].mover[0] != mover) at--;
+    Meeting* to = at > 0 ? &meetings()[at - 1] : nullptr;
+    u32 free = to ? bitmask(load<f32x4>(to->bounds[0]) != load<f32x4>(to->bounds[0])) : 0;
+    if (free == 0) {
+      to = &open(room, splat(mover));
+      store(to->bounds[0], splat(nan));
+      free = 15;
+    }
+    u32 lane = u32(__builtin_ctz(free));
+    for (u32 k = 0; k < width; k++) to->bounds[k][lane] = box[k];
+    to->slots[lane] = still;
   }
 
   /// The mover at a place, with those that move, from `from` on, and those at rest.
-  template <class Movers, class Stills> NOINLINE void meet(const Movers& movers, u32 at, u32 from, const Stills& stills) {
-    u64* out = pairs_.grow(u64(pair_count_) + movers.count + Pairs::slack, pair_count_) + pair_count_;
+  template <class Movers, class Stills> NOINLINE void meet(Room& room, const Movers& movers, u32 at, u32 from, const Stills& stills) {
+    u64 most = u64(pair_count_) + movers.count + Pairs::slack;
+    room.pairs.grow(pairs_, most * sizeof(u64), pair_count_ * sizeof(u64));
+    u64* out = pairs() + pair_count_;
     Probe<D> mover = movers.probe(at);
     for (u32 j = from; j < movers.count; j = (j | 3) + 1) {
       const f32* block = movers.block_of(j);
       u32x4 slots = load<u32x4>(block + 4 * width) & splat(slot_mask);
       out = append(out, mover.slot, slots, bitmask(hits(mover, block) & (slots != mover.slot)) & 15u << j % 4);
     }
-    pair_count_ = u32(Pairs::between(pairs_.data(), out));
+    pair_count_ = u32(Pairs::between(pairs(), out));
     u32 near[8], many = 0;
     const f32* block = stills.block_of(0);
     for (u32 j = 0; j < stills.count; j += 64) {
@@ -72,27 +89,27 @@ template <int D> class Candidates {
       for (; found; found &= found - 1) {
         near[many++] = j + u32(__builtin_ctzll(found));
         if (many < 4) continue;
-        copy(mover.slot, stills, near);
+        copy(room, mover.slot, stills, near);
         many = 0;
       }
     }
     if (many == 0) return;
     store(near + many, splat(stills.count));  // behind the last all is NaN
-    copy(mover.slot, stills, near);
+    copy(room, mover.slot, stills, near);
   }
 
   /// Takes all of a box away.
   COLD void purge(u32 slot) {
     u32 left = 0;
     for (u32 k = 0; k < pair_count_; k++) {
-      u64 pair = pairs_[k];
-      pairs_[left] = pair;
+      u64 pair = pairs()[k];
+      pairs()[left] = pair;
       left += u32(pair) != slot && u32(pair >> 32) != slot;
     }
     pair_count_ = left;
     left = 0;
     for (u32 k = 0; k < meeting_count_; k++) {
-      Meeting& meeting = meetings_[left] = meetings_[k];
+      Meeting& meeting = meetings()[left] = meetings()[k];
       for (u32 lane = 0; lane < 4; lane++) {
         if (meeting.slots[lane] == slot) meeting.bounds[0][lane] = nan;
       }
@@ -106,7 +123,7 @@ template <int D> class Candidates {
   /// Behind `out` there is room for all; gives where it ends.
   NOINLINE u64* report(const f32* boxes, const f32* least, const f32* most, u64* out) const {
     f32x4 low = load<f32x4>(least), high = load<f32x4>(most);
-    const u64* list = pairs_.data();
+    const u64* list = pairs();
     for (u32 k = 0; k < pair_count_; k++) {
       u64 pair = list[k];
       const f32* one = boxes + u64(u32(pair)) * width;
@@ -121,7 +138,7 @@ template <int D> class Candidates {
       lows[a] = splat(least[a]);
       highs[a] = splat(most[a]);
     }
-    const Meeting* meeting = meetings_.data();
+    const Meeting* meeting = meetings();
     for (const Meeting* end = meeting + meeting_count_; meeting < end; meeting++) {
       const f32* box = boxes + u64(meeting->mover[0]) * width;
       i32x4 hits[D];
@@ -138,16 +155,17 @@ template <int D> class Candidates {
   }
 
  private:
-  Meeting& open(u32x4 mover) {
-    meetings_.grow(u64(meeting_count_) + 1, meeting_count_);
-    Meeting& meeting = meetings_[meeting_count_++];
+  Meeting& open(Room& room, u32x4 mover) {
+    u64 used = meeting_count_ * sizeof(Meeting);
+    if (used + sizeof(Meeting) > meetings_.bytes) room.meetings.grow(meetings_, used + more * sizeof(Meeting), used);
+    Meeting& meeting = meetings()[meeting_count_++];
     store(meeting.mover, mover);
     return meeting;
   }
 
   /// Copies four boxes at rest.
-  template <class Stills> COLD void copy(u32x4 mover, const Stills& stills, const u32* from) {
-    Meeting& to = open(mover);
+  template <class Stills> COLD void copy(Room& room, u32x4 mover, const Stills& stills, const u32* from) {
+    Meeting& to = open(room, mover);
     const f32 *a = stills.numbers(from[0]), *b = stills.numbers(from[1]), *c = stills.numbers(from[2]), *d = stills.numbers(from[3]);
     ROLLED
     for (u32 k = 0; k < 4 * width; k += 4) store(to.bounds[k / 4], f32x4{a[k], b[k], c[k], d[k]});

@@ -80,6 +80,12 @@ inline u32 size_class(size_t bytes) {
 }
 inline u64 class_bytes(u32 c) { return u64(4 + c % 4) * (least / 4) << (c / 4); }
 
+/// The size class of a request that may be too large for any memory.
+inline u32 checked_class(u64 bytes) {
+  if (bytes >= u64(1) << 32) fail(Fault::out_of_memory, f64(bytes));
+  return size_class(size_t(bytes));
+}
+
 #if defined(__wasm__)
 extern "C" u8 __heap_base;
 inline u8* top = nullptr;       // first byte never handed out
@@ -98,7 +104,7 @@ inline bool reach(u64 bytes) {
          __builtin_wasm_memory_grow(0, size_t(pages)) != size_t(-1);
 }
 
-inline void* take(u32 c) {
+COLD inline void* take(u32 c) {
   u8* block = waiting[c];
   if (block) {
     waiting[c] = load<u8*>(block);
@@ -111,7 +117,7 @@ inline void* take(u32 c) {
   return block;
 }
 
-inline void give(void* block, u32 c) {
+COLD inline void give(void* block, u32 c) {
   used -= class_bytes(c);
   if (static_cast<u8*>(block) + class_bytes(c) == top) {
     top = static_cast<u8*>(block);
@@ -157,7 +163,7 @@ class Block {
 
   /// At least that many bytes; what was inside is lost when it has to grow.
   COLD void reserve_bytes(u64 wanted) {
-    u32 to = checked_class(wanted);
+    u32 to = heap::checked_class(wanted);
     release();
     at_ = heap::take(to);
     class_ = to;
@@ -165,7 +171,7 @@ class Block {
 
   /// At least that many bytes, and half as many again as before; the first `keep` stay what they are.
   COLD void grow_bytes(u64 wanted, u64 keep) {
-    u32 to = checked_class(larger(wanted, bytes() + bytes() / 2));
+    u32 to = heap::checked_class(larger(wanted, bytes() + bytes() / 2));
     if (at_ && heap::extend(at_, class_, to)) {
       class_ = to;
       return;
@@ -175,11 +181,6 @@ class Block {
     release();
     at_ = moved;
     class_ = to;
-  }
-
-  static u32 checked_class(u64 wanted) {
-    if (wanted >= u64(1) << 32) fail(Fault::out_of_memory, f64(wanted));
-    return heap::size_class(wanted);
   }
 
  public:

@@ -75,6 +75,7 @@ template <int D> class Incremental {
   StripSweep<D>& anew_;
   Coherent<D> coherent_;
   Buffer<Cell> cells_;
+  typename Candidates<D>::Room room_;
   Halves<D> halves_;     // which cell is where
   u32 leaves_ = 0;       // cells; 0: nothing is kept
   u32 count_ = 0;        // boxes that are followed
@@ -225,7 +226,7 @@ template <int D> class Incremental {
     for (u32 c = 0; c < leaves_; c++) {
       cells_[c].movers.release();
       cells_[c].stills.release();
-      cells_[c].candidates.release();
+      cells_[c].candidates.clear(room_);
     }
     leaves_ = count_ = enlisted_ = queued_ = unseen_ = resting_ = huge_count_ = watching_ = 0;
     settled_.count = 0;
@@ -299,6 +300,7 @@ template <int D> class Incremental {
       __builtin_memcpy(cells_[k].high, high, sizeof(cells_[k].high));
     });
     leaves_ = leaves;
+    room_.pairs.chunk_bytes = room_.meetings.chunk_bytes = smaller(n / 4, 1u << 16);
     planned_ = n;
     cursor_ = 0;
     slack_ = least_slack;
@@ -432,7 +434,7 @@ template <int D> class Incremental {
       }
       stamp(cell, at, box);
       stats.tests += cell.movers.count + cell.stills.count;
-      cell.candidates.meet(cell.movers, at, 0, cell.stills);
+      cell.candidates.meet(room_, cell.movers, at, 0, cell.stills);
     }
   }
 
@@ -455,7 +457,7 @@ template <int D> class Incremental {
       if (at != Movers::nowhere) take(cell, at);
       stats.tests += cell.movers.count + cell.stills.count;
       cell.movers.each_hit(box, tag, [&](u32 other) {
-        cell.candidates.add_still(cell.movers.slot(other), slot, box);
+        cell.candidates.add_still(room_, cell.movers.slot(other), slot, box);
       });
       cell.stills.each_hit(box, tag, [&](u32 other) {
         u32 its = cell.stills.slot(other);
@@ -710,7 +712,7 @@ template <int D> class Incremental {
       u32 slot = cell.movers.slot(k), tag = tags_[slot];
       const f32* box = scene.box(slot);
       if (tag & rests) {
-        cell.candidates.clear();  // it rests elsewhere; all candidates are to be collected anyway
+        cell.candidates.clear(room_);  // it rests elsewhere; all candidates are to be collected anyway
         take(cell, k);
         continue;
       }
@@ -741,7 +743,7 @@ template <int D> class Incremental {
           continue;
         }
       } else {
-        cell.candidates.clear();
+        cell.candidates.clear(room_);
         take(cell, k);
       }
       cells_of(fat, found);
@@ -749,8 +751,8 @@ template <int D> class Incremental {
       if (leaves_ == 0) return;
     }
     stats.tests += f64(cell.movers.count) * (cell.movers.count - 1) / 2 + f64(cell.movers.count) * cell.stills.count;
-    cell.candidates.clear();
-    for (u32 k = 0; k < cell.movers.count; k++) cell.candidates.meet(cell.movers, k, k + 1, cell.stills);
+    cell.candidates.clear(room_);
+    for (u32 k = 0; k < cell.movers.count; k++) cell.candidates.meet(room_, cell.movers, k, k + 1, cell.stills);
   }
 
   /// Gives movers that have left their fat boxes new ones.
@@ -797,7 +799,6 @@ template <int D> class Incremental {
     for (u32 c = 0; c < leaves_; c++) {
       if (fetches && c % together == 0) {
         u32 until = smaller(leaves_, c + together);
-        for (u32 k = c; k < until; k++) cells_[k].candidates.fetch();
         for (u32 k = c; k < until; k++) cells_[k].candidates.fetch_boxes(scene.boxes);
       }
       const Cell& cell = cells_[c];

@@ -11,6 +11,7 @@ TEST("fat boxes end with one that overlaps nothing, and a mover meets all of the
   Stills stills;
   Movers movers;
   Candidates<2> candidates{};
+  Candidates<2>::Room room;
   f32 boxes[4 * (most + 1) + 4] = {};
   u64 found[most + 8];
   f32 mover[4] = {1, 1, 2, 2};
@@ -20,8 +21,8 @@ TEST("fat boxes end with one that overlaps nothing, and a mover meets all of the
     CHECK(stills.count == count);
     CHECK(stills.numbers(count)[0] != stills.numbers(count)[0]);  // NaN
     CHECK(stills.slot(count) == slot_mask);
-    candidates.clear();
-    candidates.meet(movers, 0, 1, stills);
+    candidates.clear(room);
+    candidates.meet(room, movers, 0, 1, stills);
     u64* end = candidates.report(boxes, low, high, found);
     CHECK(u32(end - found) == count);
   };
@@ -37,5 +38,5 @@ TEST("fat boxes end with one that overlaps nothing, and a mover meets all of the
   }
   stills.release();
   movers.release();
-  candidates.release();
+  candidates.clear(room);
 }
