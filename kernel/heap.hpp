@@ -162,25 +162,27 @@ class Block {
   u64 bytes() const { return at_ ? heap::class_bytes(class_) : 0; }
 
   /// At least that many bytes; what was inside is lost when it has to grow.
-  COLD void reserve_bytes(u64 wanted) {
+  NOINLINE void* reserve_bytes(u64 wanted) {
+    if (wanted <= bytes() && at_) return at_;
     u32 to = heap::checked_class(wanted);
     release();
-    at_ = heap::take(to);
     class_ = to;
+    return at_ = heap::take(to);
   }
 
   /// At least that many bytes, and half as many again as before; the first `keep` stay what they are.
-  COLD void grow_bytes(u64 wanted, u64 keep) {
+  NOINLINE void* grow_bytes(u64 wanted, u64 keep) {
+    if (wanted <= bytes() && at_) return at_;
     u32 to = heap::checked_class(larger(wanted, bytes() + bytes() / 2));
     if (at_ && heap::extend(at_, class_, to)) {
       class_ = to;
-      return;
+      return at_;
     }
     void* moved = heap::take(to);
     if (keep) __builtin_memcpy(moved, at_, keep);
     release();
-    at_ = moved;
     class_ = to;
+    return at_ = moved;
   }
 
  public:
@@ -214,14 +216,8 @@ template <class T> class Buffer : public Block {
   u64 capacity() const { return bytes() / sizeof(T); }
 
   /// Room for n values; what was inside is lost when it has to grow.
-  T* reserve(u64 n) {
-    if (n * sizeof(T) > bytes() || !at_) reserve_bytes(n * sizeof(T));
-    return data();
-  }
+  T* reserve(u64 n) { return static_cast<T*>(reserve_bytes(n * sizeof(T))); }
 
   /// Room for n values, of which the first `keep` stay what they are.
-  T* grow(u64 n, u64 keep) {
-    if (n * sizeof(T) > bytes() || !at_) grow_bytes(n * sizeof(T), keep * sizeof(T));
-    return data();
-  }
+  T* grow(u64 n, u64 keep) { return static_cast<T*>(grow_bytes(n * sizeof(T), keep * sizeof(T))); }
 };
