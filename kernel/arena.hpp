@@ -13,6 +13,8 @@ class Arena {
     u32 arrays, size_class;
   };
 
+  static constexpr u32 step = 256;  // bytes: what grows by a little need not ask each time
+
   Chunk* open_ = nullptr;                 // the one that arrays are put into
   u8 *end_ = nullptr, *until_ = nullptr;  // where it is free
 
@@ -45,7 +47,7 @@ class Arena {
     u8 *from = place.at, *to = end_;
     if (from && from + place.bytes == end_) to = from;  // the last one can grow where it stands
     else if (from) bytes *= 2;                          // one that moves may have to grow again
-    bytes = (bytes + 63) & ~u64(63);
+    bytes = (bytes + step - 1) & ~u64(step - 1);
     if (bytes > u64(until_ - to)) to = open(bytes);
     if (to != from) {
       if (keep) __builtin_memcpy(to, from, keep);

@@ -20,8 +20,6 @@ template <int D> class Candidates {
     u32 mover[4];  // one would do, but for where the next one begins
   };
 
-  static constexpr u32 more = 4;  // meetings there is room for, at a time
-
   Arena::Place pairs_, meetings_;
   u32 pair_count_, meeting_count_;
 
@@ -157,7 +155,7 @@ template <int D> class Candidates {
  private:
   Meeting& open(Room& room, u32x4 mover) {
     u64 used = meeting_count_ * sizeof(Meeting);
-    if (used + sizeof(Meeting) > meetings_.bytes) room.meetings.grow(meetings_, used + more * sizeof(Meeting), used);
+    room.meetings.grow(meetings_, used + sizeof(Meeting), used);
     Meeting& meeting = meetings()[meeting_count_++];
     store(meeting.mover, mover);
     return meeting;

@@ -89,6 +89,7 @@ template <int D> class Incremental {
   u32 queued_ = 0, resting_ = 0;
   u32 portion_ = 0;      // boxes put into cells in an update, where many wait
   u32 unseen_ = 0;       // of those that wait, so many have not even been looked at
+  u32 begun_ = 0;        // in this update all began to wait
   Buffer<u32> late_;     // movers that have left their fat boxes
   u32 late_count_ = 0;
   u32 huge_[most_huge] = {};
@@ -331,6 +332,7 @@ template <int D> class Incremental {
     for (u32 slot = anew_.boxes(); slot < n; slot++) put(slot);  // they came while generations answered
     unseen_ = n;
     portion_ = n / (coherent_.begun() ? filling : filling_alone) + 1;
+    begun_ = now_;
     see(scene, ahead * portion_);
   }
 
@@ -635,11 +637,17 @@ template <int D> class Incremental {
 
   /// Puts boxes that wait into cells: all that are few, else a share of them.
   COLD void serve(const Scene<D>& scene, const Settings& options, Stats& stats) {
+    if (now_ - begun_ <= still_for) return;  // nobody knows yet who rests
     u32 many = queued_ <= 2 * portion_ ? queued_ : portion_;
     // While all is filled, little by little, the first must reach further ahead than the last.
     f32 until = reach() + f32(queued_ - many) / f32(portion_);
     see(scene, many);
     for (; many > 0; many--) {
+      if (many % together == 0) {  // they stand anywhere
+        const u32* next = queue_.data() + queued_ - together;
+        read_rows(scene.boxes, width * sizeof(f32), next, together, 1);
+        read_rows(known_.data(), width * sizeof(f32), next, together, 1);
+      }
       u32 slot = queue_[--queued_];
       if (tags_[slot] & rests) leave_rest(slot);
       tags_[slot] = scene.excluded_of(slot);
