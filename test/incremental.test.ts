@@ -241,7 +241,7 @@ test.each([2, 3] as const)(
   'a box at rest that jumps leaves nothing behind where others move, %i dimensions',
   (dimensions) => {
     const random = createRandom(7);
-    const [kept, fresh] = (['incremental', 'strip-sweep'] as const).map(
+    const [kept, fresh] = (['auto', 'strip-sweep'] as const).map(
       (technique) => new BroadPhase({ dimensions, technique }),
     );
     const side = Math.ceil(300 ** (1 / dimensions));
@@ -323,6 +323,44 @@ test('boxes that all stand in a row are kept too, though a row cannot be made re
   }
   expect(answered, 'updates answered from what is kept').toBeGreaterThan(40);
 });
+
+test.each([2, 3] as const)(
+  'boxes at rest that become static, or cease to, are seen where all are written, %iD',
+  (dimensions) => {
+    const random = createRandom(dimensions);
+    const count = 6000;
+    const stride = 2 * dimensions;
+    const world = 10 * count ** (1 / dimensions);
+    const boxes = new Float32Array(stride * count);
+    for (let id = 0; id < count; id++) {
+      for (let k = 0; k < dimensions; k++) {
+        boxes[stride * id + k] = random() * world;
+        boxes[stride * id + dimensions + k] = boxes[stride * id + k]! + 10;
+      }
+    }
+    const spaces = (['auto', 'strip-sweep'] as const).map((technique) => new BroadPhase({ dimensions, technique }));
+    let answered = 0;
+    for (let frame = 0; frame < 260; frame++) {
+      const step = frame % 20 < 10 ? 0.25 : -0.25;
+      for (let at = 0; at < boxes.length; at += 100 * stride) {
+        boxes[at]! += step;
+        boxes[at + dimensions]! += step;
+      }
+      const found = spaces.map((space) => {
+        space.boxes(count).set(boxes);
+        // All of some rows of ids; with every frame a few more of them.
+        const on = frame >= 200 && frame < 230;
+        if (frame >= 200) for (let id = frame; id < count; id += 30) space.setStatic(id, on);
+        space.update();
+        return frame < 195 ? [] : keysOf(space.pairs);
+      });
+      if (spaces[0]!.stats.reason.includes('is kept')) answered++;
+      expect(found[0], `frame ${frame}`).toEqual(found[1]);
+    }
+    expect(answered, 'updates answered from what is kept').toBeGreaterThan(100);
+    for (const space of spaces) space.dispose();
+  },
+);
 
 test('what is kept of a world at rest is given up while more and more boxes begin to move', () => {
   const count = 4000;

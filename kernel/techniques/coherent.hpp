@@ -234,7 +234,7 @@ template <int D> class Coherent {
   /// Finds the boxes that are not in their fat ones, or are none, among the first so many.
   COLD void look(const Scene<D>& scene, u32 until) {
     const Generation& g = current();
-    Expected<D> expected{g.fat.data(), g.excluded.data()};
+    Expected<D> expected{g.fat.data(), g.excluded.data(), true};
     late_count_ = expected.look(scene, until, unchecked_, late_);
   }
 

@@ -85,6 +85,7 @@ template <int D> class Incremental {
   Buffer<f32> known_;    // of a mover: while it is in here its candidates hold; else: at rest, or when it began to wait
   Buffer<u32> since_;    // the update in which a box was, or began to wait, there
   Buffer<u32> tags_;     // exclusion bits, and ours below them
+  bool filtered_ = false;  // some may have exclusion bits
   Buffer<u32> queue_;    // slots that wait to be put into cells
   u32 queued_ = 0, resting_ = 0;
   u32 portion_ = 0;      // boxes put into cells in an update, where many wait
@@ -128,6 +129,7 @@ template <int D> class Incremental {
   const u32* unexpected(const Scene<D>& scene, u32& many) {
     if (by_ == By::generations) return coherent_.unexpected(scene, many);
     if (by_ == By::strips || scene.count > count_) return nullptr;
+    filtered_ |= scene.excluded != nullptr;
     look(scene, scene.count, true);
     many = late_count_;
     return late_.data();
@@ -178,6 +180,7 @@ template <int D> class Incremental {
   void find(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     now_++;
+    filtered_ |= scene.excluded != nullptr;
     if (leaves_ > 0 && (n < few || n > 2 * planned_ || 4 * n < planned_ || (count_ == 0 && n != planned_))) forget();
     if (coherent_.begun() && (n < few || n > 2 * planned_ || 2 * n < planned_)) coherent_.forget();
     pairs.count = 0;
@@ -231,7 +234,7 @@ template <int D> class Incremental {
     }
     leaves_ = count_ = enlisted_ = queued_ = unseen_ = resting_ = huge_count_ = watching_ = 0;
     settled_.count = 0;
-    any_woken_ = unchecked_ = false;
+    any_woken_ = unchecked_ = filtered_ = false;
     pause_ = pauses_ = smaller(longest_pause, pauses_ * 4);
   }
 
@@ -545,7 +548,7 @@ template <int D> class Incremental {
 
   /// Finds the boxes that are not as expected, among the first so many: of those that may have changed, or of all.
   COLD void look(const Scene<D>& scene, u32 until, bool all) {
-    late_count_ = Expected<D>{known_.data(), tags_.data()}.look(scene, until, all, late_);
+    late_count_ = Expected<D>{known_.data(), tags_.data(), filtered_}.look(scene, until, all, late_);
   }
 
   /// Sees to a box that is not as expected, and not late.
