@@ -241,7 +241,7 @@ test.each([2, 3] as const)(
   'a box at rest that jumps leaves nothing behind where others move, %i dimensions',
   (dimensions) => {
     const random = createRandom(7);
-    const [kept, fresh] = (['auto', 'strip-sweep'] as const).map(
+    const [kept, fresh] = (['incremental', 'strip-sweep'] as const).map(
       (technique) => new BroadPhase({ dimensions, technique }),
     );
     const side = Math.ceil(300 ** (1 / dimensions));
