@@ -50,6 +50,7 @@ template <int D> class Coherent {
   static constexpr u32 watched = 3;  // it is noted where a box stands about so many updates before its fat box is made
   static constexpr u32 sampled = 4;  // of so many boxes one is asked how fast it is
   static constexpr f64 much_faster = 0.1;  // than expected, in sizes: what is begun is given up
+  static constexpr f64 little_more = 1.05;  // times as much is little
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
 
   enum class Stage : u32 { begin, fatten, enter, sweep, mend };
@@ -110,10 +111,15 @@ template <int D> class Coherent {
   bool begun() const { return begun_; }
 
   /// Begins the first generation. `lists`: the strips of strip-sweep; where they are so few that sweeping one of fat boxes,
-  /// which is done at once, would take too long for an update, nothing is begun.
-  COLD void begin(f64 boxes, f64 lists, f64 hits, f64 share, f64 pace, f64 fresh) {
+  /// which is done at once, would take too long for an update, nothing is begun. `bridged`: updates after which something
+  /// better is going to answer; where it costs little the first generation does so until then, and stays the only one.
+  COLD void begin(f64 boxes, f64 lists, f64 hits, f64 share, f64 pace, f64 fresh, u32 bridged) {
     pace_ = f32(share * pace);
     period_ = best_period(boxes, hits, share, pace);
+    i32 longer = i32(bridged * 2 / 3 + 1);
+    if (longer > period_ && cost(boxes, hits, share, pace, longer) <= little_more * cost(boxes, hits, share, pace, period_)) {
+      period_ = longer;
+    }
     stage_ = Stage::begin;
     known_ = unchecked_ = false;
     slack_ = least_slack;
@@ -130,11 +136,12 @@ template <int D> class Coherent {
   }
 
   /// Finds the pairs, where a generation is there to answer; else false. Gives up where that costs more than `fresh`.
-  COLD bool update(const Scene<D>& scene, const Settings& options, f64 fresh, Pairs& pairs, Stats& stats) {
+  /// `needed`: so many updates more; where the generation that answers lasts for as many, none is begun after it.
+  COLD bool update(const Scene<D>& scene, const Settings& options, f64 fresh, i32 needed, Pairs& pairs, Stats& stats) {
     now_++;
     bool answers = count_ > 0 && follow(scene, options, fresh);
     if (answers) report(scene, pairs, stats);
-    if (begun_) build(scene, options, fresh);
+    if (begun_) build(scene, options, fresh, needed);
     return answers;
   }
 
@@ -392,11 +399,12 @@ template <int D> class Coherent {
   }
 
   /// Makes a slice of the next generation.
-  COLD void build(const Scene<D>& scene, const Settings& options, f64 fresh) {
+  COLD void build(const Scene<D>& scene, const Settings& options, f64 fresh, i32 needed) {
     lasts_--;
     age_++;
     if (stage_ == Stage::begin) {
-      if (known_ && lasts_ > making_) return;
+      if (known_ && (lasts_ > making_ || lasts_ >= needed)) return;
+      if (known_) making_ = smaller(making_, larger(least_making, lasts_));  // it was not begun when it could be
       open(scene);
       if (!known_) return;
     }

@@ -37,8 +37,11 @@ template <int D> class Incremental {
   static constexpr u32 samples_a_cell = 4, most_samples = 1 << 16;
   static constexpr u32 huge_cells = 32;      // boxes that touch more cells than this are huge
   static constexpr u32 most_huge = 64;
+  static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 enlisting = 8;        // updates in which it is noted for each box that it waits to be put into cells
-  static constexpr u32 filling = 40, filling_alone = 150;  // ... and is, while generations answer or not
+  static constexpr u32 filling = 46, filling_alone = 150;  // ... and is, while generations answer or not
+  static constexpr u32 bridged = enlisting + still_for + filling + 4;  // from when cells are cut until they answer, about
+  static constexpr i32 never = 0x7fffffff;
   static constexpr u32 ahead = 8;            // its motion is known from so many updates
   static constexpr u32 late_share = 40;      // all is given up where one in so many leaves its fat box at once
   static constexpr u32 sample_share = 8;     // ... while they are filled, where it is one in so many of a sample
@@ -49,7 +52,6 @@ template <int D> class Incremental {
   // takes longer than to work on it. So what so many cells need is read beforehand, all at once.
   static constexpr u32 too_many_to_be_near = 2500;
   static constexpr u32 together = 16;
-  static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 watched = 512;        // boxes whose motion is looked at before anything is kept
   static constexpr f64 worth = 0.85;         // what is to be kept must promise to cost this share of a strip-sweep
   static constexpr u32 first_pause = 8, longest_pause = 256;
@@ -91,6 +93,7 @@ template <int D> class Incremental {
   u32 portion_ = 0;      // boxes put into cells in an update, where many wait
   u32 unseen_ = 0;       // of those that wait, so many have not even been looked at
   u32 begun_ = 0;        // in this update all began to wait
+  u32 filled_by_ = 0;    // in this one none should any more
   Buffer<u32> late_;     // movers that have left their fat boxes
   u32 late_count_ = 0;
   u32 huge_[most_huge] = {};
@@ -191,13 +194,20 @@ template <int D> class Incremental {
       if (coherent_.begun()) coherent_.release();
       return balance(f64(pairs.count - settled_.count));
     }
-    bool follows = coherent_.begun(), kept = follows && coherent_.update(scene, options, fresh_, pairs, stats);
+    bool follows = coherent_.begun(), kept = follows && coherent_.update(scene, options, fresh_, needed(), pairs, stats);
     by_ = kept ? By::generations : By::strips;
     if (follows && !coherent_.begun()) pause_ = pauses_ = smaller(longest_pause, pauses_ * 4);
     if (kept) pauses_ = larger(first_pause, pauses_ - 1);
     else find_anew(scene, options, pairs, stats);
     if (leaves_ == 0 && coherent_.begun() == kept && n >= few) consider(scene, f64(pairs.count));
     stats.reason = f64(u32(kept ? Reason::kept : leaves_ > 0 || coherent_.begun() ? Reason::filling : Reason::moving));
+  }
+
+  /// For how many updates more generations are to answer: until cells are filled, which may just be thought of; else
+  /// nobody knows.
+  i32 needed() const {
+    if (leaves_ > 0) return filled_by_ > now_ ? i32(filled_by_ - now_) : never;
+    return pause_ > 0 ? never : i32(bridged);
   }
 
   void find_anew(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
@@ -213,7 +223,7 @@ template <int D> class Incremental {
     moving_ = candidates_ = turned_ = motion_ = 0;
     if (count_ == 0) return enlist(scene);  // another update than the one that made the cells: both take their time
     follow(scene, pairs);
-    if (queued_ > 2 * portion_ && astray(scene)) return forget();
+    if (queued_ > portion_ && astray(scene)) return forget();
     serve(scene, options, stats);
     if (leaves_ == 0 || queued_ > 0) return;
     take_turns(scene, options, stats);
@@ -270,7 +280,9 @@ template <int D> class Incremental {
       else pause_ = considered;
       return;
     }
-    if (by_generations <= worth * fresh_) coherent_.begin(n, anew_.lists(), hits, share, speed, fresh_);
+    if (by_generations <= worth * fresh_) {
+      coherent_.begin(n, anew_.lists(), hits, share, speed, fresh_, by_cells <= by_generations ? bridged + 6 : 0);
+    }
     planned_ = n;
     if (coherent_.begun()) return;
     if (by_cells <= worth * fresh_) plan(scene);
@@ -304,6 +316,7 @@ template <int D> class Incremental {
       __builtin_memcpy(cells_[k].high, high, sizeof(cells_[k].high));
     });
     leaves_ = leaves;
+    filled_by_ = now_ + bridged;
     room_.pairs.chunk_bytes = room_.meetings.chunk_bytes = smaller(n / 4, 1u << 16);
     planned_ = n;
     cursor_ = 0;
@@ -312,17 +325,25 @@ template <int D> class Incremental {
 
   /// All boxes wait to be put into cells: not in one update, since memory that is used for the first time takes long.
   COLD void enlist(const Scene<D>& scene) {
-    u32 n = scene.count, until = smaller(n, enlisted_ + n / enlisting + 1);
+    u32 n = scene.count;
     u64 room = u64(n) + n / 4;
     if (enlisted_ == 0) {
       known_.reserve(room * width + padding);
       since_.reserve(room);
       tags_.reserve(room);
+      queue_.reserve(room + 1);
     }
-    for (; enlisted_ < until; enlisted_++) tags_[enlisted_] = waiting | scene.excluded_of(enlisted_);
-    if (enlisted_ < n) return;
+    if (enlisted_ < n) {
+      u32 until = smaller(n, enlisted_ + n / enlisting + 1);
+      for (; enlisted_ < until; enlisted_++) {
+        tags_[enlisted_] = waiting | scene.excluded_of(enlisted_);
+        // What is written here nobody reads: it is memory that is used for the first time, and later on anywhere.
+        queue_[enlisted_] = enlisted_;
+        note(scene, enlisted_);
+      }
+      return;
+    }
     count_ = n;
-    queue_.reserve(room + 1);
     settled_.list.reserve(Pairs::slack);
     woken_.reserve(room / 32 + 1);
     __builtin_memset(woken_.data(), 0, (room / 32 + 1) * sizeof(u32));
@@ -336,8 +357,11 @@ template <int D> class Incremental {
     unseen_ = n;
     portion_ = n / (coherent_.begun() ? filling : filling_alone) + 1;
     begun_ = now_;
-    see(scene, ahead * portion_);
+    see_first(scene);
   }
+
+  /// In each update before the first are put into cells: as many as it takes to be so far ahead of these.
+  void see_first(const Scene<D>& scene) { see(scene, portion_ * ahead / (still_for + 1)); }
 
   /// Notes where some of those stand that wait to be put into cells, to know their motion when it is their turn.
   COLD void see(const Scene<D>& scene, u32 many) {
@@ -522,10 +546,9 @@ template <int D> class Incremental {
       any_woken_ = true;
     }
     if (n < had) unqueue(n);
-    // While cells are filled, and nobody tells who may have moved, it is asked but in the last of these updates.
-    bool fills = queued_ > 2 * portion_;
-    unchecked_ |= fills && !scene.listed();
-    if (fills && unchecked_) {
+    // While cells are filled it is asked but in the last of these updates.
+    if (queued_ > portion_) {
+      unchecked_ = true;
       late_count_ = 0;
     } else {
       if (!scene.looked_at || by_ != By::cells) look(scene, both, unchecked_);
@@ -640,8 +663,8 @@ template <int D> class Incremental {
 
   /// Puts boxes that wait into cells: all that are few, else a share of them.
   COLD void serve(const Scene<D>& scene, const Settings& options, Stats& stats) {
-    if (now_ - begun_ <= still_for) return;  // nobody knows yet who rests
-    u32 many = queued_ <= 2 * portion_ ? queued_ : portion_;
+    if (now_ - begun_ <= still_for) return see_first(scene);  // nobody knows yet who rests
+    u32 many = smaller(queued_, portion_);
     // While all is filled, little by little, the first must reach further ahead than the last.
     f32 until = reach() + f32(queued_ - many) / f32(portion_);
     see(scene, many);
