@@ -174,6 +174,34 @@ describe.each([2, 3] as const)('a few boxes creep, each as it likes, %i dimensio
   });
 });
 
+test('while cells are filled no second generation takes memory', () => {
+  const random = createRandom(29);
+  const count = 20_000;
+  const world = Math.sqrt(count * 200);
+  const boxes = new Float32Array(4 * count);
+  const steps = new Float32Array(2 * count);
+  for (let k = 0; k < count; k++) {
+    const [x, y] = [random() * world, random() * world];
+    boxes.set([x, y, x + 10, y + 10], 4 * k);
+    if (k % 20 === 0) steps.set([random() * 0.4 - 0.2, random() * 0.4 - 0.2], 2 * k);
+  }
+  const space = new BroadPhase();
+  let most = 0;
+  for (let frame = 0; frame < 150; frame++) {
+    for (let k = 0; k < count; k += 20) {
+      for (const at of [4 * k, 4 * k + 1]) {
+        const step = steps[2 * k + (at % 4)]!;
+        boxes[at]! += step;
+        boxes[at + 2]! += step;
+      }
+    }
+    most = Math.max(most, space.setAll(boxes).update().stats.bytes / count);
+  }
+  expect(space.stats.reason).toContain('is kept');
+  expect(most, 'bytes a box').toBeLessThan(300); // 330 with a second one
+  space.dispose();
+});
+
 test('boxes whose first fat ones touch very many cells are in those that they touch themselves', () => {
   const random = createRandom(3);
   const count = 8000;
