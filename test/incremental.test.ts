@@ -328,6 +328,38 @@ test.each([2, 3] as const)(
   },
 );
 
+test.each([
+  [2, 55],
+  [3, 40],
+] as const)(
+  'where all move faster and faster what is begun is given up before its strips are swept, %i dimensions',
+  (dimensions, most) => {
+    const random = createRandom(31);
+    const count = 8000;
+    const width = 2 * dimensions;
+    const world = 10 * (count / 0.3) ** (1 / dimensions);
+    const first = Float32Array.from({ length: dimensions * count }, () => random() * world);
+    const pull = Float32Array.from({ length: dimensions * count }, () => (random() - 0.5) * 0.06);
+    const space = new BroadPhase({ dimensions });
+    let filling = 0;
+    for (let frame = 0; frame < 60; frame++) {
+      const boxes = space.boxes(count);
+      for (let k = 0; k < dimensions * count; k++) {
+        const at = Math.floor(k / dimensions) * width + (k % dimensions);
+        boxes[at] = first[k]! + (pull[k]! * frame * frame) / 2;
+        boxes[at + dimensions] = boxes[at]! + 10;
+      }
+      if (space.update().stats.reason.includes('will be')) filling++;
+      if (frame % 10 > 0) continue;
+      expect(keysOf(space.pairs), `frame ${frame}`).toEqual(
+        keysOf(findPairs(space.boxes(count).slice(), { dimensions })),
+      );
+    }
+    expect(filling, 'updates in which what nobody will use was made').toBeLessThan(most);
+    space.dispose();
+  },
+);
+
 test('boxes that all stand in a row are kept too, though a row cannot be made ready a part at a time', () => {
   const random = createRandom(12);
   const count = 3000;

@@ -33,27 +33,29 @@ template <int D> class Coherent {
   static constexpr f64 bearable_once = 0.5, unnoticed_once = 8e4;  // the same for what cannot be shared out: one strip
   static constexpr f32 least_slack = 0.15f;  // fat boxes reach so many motions of an update to all sides, where none is late
   static constexpr f64 spread = D == 2 ? 0.75 : 0.67;  // of motion along an axis, to that along the fastest
-  // What the work of a generation costs for each box, in nanoseconds: making its fat box and counting it, entering it in
-  // its strip, sweeping that; where memory is used again, and where for the first time, as it is by the first two.
-  static constexpr f64 costs[2][3] = {{D == 2 ? 17 : 20, D == 2 ? 7 : 13, D == 2 ? 18 : 31},
-                                      {D == 2 ? 40 : 52, D == 2 ? 21 : 32, D == 2 ? 30 : 60}};
-  static constexpr f64 strip_cost = D == 2 ? 2600 : 1000;  // the first entry of a strip, often in memory that is used for the first time
+  // What the work of a generation costs for each box, in nanoseconds: making its fat box and counting it, writing to the
+  // memory of strips, entering it in its strip, sweeping that; where memory is used again, and where for the first time, as
+  // it is by the first two.
+  static constexpr f64 costs[2][4] = {{D == 2 ? 17 : 20, 0, D == 2 ? 7 : 13, D == 2 ? 18 : 31},
+                                      {D == 2 ? 40 : 52, D == 2 ? 16 : 26, D == 2 ? 10 : 16, D == 2 ? 30 : 60}};
   static constexpr f64 mend_cost = D == 2 ? 4 : 10, hit_cost = D == 2 ? 3 : 6;  // a last look; and for each candidate
   // What an update costs for each box, and for a box that is late and each of its candidates.
   static constexpr f64 box_cost = D == 2 ? 2 : 3, late_base = 400, late_each = 300;
-  static constexpr f64 late_anew = 3;  // times as much where nobody has read what was made: by the first two generations
+  static constexpr f64 late_anew = 3000;  // so much more where nobody has read what was made: by the first two generations
   // And for each candidate; five times as much where the boxes of a scene are far more than the cache holds.
   static constexpr f64 cached_cost = D == 2 ? 2 : 3, uncached_cost = 4 * cached_cost, cached_boxes = 4e5;
-  static constexpr f64 all_costs = costs[0][0] + costs[0][1] + costs[0][2] + mend_cost;
-  static constexpr u32 asked = 1024;  // boxes of which it is asked whether they are where they were foreseen
+  static constexpr f64 all_costs = costs[0][0] + costs[0][2] + costs[0][3] + mend_cost;
+  // Boxes of which it is asked whether they are where they were foreseen: at the end, and before the strips are swept, when
+  // all is given up where one in so many is not.
+  static constexpr u32 asked = 1024, asked_early = 256, lost_early = 8;
   static constexpr f64 bearable_lost = 0.5;  // what seeing to those that are not may cost, as a share of strip sweep
-  static constexpr u32 watched = 3;  // it is noted where a box stands about so many updates before its fat box is made
+  static constexpr u32 watched = 2;  // it is noted where a box stands about so many updates before its fat box is made
   static constexpr u32 sampled = 4;  // of so many boxes one is asked how fast it is
   static constexpr f64 much_faster = 0.1;  // than expected, in sizes: what is begun is given up
   static constexpr f64 little_more = 1.05;  // times as much is little
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
 
-  enum class Stage : u32 { begin, fatten, enter, sweep, mend };
+  enum class Stage : u32 { begin, fatten, touch, enter, sweep, mend };
 
   struct Generation {
     Buffer<f32> fat;       // per slot
@@ -127,7 +129,7 @@ template <int D> class Coherent {
     found_ = candidates(boxes, hits, share, pace, 1.5 * ahead(period_)) / boxes;
     lost_ = 0;
     for (int a = 1; a < D; a++) lists /= growth();
-    f64 strip = (stage_costs()[2] + hit_cost * found_) * boxes / larger(lists, 1);
+    f64 strip = (stage_costs()[3] + hit_cost * found_) * boxes / larger(lists, 1);
     begun_ = strip <= larger(bearable_once * fresh, unnoticed_once);
     if (!begun_) return;
     make_room(u32(boxes), u32(boxes));  // not in the update that first looks at all of them
@@ -193,7 +195,7 @@ template <int D> class Coherent {
   static f64 added(f64 fresh) { return larger(bearable * fresh, unnoticed); }
 
   /// Updates that fat boxes are to hold from the takeover on: the first are mended meanwhile.
-  i32 life() const { return known_ ? period_ : period_ + period_ / 2; }
+  i32 life() const { return known_ ? period_ : period_ + period_ * 3 / 4; }
 
   /// How many times as long as boxes fat ones are.
   f64 growth() const { return 1 + spread * pace_ * ahead(period_); }
@@ -218,12 +220,12 @@ template <int D> class Coherent {
   /// What making a generation costs for each box, going by the last one.
   f64 work() const {
     const f64* each = stage_costs();
-    return each[0] + each[1] + each[2] + hit_cost * found_ + mending();
+    return each[0] + each[1] + each[2] + each[3] + hit_cost * found_ + mending();
   }
   f64 mending() const { return mend_cost + mend_late_cost() * lost_; }
   const f64* stage_costs() const { return costs[made_ < 2]; }
   f64 late_cost() const { return late_base + late_each * found_; }
-  f64 mend_late_cost() const { return (made_ < 2 ? late_anew : 1) * late_cost(); }
+  f64 mend_late_cost() const { return (made_ < 2 ? late_anew : 0) + late_cost(); }
 
   /// Updates that a generation should answer: the work of making it balances its candidates, which are the more the
   /// further fat boxes reach.
@@ -411,7 +413,8 @@ template <int D> class Coherent {
     // What is left to do is shared by the updates that are left, but for mending, which comes in the last: only then can
     // be seen whether boxes are in fat ones that are to hold them from then on.
     f64 all = work() * boxes_, last = mending() * boxes_, left = larger(0, making_ - age_);
-    f64 budget = known_ ? __builtin_inf() : larger(larger(added(fresh), all / making_), 1.5 * last / period_);
+    // The first generation is mended in a third of the updates that it holds.
+    f64 budget = known_ ? __builtin_inf() : larger(larger(added(fresh), all / making_), 1.8 * last / period_);
     if (left > 0) {
       f64 share = smaller((all - spent_) / (left + 1), (all - last - spent_) / left);
       budget = smaller(budget, larger(share, all / 8 / (left + 1)));
@@ -449,9 +452,11 @@ template <int D> class Coherent {
     Generation& g = next();
     if (stage_ == Stage::mend) return mend(scene, options, budget, fresh);
     f64 each = stage_costs()[u32(stage_) - u32(Stage::fatten)];
-    if (stage_ == Stage::sweep) each = (each + hit_cost * found_) * boxes_ / g.stats.entries;
-    if (stage_ == Stage::enter && made_ < 2 && at_ < g.strips.lists()) each = strip_cost;
-    u32 many = u32(smaller(budget / each + 1, f64(max_slots))), all = boxes_, until = smaller(all, at_ + many);
+    if (stage_ == Stage::sweep) each += hit_cost * found_;
+    bool by_entries = stage_ == Stage::touch || stage_ == Stage::sweep;
+    u32 all = by_entries ? u32(g.stats.entries) : boxes_;
+    each *= f64(boxes_) / all;
+    u32 many = u32(smaller(budget / each + 1, f64(max_slots))), until = smaller(all, at_ + many);
     Scene<D> fat{g.fat.data(), boxes_, g.excluded.data()};
     if (stage_ == Stage::fatten) {
       u32 noted = noted_;
@@ -461,19 +466,22 @@ template <int D> class Coherent {
       // A world that rested when it was looked at, and jumps: nothing will come of it.
       if (!known_ && motion_ * sampled > few_late + until * (2 * pace_ + much_faster)) return forget(), budget;
       g.strips.count(fat, at_, until);
+    } else if (stage_ == Stage::touch) {
+      if (made_ < 2) g.strips.touch(at_, until);
     } else if (stage_ == Stage::enter) {
       g.strips.enter(fat, at_, until);
     } else {
-      all = u32(g.stats.entries);
-      // Strips are swept whole: half of one more, half of one less.
-      u32 half = all / g.strips.lists() / 2;
-      until = all - g.strips.sweep(larger(many, half + 1) - half, g.candidates);
+      until = all - g.strips.sweep(many, g.candidates);
     }
     f64 spent = (until - at_) * each;
     at_ = until;
     if (at_ < all) return spent;
     at_ = 0;
     if (stage_ == Stage::fatten && !g.strips.add_up()) forget();
+    if (stage_ == Stage::enter && !known_) {
+      if (elsewhere(scene, asked_early) * lost_early > boxes_) forget();  // motion that none can foresee
+      spent += asked_early * all_costs;
+    }
     stage_ = Stage(u32(stage_) + 1);
     return spent;
   }
@@ -494,9 +502,9 @@ template <int D> class Coherent {
     u32 until = smaller(boxes_, scene.count);
     f64 spent = 0, most = smaller(budget, larger(fresh / 2, unnoticed));
     if (at_ == 0) {
-      f64 many = elsewhere(scene);
-      spent = smaller(most / 2, asked * mend_cost);
-      if ((many - few_late) * late_cost() > bearable_lost * fresh) return forget(), budget;  // motion that none can foresee
+      f64 many = elsewhere(scene, asked);
+      spent = smaller(most / 2, 2 * asked * mend_cost);
+      if ((many - few_late) * late_cost() > bearable_lost * fresh) return forget(), budget;
       lost_ = many / boxes_;
     }
     for (; at_ < until && spent < most; at_++) {
@@ -511,10 +519,17 @@ template <int D> class Coherent {
     return spent;
   }
 
-  /// About how many boxes are not in the next fat ones, by a sample.
-  COLD f64 elsewhere(const Scene<D>& scene) {
-    u32 n = smaller(boxes_, scene.count), stride = n / asked + 1, out = 0;
-    for (u32 slot = 0; slot < n; slot += stride) out += !inside<D>(scene.box(slot), next().fat.data() + u64(slot) * width);
+  /// About how many boxes will not be in the next fat ones, as they move now, when these are to hold; by a sample.
+  COLD f64 elsewhere(const Scene<D>& scene, u32 sample) {
+    u32 n = smaller(boxes_, scene.count), stride = n / sample + 1, out = 0;
+    f32 left = f32(larger(0, making_ - age_));
+    for (u32 slot = 0; slot < n; slot += stride) {
+      const f32* box = scene.box(slot);
+      f32 then[width + padding];
+      u32 updates = larger(now_ - bits<u32>(from(slot)[D]), 1u);
+      if (left > 0) fatten<D>(box, from(slot), updates, left, left, no_walls, 0, 0, then);
+      out += !inside<D>(left > 0 ? then : box, next().fat.data() + u64(slot) * width);
+    }
     return f64(out) * stride;
   }
 

@@ -124,6 +124,7 @@ template <int D> class StripSweep {
     cut_up(scene, growth);
     clear(cut_, 0);
     ranges_.reserve(boxes_);
+    leaves_.reserve(cut_.rows());
   }
   void count(const Scene<D>& scene, u32 from, u32 until) {
     count(SceneItems<D>{scene, order_}, from, until, cut_, 0);
@@ -139,7 +140,12 @@ template <int D> class StripSweep {
     return true;
   }
   void enter(const Scene<D>& scene, u32 from, u32 until) { enter(SceneItems<D>{scene, order_}, from, until, cut_, 0); }
-  /// Sweeps strips, of at least so many entries; gives how many are left.
+  /// Writes to all memory that entries from `from` to `until` stand in: it may be used for the first time.
+  COLD void touch(u32 from, u32 until) const {
+    ItemsAt<D> entries(entries_, 0);
+    for (u32 k = from; k < until; k += 4096 / sizeof(Item<D>)) entries.put(k, Item<D>{});
+  }
+  /// Sweeps strips, whole ones, of about so many entries, at least one; gives how many are left.
   COLD u32 sweep(u32 entries, Pairs& pairs) {
     u32 until = smaller(entered_, begun_ + entries);
     begun_ = sweep(cut_, everywhere(), 0, entered_, swept_lists_, begun_, until, pairs);
@@ -405,12 +411,14 @@ template <int D> class StripSweep {
   }
 
   /// Sweeps the strips of a cut from `list_at` on, where the entries from `begin` on stand, until those up to `until`
-  /// are done; gives where the next begin. `total`: where deeper cuts may stack theirs.
+  /// are done, and of the last strip more than is not; gives where the next begin. `total`: where deeper cuts may stack
+  /// theirs.
   COLD u32 sweep(const Cut& cut, const Region& region, u32 depth, u32 total, u32& list_at, u32 begin, u32 until, Pairs& pairs) {
-    u32 across = cut.across();
+    u32 across = cut.across(), from = begin;
     for (; begin < until; list_at++) {
       u32 end = offsets_[depth][list_at];  // it has moved on from where the strip begins to where it ends
       if (end == begin) continue;
+      if (begin > from && end > until && end - until > until - begin) break;
       Region part = region;
       narrow(part, 1, cut, list_at / across);
       if constexpr (D == 3) narrow(part, 2, cut, list_at % across);
