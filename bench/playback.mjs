@@ -14,8 +14,8 @@ import { preparePlay } from './plays.mjs';
  * of all is shorter for the first one.
  */
 const turn = 30;
-/** So many playings are enough, and so many the fewest: one alone would have no least of its times. */
-const [mostPlayings, fewestPlayings] = [40, 2];
+/** So many playings are enough, and so many the fewest: the least of one or two times is what the machine did meanwhile. */
+const [mostPlayings, fewestPlayings] = [40, 5];
 
 /** Its multiples, but for their whole parts, are as far apart as can be, however many are taken. */
 const goldenRatio = (Math.sqrt(5) - 1) / 2;
