@@ -14,7 +14,7 @@ import { preparePlay } from './plays.mjs';
  * of all is shorter for the first one.
  */
 const turn = 30;
-/** So many playings are enough, and so many the fewest: the least of one or two times is what the machine did meanwhile. */
+/** So many playings are enough, and so many the fewest: in the least of two the machine still shows. */
 const [mostPlayings, fewestPlayings] = [40, 5];
 
 /** Its multiples, but for their whole parts, are as far apart as can be, however many are taken. */
