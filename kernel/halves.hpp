@@ -66,6 +66,13 @@ template <int D> class Halves {
     return found;
   }
 
+  /// The cell that a box's lower corner is in.
+  u32 home(const f32* box) const {
+    u32 node = 1;
+    for (int level = 0; node < leaves_; level++) node = 2 * node + beyond(box[axis_[level]], cuts_[node]);
+    return node - leaves_;
+  }
+
   COLD void release() {
     cuts_.release();
     sample_.release();

@@ -81,8 +81,9 @@ NOINLINE void sweep(const Lanes<D>& from, const u32* end, u32 count, Pairs& pair
     u32x4 pair = bits<u32x4>(reach);
     pair = max(pair, __builtin_shufflevector(pair, pair, 2, 3, 0, 1));
     u32 most = larger(pair[0], pair[1]), sum = u32(reach[0] + reach[1] + reach[2] + reach[3]);
-    if (Pairs::between(out, limit) < 4 * u64(most) + Pairs::slack) {
-      out = pairs.room(out, 4 * u64(most));
+    u64 hits_at_most = u64(sum) + 4 * together;
+    if (Pairs::between(out, limit) < hits_at_most + Pairs::slack) {
+      out = pairs.room(out, hits_at_most);
       limit = pairs.list.data() + pairs.list.capacity();
     }
     if (most <= sum / 4 + together) {

@@ -37,7 +37,7 @@ template <int D> class Coherent {
   // memory of strips, entering it in its strip, sweeping that; where memory is used again, and where for the first time, as
   // it is by the first two.
   static constexpr f64 costs[2][4] = {{D == 2 ? 17 : 20, 0, D == 2 ? 7 : 13, D == 2 ? 18 : 31},
-                                      {D == 2 ? 40 : 52, D == 2 ? 16 : 26, D == 2 ? 10 : 16, D == 2 ? 30 : 60}};
+                                      {D == 2 ? 40 : 52, D == 2 ? 16 : 26, D == 2 ? 8 : 14, D == 2 ? 33 : 70}};
   static constexpr f64 mend_cost = D == 2 ? 4 : 10, hit_cost = D == 2 ? 3 : 6;  // a last look; and for each candidate
   // What an update costs for each box, and for a box that is late and each of its candidates.
   static constexpr f64 box_cost = D == 2 ? 2 : 3, late_base = 400, late_each = 300;
@@ -52,7 +52,7 @@ template <int D> class Coherent {
   static constexpr u32 watched = 2;  // it is noted where a box stands about so many updates before its fat box is made
   static constexpr u32 sampled = 4;  // of so many boxes one is asked how fast it is
   static constexpr f64 much_faster = 0.1;  // than expected, in sizes: what is begun is given up
-  static constexpr f64 little_more = 1.05;  // times as much is little
+  static constexpr f64 little_more = 1.15;  // times as much is little
   static constexpr f64 worth = 0.9;  // what it costs with what has been found, as a share of what it would cost without
 
   enum class Stage : u32 { begin, fatten, touch, enter, sweep, mend };
@@ -471,6 +471,7 @@ template <int D> class Coherent {
     } else if (stage_ == Stage::enter) {
       g.strips.enter(fat, at_, until);
     } else {
+      if (age_ < making_ && at_ > all / 4 && makes_room(g.candidates, f64(all) / at_)) return budget;
       until = all - g.strips.sweep(many, g.candidates);
     }
     f64 spent = (until - at_) * each;
@@ -484,6 +485,15 @@ template <int D> class Coherent {
     }
     stage_ = Stage(u32(stage_) + 1);
     return spent;
+  }
+
+  /// Whether all candidates, `share` times as many as there are, need more room, which is then made. Where they are more
+  /// than was thought (a huge box may have as many as all others) they are copied while they are few.
+  COLD static bool makes_room(Pairs& candidates, f64 share) {
+    f64 room = f64(candidates.list.capacity()), all = share * f64(candidates.count);
+    if (all <= room) return false;
+    candidates.list.grow(u64(smaller(1.1 * all, 2 * room)), candidates.count);
+    return true;
   }
 
   /// Notes where the boxes up to this one stand: when their fat boxes are made, in an update to come, it is known how they

@@ -39,8 +39,8 @@ template <int D> class Incremental {
   static constexpr u32 most_huge = 64;
   static constexpr u32 still_for = 3;        // updates without motion after which a box rests
   static constexpr u32 enlisting = 8;        // updates in which it is noted for each box that it waits to be put into cells
-  static constexpr u32 filling = 46, filling_alone = 150;  // ... and is, while generations answer or not
-  static constexpr u32 bridged = enlisting + still_for + filling + 4;  // from when cells are cut until they answer, about
+  // ... and is, while generations answer; where boxes are so many that caches do not hold them; and where none answers.
+  static constexpr u32 filling = 46, filling_far = 56, filling_alone = 150, far_boxes = 400'000;
   static constexpr i32 never = 0x7fffffff;
   static constexpr u32 ahead = 8;            // its motion is known from so many updates
   static constexpr u32 late_share = 40;      // all is given up where one in so many leaves its fat box at once
@@ -83,6 +83,7 @@ template <int D> class Incremental {
   u32 count_ = 0;        // boxes that are followed
   u32 planned_ = 0;      // how many they were when the cells were made
   u32 enlisted_ = 0;     // of which so many are known to wait, before any is followed
+  Buffer<u32> in_cell_;  // how many of these come to each cell; then, where they begin in the queue
   // Per slot:
   Buffer<f32> known_;    // of a mover: while it is in here its candidates hold; else: at rest, or when it began to wait
   Buffer<u32> since_;    // the update in which a box was, or began to wait, there
@@ -169,6 +170,7 @@ template <int D> class Incremental {
     since_.release();
     tags_.release();
     queue_.release();
+    in_cell_.release();
     late_.release();
     settled_.list.release();
     order_.release();
@@ -203,11 +205,16 @@ template <int D> class Incremental {
     stats.reason = f64(u32(kept ? Reason::kept : leaves_ > 0 || coherent_.begun() ? Reason::filling : Reason::moving));
   }
 
+  /// Updates in which cells are filled with so many boxes while generations answer; and from when they are cut until they
+  /// answer, about.
+  static u32 fill_updates(u32 n) { return n > far_boxes ? filling_far : filling; }
+  static u32 bridged(u32 n) { return enlisting + still_for + fill_updates(n) + 4; }
+
   /// For how many updates more generations are to answer: until cells are filled, which may just be thought of; else
   /// nobody knows.
   i32 needed() const {
     if (leaves_ > 0) return filled_by_ > now_ ? i32(filled_by_ - now_) : never;
-    return pause_ > 0 ? never : i32(bridged);
+    return pause_ > 0 ? never : i32(bridged(planned_));
   }
 
   void find_anew(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
@@ -282,7 +289,7 @@ template <int D> class Incremental {
     }
     if (by_generations <= worth * fresh_) {
       // It answers for a few updates before cells are cut: then boxes are looked at once more.
-      coherent_.begin(n, anew_.lists(), hits, share, speed, fresh_, by_cells <= by_generations ? bridged + 6 : 0);
+      coherent_.begin(n, anew_.lists(), hits, share, speed, fresh_, by_cells <= by_generations ? bridged(n) + 6 : 0);
     }
     planned_ = n;
     if (coherent_.begun()) return;
@@ -317,7 +324,7 @@ template <int D> class Incremental {
       __builtin_memcpy(cells_[k].high, high, sizeof(cells_[k].high));
     });
     leaves_ = leaves;
-    filled_by_ = now_ + bridged;
+    filled_by_ = now_ + bridged(n);
     room_.pairs.chunk_bytes = room_.meetings.chunk_bytes = smaller(n / 4, 1u << 16);
     planned_ = n;
     cursor_ = 0;
@@ -325,6 +332,7 @@ template <int D> class Incremental {
   }
 
   /// All boxes wait to be put into cells: not in one update, since memory that is used for the first time takes long.
+  /// They wait in the order of the cells that their lower corners are in, so that a cell is filled while the caches hold it.
   COLD void enlist(const Scene<D>& scene) {
     u32 n = scene.count;
     u64 room = u64(n) + n / 4;
@@ -333,6 +341,7 @@ template <int D> class Incremental {
       since_.reserve(room);
       tags_.reserve(room);
       queue_.reserve(room + 1);
+      __builtin_memset(in_cell_.reserve(leaves_), 0, leaves_ * sizeof(u32));
     }
     if (enlisted_ < n) {
       u32 until = smaller(n, enlisted_ + n / enlisting + 1);
@@ -341,6 +350,7 @@ template <int D> class Incremental {
         // What is written here nobody reads: it is memory that is used for the first time, and later on anywhere.
         queue_[enlisted_] = enlisted_;
         note(scene, enlisted_);
+        in_cell_[since_[enlisted_] = halves_.home(scene.box(enlisted_))]++;  // the cell stands there until all are known
       }
       return;
     }
@@ -348,15 +358,10 @@ template <int D> class Incremental {
     settled_.list.reserve(Pairs::slack);
     woken_.reserve(room / 32 + 1);
     __builtin_memset(woken_.data(), 0, (room / 32 + 1) * sizeof(u32));
-    // In an order in which those of a cell come soon after one another: cells then stay in the cache.
-    auto put = [&](u32 slot) {
-      queue_[queued_] = slot;
-      queued_ += slot < n;
-    };
-    anew_.each_in_order(put);
-    for (u32 slot = anew_.boxes(); slot < n; slot++) put(slot);  // they came while generations answered
-    unseen_ = n;
-    portion_ = n / (coherent_.begun() ? filling : filling_alone) + 1;
+    for (u32 c = 1; c < leaves_; c++) in_cell_[c] += in_cell_[c - 1];
+    for (u32 slot = 0; slot < n; slot++) queue_[--in_cell_[since_[slot]]] = slot;
+    queued_ = unseen_ = n;
+    portion_ = n / (coherent_.begun() ? fill_updates(n) : filling_alone) + 1;
     begun_ = now_;
     see_first(scene);
   }
@@ -674,6 +679,8 @@ template <int D> class Incremental {
         const u32* next = queue_.data() + queued_ - together;
         read_rows(scene.boxes, width * sizeof(f32), next, together, 1);
         read_rows(known_.data(), width * sizeof(f32), next, together, 1);
+        read_rows(since_.data(), sizeof(u32), next, together, 1);
+        read_rows(tags_.data(), sizeof(u32), next, together, 1);
       }
       u32 slot = queue_[--queued_];
       if (tags_[slot] & rests) leave_rest(slot);

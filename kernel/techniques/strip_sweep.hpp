@@ -17,6 +17,8 @@
 template <int D> class StripSweep {
   // What an entry in a strip costs, relative to a tested candidate: sets the width of the strips.
   static constexpr f64 entry_cost = D == 2 ? 24 : 40;
+  // ... and where an update is in parts: strips are swept whole, so narrower ones make parts alike.
+  static constexpr f64 entry_cost_in_parts = entry_cost / 2;
   // Below this many candidates a box, narrower strips save nothing: the first block of four is tested anyway.
   static constexpr f64 free_candidates = 1.5;
   // Strips longer than this leave the cache near the core.
@@ -194,17 +196,8 @@ template <int D> class StripSweep {
     }
   }
 
-  u32 boxes() const { return boxes_; }
   /// Strips of the outermost cut.
   u32 lists() const { return cut_.lists(); }
-
-  /// Calls `what` with the slot of each box of the last update once, those of a strip after those of the one before.
-  template <class What> void each_in_order(What what) const {
-    for (u32 k = 0; k < entered_; k++) {
-      u32 tag = tag_at(k);
-      if (!(tag & (continues_1 | continues_2))) what(tag & slot_mask);
-    }
-  }
 
   /// The strips of the last update, as boxes in the world's axes; unbounded sides are infinite.
   COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
@@ -230,7 +223,7 @@ template <int D> class StripSweep {
  private:
   /// Strip widths that balance entries against candidates: a strip w boxes wide makes 1 / w more entries and
   /// tests w times the neighbours along the sweep axis.
-  COLD static Cut choose(const Statistics<D>& world, u32 count) {
+  COLD static Cut choose(const Statistics<D>& world, u32 count, f64 entry = entry_cost) {
     f64 relative[D];  // mean size as a share of the extent
     for (int a = 0; a < D; a++) {
       f64 extent = world.high[a] - world.low[a];
@@ -239,13 +232,13 @@ template <int D> class StripSweep {
     f64 neighbours = world.crowding * count * relative[0];  // along the sweep axis, in the whole width
     f64 width[D];                                           // as a share of the extent
     auto one_axis = [&](int axis) {
-      f64 balanced = __builtin_sqrt(entry_cost * relative[axis] / neighbours);
+      f64 balanced = __builtin_sqrt(entry * relative[axis] / neighbours);
       return larger(balanced, free_candidates / neighbours);
     };
     if constexpr (D == 2) {
       width[1] = larger(smaller(one_axis(1), cached_items / count), least_items / count);
     } else {
-      f64 boxes = cube_root(entry_cost / (neighbours * relative[1] * relative[2]));
+      f64 boxes = cube_root(entry / (neighbours * relative[1] * relative[2]));
       boxes = larger(boxes, __builtin_sqrt(free_candidates / (neighbours * relative[1] * relative[2])));
       width[1] = boxes * relative[1];
       width[2] = boxes * relative[2];
@@ -302,7 +295,7 @@ template <int D> class StripSweep {
       }
       return false;
     }
-    cut_ = choose(world.in(order_), scene.count);
+    cut_ = choose(world.in(order_), scene.count, in_parts_ ? entry_cost_in_parts : entry_cost);
     return cut_.lists() > 1;
   }
 

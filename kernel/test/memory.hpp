@@ -205,11 +205,38 @@ template <int D> void check_too_many_pairs() {
   }
 }
 
+/// A huge box that moves among many at rest: how many it may meet by the time that what is made answers nobody knows
+/// beforehand. Their list is copied to a larger place while it is short, not when it is full.
+template <int D> void check_huge_mover() {
+  Random random(24);
+  const u32 count = 20'000;
+  const f64 world = D == 2 ? 5800 : 750, side = world / 2;
+  Boxes<D> boxes = as_floats<D>(spread<D>(random, count, 0, world, 10));
+  auto instance = open<D>(Technique::automatic);
+  Space<D>& space = instance->space;
+  u64 most = 0;
+  for (u32 k = 0; k < 90; k++) {
+    Box<D>& huge = boxes[0];
+    for (u32 a = 0; a < D; a++) {
+      huge[a] = f32((world - side) * k / 90);
+      huge[D + a] = f32(huge[a] + side);
+    }
+    if (k == 0) replace(space, boxes, false);
+    else space.set(0, huge.data());
+    heap::copied = 0;
+    CHECK(space.update() == -1);
+    if (k > 10) most = larger(most, heap::copied);
+  }
+  CHECK(space.stats.reason == f64(u32(Reason::kept)));
+  CHECK(most > 0 && most < count / 2 * sizeof(u64));  // of about as many candidates as boxes
+}
+
 template <int D> void list_memory_tests() {
   testing::list({
       {"memory that ends in a change leaves all as it was", D, check_changes<D>},
       {"memory that ends in an update ends it with no pairs", D, check_updates<D>},
       {"memory that ends in an update of techniques that keep things ends it with no pairs", D, check_kept_updates<D>},
       {"memory suffices again with fewer boxes", D, check_too_many_pairs<D>},
+      {"memory for what a huge box may meet is made while it is little", D, check_huge_mover<D>},
   });
 }
