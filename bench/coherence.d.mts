@@ -33,7 +33,7 @@ export interface Played {
   playings: number;
   wrong?: { technique: string; frame: number } | undefined;
 }
-export const phases: { filling: number; settled: number; steady: number };
+export const phases: { settled: number; steady: number };
 export function rows(cases: Map<string, Case>, traces?: string): Row[];
 export function judge(
   answer: Played & { bytes: Record<string, number>; times: number[][][] },

@@ -12,8 +12,8 @@ const script = fileURLToPath(new URL('./playback.mjs', import.meta.url));
 /** The first is what the others are held against, and it is the last once more. */
 const techniques = ['strip-sweep', 'auto', 'incremental'];
 const players = [...techniques, techniques[0]];
-/** Frames in which what is kept is made; after so many it has settled; so many are then measured. */
-export const phases = { filling: 120, settled: 150, steady: 300 };
+/** Frames after which what is kept has been made and has settled; so many are then measured as steady motion. */
+export const phases = { settled: 180, steady: 300 };
 const frames = phases.settled + phases.steady;
 /** For how many milliseconds a row is played in a round, not counting the last playing; and how long it may take in all. */
 const [patience, most] = [10_000, 900_000];
@@ -91,7 +91,7 @@ export async function coherence(chosen, { seed, rounds }, done) {
 /** The figures of a row from the times of its frames. */
 export function judge({ count, pairs, kept, wrong, bytes, playings, times }) {
   const least = times.map(leastOfEach);
-  const parts = { filling: [0, phases.filling], steady: [phases.settled, undefined] };
+  const parts = { filling: [0, phases.settled], steady: [phases.settled, undefined] };
   const held = (k, part) => against(least[k].slice(...part), least[0].slice(...part), count);
   const figures = techniques.map((name, k) => {
     const of = (part) => ({ ...spread(least[k].slice(...part)), ...(k > 0 && held(k, part)) });
