@@ -10,7 +10,8 @@
 //     by itself.
 //   - A box that has not moved from one turn to the next rests. Pairs of boxes at rest are no candidates: they stand
 //     settled at the head of the list of pairs, which nobody touches until one of them moves.
-//   - Boxes that touch very many cells (the ground, a wall) stand in none and are tested against all that move.
+//   - Boxes that touch very many cells (the ground, a wall) stand in none and are tested against all that move; one that
+//     moves itself (a gate, what a camera sees), against what rests in the cells that it touches too.
 // All this is filled little by little, and given up again where many boxes leave their fat ones at once or where it does
 // not pay. Meanwhile, and where most boxes move, the generations of coherent.hpp give the answers, which are sooner there;
 // until then strip-sweep does.
@@ -497,19 +498,19 @@ template <int D> class Incremental {
       cell.stills.each_hit(box, tag, [&](u32 other) {
         u32 its = cell.stills.slot(other);
         // One that has woken, and waits, is no longer where it rested.
-        if (!(tags_[its] & waiting) && reports(cell, box, last(its))) settle(slot, its);
+        if (!(tags_[its] & waiting) && reports(cell, box, last(its))) add(settled_, slot, its);
       });
       cell.stills.put(box, tag_of(slot, tag));
     }
     for (u32 h = 0; h < huge_count_; h++) {
       u32 its = tags_[huge_[h]];
-      if ((its & rests) && !(its & tag & ~slot_mask) && touch<D>(box, last(huge_[h]))) settle(slot, huge_[h]);
+      if ((its & rests) && !(its & tag & ~slot_mask) && touch<D>(box, last(huge_[h]))) add(settled_, slot, huge_[h]);
     }
   }
 
-  COLD void settle(u32 a, u32 b) {
-    settled_.list.grow(settled_.count + 1 + Pairs::slack, settled_.count);
-    settled_.list[settled_.count++] = pair_of(a, b);
+  NOINLINE static void add(Pairs& pairs, u32 a, u32 b) {
+    pairs.room(pairs.list.data() + pairs.count, 1);
+    pairs.list[pairs.count++] = pair_of(a, b);
   }
 
   /// A box that rested waits to be a mover. Its cells have it until it is served.
@@ -862,10 +863,8 @@ template <int D> class Incremental {
 
   /// The pairs of huge boxes that are not settled.
   COLD void report_huge(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
-    auto try_pair = [&](u32 h, u32 slot) {
-      if ((tags_[h] & tags_[slot] & ~slot_mask) || !touch<D>(scene.box(h), scene.box(slot))) return;
-      pairs.room(pairs.list.data() + pairs.count, 1);
-      pairs.list[pairs.count++] = pair_of(h, slot);
+    auto meet = [&](u32 h, u32 slot) {
+      return !(tags_[h] & tags_[slot] & ~slot_mask) && touch<D>(scene.box(h), scene.box(slot));
     };
     for (u32 c = 0; c < leaves_; c++) {
       const Cell& cell = cells_[c];
@@ -873,7 +872,9 @@ template <int D> class Incremental {
         u32 slot = cell.movers.slot(k);
         const f32* box = scene.box(slot);
         if ((tags_[slot] & rests) || !reports(cell, box, box)) continue;
-        for (u32 h = 0; h < huge_count_; h++) try_pair(huge_[h], slot);
+        for (u32 h = 0; h < huge_count_; h++) {
+          if (meet(huge_[h], slot)) add(pairs, huge_[h], slot);
+        }
       }
     }
     stats.tests += moving_ * huge_count_;
@@ -882,27 +883,30 @@ template <int D> class Incremental {
       const f32* box = scene.box(slot);
       bool still = tags_[slot] & rests;
       for (u32 g = 0; g < h; g++) {
-        if (!(still && (tags_[huge_[g]] & rests))) try_pair(slot, huge_[g]);
+        if (!(still && (tags_[huge_[g]] & rests)) && meet(slot, huge_[g])) add(pairs, slot, huge_[g]);
       }
       if (still) continue;
-      if (resting_ > 0) {
-        for (u32 other = 0; other < count_; other++) {
-          if ((tags_[other] & rests) && !(tags_[other] & is_huge)) try_pair(slot, other);
-        }
-        stats.tests += count_;
+      u64 first = pairs.count;
+      for (u32 c = 0; c < leaves_; c++) {
+        const Cell& cell = cells_[c];
+        if (!touches(cell, box)) continue;
+        stats.tests += cell.stills.count;
+        cell.stills.each_hit(box, tags_[slot], [&](u32 at) {
+          u32 its = cell.stills.slot(at);
+          if (reports(cell, box, last(its))) add(pairs, slot, its);
+        });
       }
       if (!equal(box, last(slot))) {
         __builtin_memcpy(last(slot), box, width * sizeof(f32));
         since_[slot] = now_;
       } else if (now_ - since_[slot] > still_for) {
         // It rests from the next update on.
+        for (u64 k = first; k < pairs.count; k++) add(settled_, u32(pairs.list[k]), u32(pairs.list[k] >> 32));
+        for (u32 g = 0; g < huge_count_; g++) {
+          if ((tags_[huge_[g]] & rests) && meet(slot, huge_[g])) add(settled_, slot, huge_[g]);
+        }
         tags_[slot] |= rests;
         resting_++;
-        for (u32 other = 0; other < count_; other++) {
-          u32 its = tags_[other];
-          if (other == slot || !(its & rests) || (its & tags_[slot] & ~slot_mask)) continue;
-          if (touch<D>(box, last(other))) settle(slot, other);
-        }
       }
     }
   }
