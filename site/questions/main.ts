@@ -78,7 +78,6 @@ function answer(): void {
   timings.add(ended, ended - started);
   desk.aimed = false;
   draw();
-  if (ended - read > refresh) report();
 }
 
 function draw(): void {
@@ -100,8 +99,8 @@ let pending = 0;
 function answerSoon(): void {
   cancelAnimationFrame(pending);
   pending = requestAnimationFrame(() => {
-    read = 0;
     answer();
+    report();
   });
 }
 
@@ -109,6 +108,7 @@ const loop = new FrameLoop(() => {
   scene.step();
   update();
   answer();
+  if (performance.now() - read > refresh) report();
 });
 
 /** Aims across the middle of the world, from a place with room around it where there is one. */
@@ -267,8 +267,8 @@ find('step').addEventListener('click', () => {
   play(false);
   scene.step();
   update();
-  read = 0;
   answer();
+  report();
 });
 countMenu.addEventListener('change', () => {
   showScene();

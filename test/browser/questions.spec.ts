@@ -61,6 +61,14 @@ test('a mask leaves layers out', async ({ page }) => {
   await expectFound(page).toBe(0);
 });
 
+test('a page that is there at once has its answers too', async ({ page }) => {
+  await page.addInitScript(() => {
+    performance.now = () => 50; // milliseconds after it was asked for
+  });
+  await open(page, 'nearest');
+  await expectFound(page).toBeGreaterThan(0);
+});
+
 test('a point finds what holds it, a circle what it touches', async ({ page }) => {
   await open(page, 'nearest');
   const [nearest] = await ids(page);
