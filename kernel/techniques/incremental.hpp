@@ -16,7 +16,7 @@
 // not pay. Meanwhile, and where most boxes move, the generations of coherent.hpp give the answers, which are sooner there;
 // until then strip-sweep does.
 // Cost: where all move by a hundredth of their size a fifth of strip-sweep, by a tenth of it 0.4 in 2D and 0.5 in 3D;
-// where 5 % move 0.12 to 0.15, of a million 0.21 to 0.25; there only the movers count. The first updates, in
+// where 5 % move 0.12 to 0.15, of a million 0.17 to 0.21; there only the movers count. The first updates, in
 // which the first generation is made, up to eighty, cost about a twelfth more.
 // Memory, beside that of strip-sweep: about 120 (2D) or 210 (3D) bytes a box that moves, 100 or 150 one at rest.
 // Wins where boxes rest, or move slowly. Is strip-sweep where they jump.
