@@ -360,6 +360,34 @@ test.each([
   },
 );
 
+test.each([
+  ['every 20th', (k: number) => k % 20 === 0],
+  ['the first of each 5,120', (k: number) => k % 5120 < 256],
+])('who moves is found out whatever the order of the ids: %s', (_, moves) => {
+  const random = createRandom(33);
+  const count = 20_480;
+  const world = Math.sqrt(count * 400);
+  const space = new BroadPhase();
+  const boxes = new Float32Array(4 * count);
+  for (let k = 0; k < count; k++) {
+    const [x, y] = [random() * world, random() * world];
+    boxes.set([x, y, x + 10, y + 10], 4 * k);
+  }
+  space.setAll(boxes);
+  for (let frame = 0; frame < 200; frame++) {
+    for (let k = 0; k < count; k++) {
+      if (!moves(k)) continue;
+      const at = 4 * k;
+      for (const n of [at, at + 2]) boxes[n]! += 0.1;
+      space.set(k, boxes[at]!, boxes[at + 1]!, boxes[at + 2]!, boxes[at + 3]!);
+    }
+    space.update();
+  }
+  expectKeys(space, referencePairs(boxes, 2));
+  expect(space.stats.tests, 'where 5 % move').toBeLessThan(0.4 * count);
+  space.dispose();
+});
+
 test('boxes that all stand in a row are kept too, though a row cannot be made ready a part at a time', () => {
   const random = createRandom(12);
   const count = 3000;

@@ -262,12 +262,13 @@ template <int D> class Incremental {
       pause_--;
       return;
     }
-    u32 n = scene.count, many = smaller(n, watched), stride = n / many;
+    u32 n = scene.count, many = smaller(n, watched);
+    detail::Sampling sampling(n, many);  // the same ones in both updates
     f32* before = watched_.reserve(watched * width + padding);
     f64 moved = 0, movers = 0;
     bool known = watching_ == n;
     for (u32 k = 0; k < many; k++) {
-      const f32* box = scene.box(k * stride);
+      const f32* box = scene.box(sampling.next());
       f32 step = known ? pace<D>(box, before + k * width, 1) : 0;
       moved += step;
       movers += step > 0;

@@ -21,6 +21,7 @@ for (const [name, label] of [
   test(`${label}: what touches is among the pairs`, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'reduce' });
     await page.goto(`/narrow-phase/#${name === 'shapes' ? 'masks' : 'shapes'}`);
+    await expect(page.locator('#code')).not.toBeEmpty(); // the page waits for its kernel, and hears nobody before
     await page.getByRole('radio', { name: label }).check({ force: true });
     await expect(page).toHaveURL(new RegExp(`#${name}$`));
     await page.getByRole('combobox', { name: 'Things' }).selectOption('150');
