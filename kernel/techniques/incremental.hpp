@@ -285,7 +285,7 @@ template <int D> class Incremental {
     f64 by_generations = coherent_.cost(n, hits, share, speed, listed);
     // Generations come first: they are soon there, and answer while cells are filled.
     if (by_ == By::generations) {
-      if (by_cells <= by_generations) plan(scene);
+      if (by_cells <= by_generations) plan(scene, hits);
       else pause_ = considered;
       return;
     }
@@ -295,7 +295,7 @@ template <int D> class Incremental {
     }
     planned_ = n;
     if (coherent_.begun()) return;
-    if (by_cells <= worth * fresh_) plan(scene);
+    if (by_cells <= worth * fresh_) plan(scene, hits);
     else pause_ = first_pause;
   }
 
@@ -314,8 +314,10 @@ template <int D> class Incremental {
 
   // --- the cells ---
 
-  /// Cuts space into cells, still empty.
-  COLD void plan(const Scene<D>& scene) {
+  /// Cuts space into cells, still empty. No more of the pairs than there are now will soon be settled: a list with room for
+  /// them need not be copied while it grows.
+  COLD void plan(const Scene<D>& scene, f64 hits) {
+    settled_.list.reserve(u64(hits) + Pairs::slack);
     u32 n = scene.count, levels = 0;
     while ((n >> (levels + 1)) >= cell_boxes) levels++;
     u32 leaves = 1u << levels;
@@ -357,7 +359,6 @@ template <int D> class Incremental {
       return;
     }
     count_ = n;
-    settled_.list.reserve(Pairs::slack);
     woken_.reserve(room / 32 + 1);
     __builtin_memset(woken_.data(), 0, (room / 32 + 1) * sizeof(u32));
     for (u32 c = 1; c < leaves_; c++) in_cell_[c] += in_cell_[c - 1];

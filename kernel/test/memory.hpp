@@ -231,6 +231,31 @@ template <int D> void check_huge_mover() {
   CHECK(most > 0 && most < count / 2 * sizeof(u64));  // of about as many candidates as boxes
 }
 
+/// A crowded world at rest, of which few move: its pairs are settled while cells are filled, many in each update, and
+/// their list is not copied to a larger place meanwhile.
+template <int D> void check_settled_room() {
+  Random random(25);
+  const u32 count = 6000;
+  const f64 world = D == 2 ? 390 : 115;
+  Boxes<D> boxes = as_floats<D>(spread<D>(random, count, 0, world, 10));
+  auto instance = open<D>(Technique::automatic);
+  Space<D>& space = instance->space;
+  replace(space, boxes, false);
+  u64 most = 0;
+  for (u32 k = 0; k < 230; k++) {
+    for (u32 id = 0; id < count; id += 20) {
+      boxes[id][0] += 0.05f;
+      boxes[id][D] += 0.05f;
+      space.set(id, boxes[id].data());
+    }
+    heap::copied = 0;
+    CHECK(space.update() == -1);
+    if (k > 10) most = larger(most, heap::copied);
+  }
+  CHECK(space.stats.reason == f64(u32(Reason::kept)));
+  CHECK(most < space.pairs.count / 4 * sizeof(u64));
+}
+
 template <int D> void list_memory_tests() {
   testing::list({
       {"memory that ends in a change leaves all as it was", D, check_changes<D>},
@@ -238,5 +263,6 @@ template <int D> void list_memory_tests() {
       {"memory that ends in an update of techniques that keep things ends it with no pairs", D, check_kept_updates<D>},
       {"memory suffices again with fewer boxes", D, check_too_many_pairs<D>},
       {"memory for what a huge box may meet is made while it is little", D, check_huge_mover<D>},
+      {"memory for settled pairs is there before they are", D, check_settled_room<D>},
   });
 }
