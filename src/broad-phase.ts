@@ -383,7 +383,7 @@ export class BroadPhase extends Queries {
     if (count * width > length) {
       badValue('setAll: count', count, `at most ${Math.floor(length / width)}, as ${length} numbers were given`);
     }
-    if (!single) checkNumbers(boxes, count, this.dimensions);
+    if (Array.isArray(boxes)) checkNumbers(boxes, count, this.dimensions); // typed arrays hold nothing else
     try {
       const kernel = this.kernel;
       const at = (single ? kernel.stage(count) : kernel.stage_exact(count)) >>> 0;
