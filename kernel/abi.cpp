@@ -1,5 +1,7 @@
 // The exported functions: the only thing JavaScript calls. One instance of the module is one space.
 // Numbers that do not fit in a return value are passed through `io`, an array of doubles.
+#include <new>
+
 #include "space.hpp"
 
 // Next to one another, as the techniques are: see there.
@@ -230,5 +232,14 @@ EXPORT(recover)() -> u32 {
   fault = Fault::none;
   if (what != Fault::none) with_space([](auto& space) { space.recover(); });
   return u32(what);
+}
+
+/// Everything as in a new instance, but that memory has grown. Returns how many bytes have been in use at most.
+/// What holds memory is made anew rather than emptied: so no list of what has to be reset can miss anything.
+COLD EXPORT(begin_anew)() -> size_t {
+  new (&ids) Ids;
+  options = Settings{};
+  with_space([]<int D>(Space<D>& space) COLD { new (&space) Space<D>(ids, options); });
+  return heap::forget_all();
 }
 #endif

@@ -89,6 +89,7 @@ inline u32 checked_class(u64 bytes) {
 #if defined(__wasm__)
 extern "C" u8 __heap_base;
 inline u8* top = nullptr;       // first byte never handed out
+inline u8* highest = nullptr;   // where `top` stood before it last went down, at most
 inline u8* waiting[112] = {};   // per size class, the given-back blocks, each holding the address of the next
 
 /// Makes the memory reach to `bytes` behind `top`; false where it cannot. Growing cuts off every view that
@@ -102,6 +103,15 @@ inline bool reach(u64 bytes) {
   u64 pages = (end - have + 0xffff) >> 16;
   return __builtin_wasm_memory_grow(0, size_t(pages + (have >> 18) + 16)) != size_t(-1) ||
          __builtin_wasm_memory_grow(0, size_t(pages)) != size_t(-1);
+}
+
+/// Nothing is handed out any more, as in a new memory. Returns how many bytes have been in use at most.
+inline size_t forget_all() {
+  size_t most = size_t(larger(highest, top) - &__heap_base);
+  top = highest = nullptr;
+  used = 0;
+  for (u8*& block : waiting) block = nullptr;
+  return most;
 }
 
 COLD inline void* take(u32 c) {
@@ -120,6 +130,7 @@ COLD inline void* take(u32 c) {
 COLD inline void give(void* block, u32 c) {
   used -= class_bytes(c);
   if (static_cast<u8*>(block) + class_bytes(c) == top) {
+    highest = larger(highest, top);
     top = static_cast<u8*>(block);
     return;
   }

@@ -1,9 +1,48 @@
 // One-shot search: pairs of an array of boxes, or between two, without keeping anything.
-import { type Boxes, BroadPhase, type BroadPhaseOptions, checkBoxes, countBoxes, splitColours } from './broad-phase.ts';
+// A call that asks for nothing but dimensions takes a spare space, since making one costs many times as much as the
+// search among a few boxes. A spare space is as new, so that the order of pairs does not depend on the calls before.
+import {
+  type Boxes,
+  BroadPhase,
+  type BroadPhaseOptions,
+  beginAnew,
+  checkBoxes,
+  countBoxes,
+  splitColours,
+} from './broad-phase.ts';
+
+/** By dimensions. A space is not here while it is in use: a getter in the caller's array may call again. */
+const spares: (BroadPhase | undefined)[] = [];
+
+/** A spare space may have used this many bytes of memory, but no more: what has been touched stays taken. */
+const mostBytes = 64 * 2 ** 20;
+
+/** The space for a call with these options. */
+function borrow(options?: BroadPhaseOptions): BroadPhase {
+  const dimensions = plain(options);
+  const spare = spares[dimensions];
+  if (spare === undefined) return new BroadPhase(options);
+  spares[dimensions] = undefined;
+  return spare;
+}
+
+/** Keeps the space of a call that went well for the next. Where a call throws, its space goes with it. */
+function giveBack(space: BroadPhase, options?: BroadPhaseOptions): void {
+  const dimensions = plain(options);
+  if (dimensions !== 0 && beginAnew(space) <= mostBytes) spares[dimensions] = space;
+}
+
+/** The dimensions that the options ask for, where they ask for nothing else; 0 where they do. */
+function plain(options?: BroadPhaseOptions): number {
+  if (options === undefined) return 2;
+  for (const name in options) if (name !== 'dimensions') return 0;
+  const { dimensions } = options ?? {};
+  return dimensions === 2 || dimensions === 3 ? dimensions : 0;
+}
 
 /**
  * Every overlapping pair of an array of boxes, once: `[a0, b0, a1, b1, …]` with a < b, indices into the array.
- * For boxes that move, a {@link BroadPhase} that is kept is faster.
+ * For boxes that move, a {@link BroadPhase} that is kept is faster. Up to 64 MiB of memory stay for the next call.
  *
  * @param boxes interleaved: minX, minY, maxX, maxY (3D: minX, minY, minZ, maxX, maxY, maxZ), box after box
  * @param options those of {@link BroadPhase}: `dimensions: 3` for boxes of six numbers
@@ -14,7 +53,10 @@ import { type Boxes, BroadPhase, type BroadPhaseOptions, checkBoxes, countBoxes,
  * findPairs([0, 0, 10, 10, 5, 5, 15, 15]); // → Uint32Array [0, 1]
  */
 export function findPairs(boxes: Boxes, options?: BroadPhaseOptions): Uint32Array {
-  return new BroadPhase(options).setAll(boxes).update().pairs.slice();
+  const space = borrow(options);
+  const pairs = space.setAll(boxes).update().pairs.slice();
+  giveBack(space, options);
+  return pairs;
 }
 
 /**
@@ -32,7 +74,7 @@ export function findPairs(boxes: Boxes, options?: BroadPhaseOptions): Uint32Arra
  * findPairsBetween(players, coins); // → Uint32Array [0, 0]
  */
 export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOptions): Uint32Array {
-  const space = new BroadPhase(options);
+  const space = borrow(options);
   checkBoxes('findPairsBetween: red', red);
   checkBoxes('findPairsBetween: blue', blue);
   const reds = countBoxes('findPairsBetween: red', red, space.dimensions);
@@ -40,6 +82,7 @@ export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOp
   space.setAll(join(red, blue));
   splitColours(space, reds);
   const pairs = space.update().pairs.slice();
+  giveBack(space, options);
   for (let k = 1; k < pairs.length; k += 2) pairs[k]! -= reds;
   return pairs;
 }

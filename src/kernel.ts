@@ -55,6 +55,7 @@ export interface KernelExports {
   structure_count(): number;
   validate(): number;
   recover(): number;
+  begin_anew(): number;
 }
 
 let module: WebAssembly.Module | undefined;

@@ -1,6 +1,6 @@
 // The one-shot functions: boxes in, pairs out, nothing kept.
 import { BroadPhase, findPairs, findPairsBetween } from 'broadphase';
-import { describe, expect, test } from 'vitest';
+import { describe, expect, onTestFinished, test } from 'vitest';
 import { createScene, sceneNames } from '../src/scenes/index.ts';
 import { firstDifference } from './expect-pairs.ts';
 import { hostileCases } from './hostile.ts';
@@ -94,5 +94,80 @@ describe('findPairsBetween', () => {
     expect(() => findPairsBetween([0, 0, 1, Number.NaN], [])).toThrow(/0.*NaN/s);
     expect(() => findPairsBetween([], [0, 0, 1, 1, 5, 0, 1, 1])).toThrow(/1.*5/s);
     expect(() => findPairsBetween([0, 0, 1], [])).toThrow('3');
+  });
+});
+
+describe('the spare space', () => {
+  const scene = (count: number, dimensions: 2 | 3, seed: number) =>
+    createScene(dimensions === 2 ? 'mixed2d' : 'mixed3d', count, { seed }).boxes;
+
+  /** A call that names a technique has a space of its own. */
+  const fresh = (dimensions: 2 | 3) => ({ dimensions, technique: 'auto' as const });
+
+  test.each([2, 3] as const)(
+    'gives the pairs in the order of a fresh one, whatever was before, in %dD',
+    (dimensions) => {
+      const counts = [2, 3000, 0, 40, 25, 700, 24, 5000, 1, 300, 6000, 30, 3000];
+      for (const [k, count] of [...counts, ...counts.toReversed()].entries()) {
+        const boxes = scene(count, dimensions, k);
+        const given = k % 3 === 1 ? Float64Array.from(boxes, (number) => number + 0.1) : boxes;
+        expect(findPairs(given, { dimensions })).toEqual(findPairs(given, fresh(dimensions)));
+        const others = scene((count >> 1) + 1, dimensions, k + 100);
+        const between = findPairsBetween(given, others, { dimensions });
+        expect(between).toEqual(findPairsBetween(given, others, fresh(dimensions)));
+        if (k % 4 === 0)
+          expect(() => findPairs([...boxes, ...Array(2 * dimensions).fill(Number.NaN)], { dimensions })).toThrow();
+      }
+    },
+  );
+
+  test('is used by one call at a time', () => {
+    const inner = Float32Array.of(0, 0, 1, 1, 1, 1, 2, 2, 5, 5, 6, 6, 6, 6, 7, 7);
+    const found: Uint32Array[] = [];
+    const numbers = [0, 0, 2, 2, 5, 5, 6, 6, 1, 1, 3, 3];
+    const outer = new Proxy(numbers, {
+      get(target, key) {
+        if (key === '5') found.push(findPairs(inner), findPairsBetween(inner, inner.slice(0, 4)));
+        return Reflect.get(target, key);
+      },
+    });
+    for (let k = 0; k < 2; k++) {
+      found.length = 0;
+      expect(findPairs(outer)).toEqual(Uint32Array.of(0, 2));
+      expect(found.length).toBeGreaterThan(1);
+      for (let at = 0; at < found.length; at += 2) {
+        expect(found[at]).toEqual(Uint32Array.of(0, 1, 2, 3));
+        expect(bipartiteKeys(found[at + 1])).toEqual(bipartiteKeys([0, 0, 1, 0]));
+      }
+    }
+  });
+
+  test('is made once, but again after a call that threw, and after one that took much memory', () => {
+    const { Instance } = WebAssembly;
+    let made = 0;
+    onTestFinished(() => void Object.assign(WebAssembly, { Instance }));
+    WebAssembly.Instance = class extends Instance {
+      constructor(module: WebAssembly.Module) {
+        super(module);
+        made++;
+      }
+    };
+    const makes = (call: () => void) => {
+      const before = made;
+      call();
+      return made - before;
+    };
+    const few = () => findPairs([0, 0, 1, 1]);
+    few();
+    expect(makes(few)).toBe(0);
+    expect(makes(() => findPairsBetween([0, 0, 1, 1], [0, 0, 1, 1]))).toBe(0);
+    expect(makes(() => findPairs(createScene('uniform2d', 20_000).boxes))).toBe(0);
+    expect(makes(few)).toBe(0);
+    expect(() => findPairs([1, 0, 0, 1])).toThrow(RangeError);
+    expect(makes(few)).toBe(1);
+    expect(makes(() => findPairs(new Float32Array(4 * 4500)))).toBe(0); // 81 MB of pairs
+    expect(makes(few)).toBe(1);
+    expect(makes(() => findPairs([0, 0, 1, 1], { technique: 'brute-force' }))).toBe(1);
+    expect(makes(few)).toBe(0);
   });
 });
