@@ -1,8 +1,7 @@
-// Browser tests: the built site, in the Chromium of this machine (CHROMIUM, or Debian's), with what it would send
-// home turned off. Start them with `npm run test:browser`, which finds the browser.
+// Browser tests: the built site, and what `npm start` serves, in the Chromium of this machine (CHROMIUM, or Debian's),
+// with what it would send home turned off. Start them with `npm run test:browser`, which finds the browser.
 import { defineConfig } from '@playwright/test';
-
-const port = 41873;
+import { builtPort, startPort } from './test/browser/ports.ts';
 
 export default defineConfig({
   testDir: 'test/browser',
@@ -12,7 +11,7 @@ export default defineConfig({
   forbidOnly: Boolean(process.env.CI),
   reporter: [['list']],
   use: {
-    baseURL: `http://localhost:${port}/`,
+    baseURL: `http://localhost:${builtPort}/`,
     video: 'off',
     trace: 'off',
     launchOptions: {
@@ -29,9 +28,16 @@ export default defineConfig({
       ],
     },
   },
-  webServer: {
-    command: `npx vite build site --logLevel warn && npx vite preview site --port ${port} --strictPort`,
-    url: `http://localhost:${port}/`,
-    timeout: 240_000,
-  },
+  webServer: [
+    {
+      command: `npx vite build site --logLevel warn && npx vite preview site --port ${builtPort} --strictPort`,
+      url: `http://localhost:${builtPort}/`,
+      timeout: 240_000,
+    },
+    {
+      command: `npm start -- --port ${startPort} --strictPort`,
+      url: `http://localhost:${startPort}/`,
+      timeout: 240_000,
+    },
+  ],
 });

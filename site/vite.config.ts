@@ -4,10 +4,10 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { everyTechnique } from '../scripts/every-technique.mjs';
+import { addresses } from './addresses.ts';
 import { api } from './api.ts';
 import { documents } from './documents.ts';
 import { frame } from './frame.ts';
-import { kernelBeside } from './kernel-beside.ts';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 const headers = {
@@ -18,7 +18,9 @@ const headers = {
 export default defineConfig({
   root: path('.'),
   base: './',
-  plugins: [api, documents, frame, kernelBeside],
+  appType: 'mpa', // an address that is no page is answered with 404
+  // The same in pages and workers, in development and built: every technique, in the script, as users have it.
+  plugins: [addresses, api, documents, frame, everyTechnique],
   resolve: {
     alias: {
       'broadphase/ro': path('../src/ro/index.ts'),
@@ -46,6 +48,8 @@ export default defineConfig({
       },
     },
   },
+  // What only workers import is found by these too: found later, it makes Vite reload the page in the middle of a run.
+  optimizeDeps: { entries: ['**/index.html', '*/worker.ts', '!dist/**'] },
   server: { headers, fs: { allow: [path('..')] } },
   preview: { headers },
 });

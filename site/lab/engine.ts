@@ -41,19 +41,17 @@ export class Engine implements Record<keyof Requests, unknown> {
   /** @throws TraceError where a file is broken: the scene before stays */
   async open(source: Source, frame: number): Promise<Opened> {
     const feed = await openSource(source, frame);
+    this.#use(this.#makeSpace(this.#setup, feed.dimensions));
     this.#feed = feed;
     this.#recording = this.#before = undefined;
-    this.setup(this.#setup);
     const { dimensions, world, frames } = feed;
     return { dimensions, world, frames, boxes: feed.frame.count };
   }
 
+  /** @throws RangeError where a space cannot be made like that: the one before stays */
   setup(setup: Setup): void {
+    this.#use(this.#makeSpace(setup));
     this.#setup = setup;
-    this.#space.dispose();
-    this.#space = this.#makeSpace(setup);
-    this.#stale = this.#fresh = true;
-    this.#heatAt = -Infinity;
   }
 
   picture(wanted: Wanted): Picture {
@@ -172,8 +170,14 @@ export class Engine implements Record<keyof Requests, unknown> {
     return this.#feed;
   }
 
-  #makeSpace({ technique, cellSize }: Setup): BroadPhase {
-    const dimensions = this.#feed?.dimensions ?? 2;
+  #use(space: BroadPhase): void {
+    this.#space.dispose();
+    this.#space = space;
+    this.#stale = this.#fresh = true;
+    this.#heatAt = -Infinity;
+  }
+
+  #makeSpace({ technique, cellSize }: Setup, dimensions = this.#feed?.dimensions ?? 2): BroadPhase {
     return new BroadPhase({ dimensions, technique, ...(cellSize === undefined ? {} : { cellSize }) });
   }
 

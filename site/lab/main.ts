@@ -98,9 +98,12 @@ async function revive({ message }: TooSlow): Promise<void> {
   state.technique = 'auto';
   state.cell = undefined;
   techniqueMenu.value = 'auto';
-  await open(0);
-  say(`${what} was stopped: ${message}. Here are the same boxes with auto.`, true);
-  reviving = false;
+  try {
+    await open(0);
+    say(`${what} was stopped: ${message}. Here are the same boxes with auto.`, true);
+  } finally {
+    reviving = false;
+  }
 }
 
 /** Makes and shows a frame: of the race, or of the scene. */
@@ -161,37 +164,40 @@ function sourceOf(): Source {
   return { kind: 'scene', name: state.scene, boxes: boxesWanted() };
 }
 
-let openings = 0;
-/** Opens what is chosen, at a frame. */
+let opening = new AbortController();
+/** Opens what is chosen, at a frame; gives up what was being opened. */
 async function open(frame: number, look?: readonly number[]): Promise<void> {
-  const mine = ++openings;
+  opening.abort();
+  opening = new AbortController();
+  const { signal } = opening;
+  try {
+    await openAt(frame, look, signal);
+  } catch (error) {
+    if (!signal.aborted) throw error;
+  }
+}
+
+async function openAt(frame: number, look: readonly number[] | undefined, signal: AbortSignal): Promise<void> {
   source = sourceOf();
   race?.end();
   race = undefined;
   recording = false;
-  const before = opened;
-  try {
-    if (source.kind !== 'scene') say('Loading the recording.');
-    const now = await pilot.ask('open', source, frame);
-    if (mine !== openings) return;
-    await pilot.ask('setup', { technique: state.technique, cellSize: state.cell });
-    if (mine !== openings) return;
-    opened = now;
-  } catch (error) {
-    if (mine !== openings) return;
-    opened = before;
-    throw error;
-  }
-  await useView(opened.dimensions);
-  view.fit(opened.world);
+  if (source.kind !== 'scene') say('Loading the recording.');
+  const now = await pilot.ask('open', source, frame);
+  signal.throwIfAborted();
+  opened = now;
+  await pilot.ask('setup', { technique: state.technique, cellSize: state.cell });
+  await useView(now.dimensions);
+  signal.throwIfAborted();
+  view.fit(now.world);
   if (look) view.look = look;
   picture = spare = undefined;
   timings.clear();
   charts.clear();
   explain();
-  if (state.race) await startRace(frame);
+  if (state.race) await startRace(frame, signal);
   await playback.show(0);
-  if (mine !== openings) return;
+  signal.throwIfAborted();
   lookAtCells();
   report();
   caption();
@@ -200,7 +206,7 @@ async function open(frame: number, look?: readonly number[]): Promise<void> {
 
 /** Opens something else; where that fails, what was there stays. */
 async function change(next: { scene: string; own?: File }): Promise<void> {
-  const before = { scene: state.scene, own: ownFile };
+  const before = { scene: state.scene, own: ownFile, opened };
   state.scene = next.scene;
   ownFile = next.own;
   state.box = undefined;
@@ -211,13 +217,14 @@ async function change(next: { scene: string; own?: File }): Promise<void> {
   try {
     await open(0);
     showFileInMenu();
-    sceneMenu.value = next.own ? file : next.scene;
+    sceneMenu.value = ownFile ? file : state.scene;
   } catch (error) {
     state.scene = before.scene;
     ownFile = before.own;
     setRate(rate);
     sceneMenu.value = was;
-    if (error instanceof TooSlow) await open(0); // its worker is gone
+    // Its worker may be gone, or hold what cannot be shown.
+    if (error instanceof TooSlow || opened !== before.opened) await open(0);
     const name = next.own ? next.own.name : next.scene;
     say(`${name} cannot be shown: ${reasonOf(error)}`, true);
   }
@@ -250,20 +257,19 @@ function arrange(): void {
   find('race-mode').setAttribute('aria-pressed', String(racing));
 }
 
-async function startRace(frame: number): Promise<void> {
+async function startRace(frame: number, signal: AbortSignal): Promise<void> {
   const places = { tiles: find('race'), bars: find('bars'), note: find('race-note') };
-  const mine = openings;
   if (state.race!.length === 0) return say('Choose who races.');
-  const made = await createRace(places, state.race!, source, frame);
-  if (mine !== openings) made.race.end();
-  else race = made.race;
+  const made = await createRace(places, state.race!, source, frame, signal);
+  signal.throwIfAborted();
+  race = made;
 }
 
 async function lookAtCells(): Promise<void> {
   if (state.race) return;
-  const mine = openings;
+  const { signal } = opening;
   const sizes = await ask('cellSizes').catch(() => undefined);
-  if (sizes && mine === openings && !state.race) cellSize.begin(sizes, state.cell);
+  if (sizes && !signal.aborted && !state.race) cellSize.begin(sizes, state.cell);
 }
 
 /** A word about what is shown, where it is not what was asked for. */

@@ -45,13 +45,17 @@ interface Racer {
   out: string | undefined;
 }
 
-/** Opens the scene for every racer, at a frame; `opened` tells what the first of them found. */
+/**
+ * Opens the scene for every racer, at a frame.
+ * @param abandoned aborted when something else is to be shown: the workers are then ended, and there is no race
+ */
 export async function createRace(
   places: { tiles: HTMLElement; bars: HTMLElement; note: HTMLElement },
   techniques: readonly TechniqueName[],
   source: Source,
   frame: number,
-): Promise<{ race: Race; opened: Opened }> {
+  abandoned: AbortSignal,
+): Promise<Race | undefined> {
   const { tiles, bars, note } = places;
   tiles.replaceChildren();
   bars.replaceChildren();
@@ -91,9 +95,12 @@ export async function createRace(
     racer.tile.classList.add('out');
     racer.picture = undefined;
   };
+  let ended = false;
   const end = () => {
+    ended = true;
     for (const { pilot } of racers) pilot.end();
   };
+  abandoned.addEventListener('abort', end);
 
   let opened: Opened | undefined;
   for (const racer of racers) {
@@ -102,6 +109,7 @@ export async function createRace(
       await racer.pilot.ask('setup', { technique: racer.technique, cellSize: undefined });
       opened ??= found;
     } catch (error) {
+      if (ended) return;
       drop(racer, error);
       if (!opened && !(error instanceof TooSlow)) {
         end();
@@ -117,7 +125,6 @@ export async function createRace(
   const renderer = createRenderer(backdrop, () => {}, 'canvas-2d');
   camera.fit(dimensions === 2 ? (world as World) : [world[0], world[1], world[3], world[4]]);
   const dark = matchMedia('(prefers-color-scheme: dark)');
-  let ended = false;
   /** The first that is still in: the boxes are asked of it alone. */
   let leader: Racer | undefined;
 
@@ -174,40 +181,34 @@ export async function createRace(
   };
 
   return {
-    opened,
-    race: {
-      get picture() {
-        return leader?.picture;
-      },
-      async step() {
-        leader = racers.find(({ out }) => out === undefined);
-        for (const racer of racers) {
-          if (racer.out !== undefined || ended) continue;
-          const { picture } = racer;
-          try {
-            racer.picture = await racer.pilot.ask('picture', {
-              steps: racer.frames === 0 ? 0 : 1,
-              boxes: racer === leader,
-              structure: true,
-              heat: false,
-              pairs: false,
-              chosen: undefined,
-              spare: picture && { drawn: picture.drawn, slots: picture.slots },
-            });
-            racer.times[racer.frames++ % kept] = racer.picture.ms;
-          } catch (error) {
-            if (!ended) drop(racer, error);
-          }
-        }
-        if (ended) return;
-        draw();
-        report();
-      },
-      end() {
-        ended = true;
-        end();
-      },
+    get picture() {
+      return leader?.picture;
     },
+    async step() {
+      leader = racers.find(({ out }) => out === undefined);
+      for (const racer of racers) {
+        if (racer.out !== undefined || ended) continue;
+        const { picture } = racer;
+        try {
+          racer.picture = await racer.pilot.ask('picture', {
+            steps: racer.frames === 0 ? 0 : 1,
+            boxes: racer === leader,
+            structure: true,
+            heat: false,
+            pairs: false,
+            chosen: undefined,
+            spare: picture && { drawn: picture.drawn, slots: picture.slots },
+          });
+          racer.times[racer.frames++ % kept] = racer.picture.ms;
+        } catch (error) {
+          if (!ended) drop(racer, error);
+        }
+      }
+      if (ended) return;
+      draw();
+      report();
+    },
+    end,
   };
 }
 

@@ -1,4 +1,5 @@
-// A worker of the lab: takes questions one after the other, and answers each with a value or with what went wrong.
+// A worker of the lab: says that it is there, takes questions one after the other, and answers each with a value or with
+// what went wrong.
 import { Engine } from './engine.ts';
 import type { Answer, Ask, Picture } from './messages.ts';
 
@@ -25,3 +26,5 @@ function buffersOf({ drawn, slots, lines }: Picture): Transferable[] {
   if (lines) buffers.push(lines.buffer);
   return buffers;
 }
+
+postMessage('started');

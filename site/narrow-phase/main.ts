@@ -197,6 +197,7 @@ loop.watch(canvas);
 function play(playing: boolean): void {
   loop.playing = playing;
   showPlaying(playing);
+  report(); // the numbers are those of the picture, also where it stops between two reports
 }
 find('play').addEventListener('click', () => play(!loop.playing));
 find('step').addEventListener('click', () => {

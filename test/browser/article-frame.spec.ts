@@ -1,14 +1,14 @@
 // The article as a reader meets it: its frame, and the figures that step, drag and count. At phone and desktop size,
 // light and dark, with nothing on the console, nothing fetched from elsewhere, nothing that jumps.
-import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { gzipSync } from 'node:zlib';
 import { expect, type Locator, type Page, test } from '@playwright/test';
 
 /** The figures that this file drives. */
 const driven = ['fig-step', 'fig-1', 'fig-2', 'fig-4', 'fig-5', 'fig-11', 'fig-12', 'fig-13', 'fig-14'] as const;
 const firstPaintWithin = 1000;
-const scriptWithin = 150_000;
-const kernelWithin = 89_000;
+/** Bytes gzipped, of which the kernel with every technique takes some 87,000. */
+const scriptWithin = 239_000;
 /** What layout shift a reader does not notice. */
 const shiftWithin = 0.01;
 
@@ -321,8 +321,4 @@ test("each page's script is small, every figure included", () => {
       page,
     ).toBeLessThan(scriptWithin);
   }
-  // The kernel is a file of its own beside them.
-  const kernel = readdirSync(new URL('assets/', site)).filter((name) => name.endsWith('.wasm'));
-  expect(kernel).toHaveLength(1);
-  expect(gzipSync(readFileSync(new URL(`assets/${kernel[0]}`, site))).length).toBeLessThan(kernelWithin);
 });

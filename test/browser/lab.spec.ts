@@ -182,6 +182,36 @@ test('techniques race on the same frames, and agree', async ({ page }) => {
   await expect(page).not.toHaveURL(/race=/);
 });
 
+test('a race whose scene is changed again and again goes on, and leaves no workers behind', async ({ page }) => {
+  test.slow();
+  let [workers, most] = [0, 0];
+  page.on('worker', (worker) => {
+    most = Math.max(most, ++workers);
+    worker.on('close', () => workers--);
+  });
+  await page.goto(
+    '/lab/?boxes=2000&race=auto,strip-sweep,quadtree,r-tree,bsp-tree,aabb-tree,spatial-grid,home-cell-grid',
+  );
+  await expect(page.locator('#race-note')).toContainText('all find the same', { timeout: 20_000 });
+  const menu = page.getByRole('combobox', { name: 'Scene' });
+  const names = await menu
+    .locator('option')
+    .evaluateAll((options) => options.map((o) => (o as HTMLOptionElement).value));
+  for (let k = 0; k < 25; k++) {
+    await menu.selectOption(names[(3 * k) % names.length]);
+    await page.waitForTimeout(150);
+  }
+  await menu.selectOption('crowd');
+  await expect(page).toHaveURL(/scene=crowd/, { timeout: 30_000 });
+  await expect(page.locator('#race-note')).toContainText('all find the same', { timeout: 20_000 });
+  await expect(menu).toHaveValue('crowd');
+  await expect(page.locator('.tile.out')).toHaveCount(0);
+  const frame = await number(page, 'frame');
+  await expect.poll(() => number(page, 'frame'), { timeout: 20_000 }).toBeGreaterThan(frame);
+  expect(workers).toBe(8 + 1);
+  expect(most).toBeLessThanOrEqual(2 * (8 + 1)); // some of the race before, until the browser has ended them
+});
+
 test('a corrupted file gives a readable message, and the page goes on', async ({ page }) => {
   await page.goto('/lab/?boxes=300');
   await solved(page);

@@ -48,3 +48,28 @@ test('it runs by itself, and fits a phone', async ({ page }) => {
   await expect(page.getByRole('button', { name: 'Play' })).toBeVisible();
   expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(375);
 });
+
+test('the numbers beside a picture that was paused are those of the picture', async ({ page }) => {
+  // Counts the shapes that were filled in the last frame, which begins with its background.
+  await page.addInitScript(`{
+    const { fill, setTransform } = CanvasRenderingContext2D.prototype;
+    CanvasRenderingContext2D.prototype.setTransform = function (...given) {
+      if (given[0] === 1) window.filled = 0;
+      return setTransform.apply(this, given);
+    };
+    CanvasRenderingContext2D.prototype.fill = function (...given) {
+      window.filled++;
+      return fill.apply(this, given);
+    };
+  }`);
+  await page.goto('/narrow-phase/#shapes');
+  for (let round = 0; round < 12; round++) {
+    await page.waitForTimeout(130);
+    await page.getByRole('button', { name: 'Pause' }).click();
+    const filled = (await page.evaluate('filled')) as number;
+    const hits = await number(page, 'hits');
+    expect(filled, `${hits} touch`).toBeLessThanOrEqual(2 * hits);
+    expect(filled > 0, `${hits} touch`).toBe(hits > 0);
+    await page.getByRole('button', { name: 'Play' }).click();
+  }
+});
