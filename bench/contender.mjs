@@ -13,8 +13,8 @@
 import { readFileSync } from 'node:fs';
 import { keysOf, referencePairs } from '../build/bench/library.mjs';
 import { clocked } from './clock.mjs';
-import { fingerprint } from './fingerprint.mjs';
 import { allocatedBy } from './garbage.mjs';
+import { fingerprint } from './harness/fingerprint.mjs';
 import { asking, makeQuestions, naive } from './questions.mjs';
 import { openScene } from './scene.mjs';
 

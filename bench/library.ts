@@ -4,3 +4,4 @@ export { createScene, gameNames, sceneNames } from '../src/scenes/index.ts';
 export { createRandom } from '../src/scenes/random.ts';
 export { readRecording } from '../src/scenes/recorded.ts';
 export { keysOf, referencePairs } from '../test/reference.ts';
+export { createMotion, motionNames } from './motions/index.ts';

@@ -5,7 +5,7 @@
 // one the times of all frames are kept, in which techniques take turns, a few frames each.
 import { BroadPhase } from '../build/bench/library.mjs';
 import { clocked } from './clock.mjs';
-import { fingerprint } from './fingerprint.mjs';
+import { fingerprint } from './harness/fingerprint.mjs';
 import { preparePlay } from './plays.mjs';
 
 /**

@@ -3,7 +3,7 @@
 import { fork } from 'node:child_process';
 import { fileURLToPath } from 'node:url';
 import { duel } from './duel.mjs';
-import { checkedFrames } from './fingerprint.mjs';
+import { checkedFrames } from './harness/fingerprint.mjs';
 import { summary } from './statistics.mjs';
 
 const script = fileURLToPath(new URL('./contender.mjs', import.meta.url));

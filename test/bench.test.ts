@@ -8,7 +8,7 @@ import { clocked } from '../bench/clock.mjs';
 import { judge, phases, type Row, rows } from '../bench/coherence.mjs';
 import { coherenceGoals } from '../bench/coherence-table.mjs';
 import { duellists, verdict } from '../bench/duel.mjs';
-import { fingerprint } from '../bench/fingerprint.mjs';
+import { fingerprint } from '../bench/harness/fingerprint.mjs';
 import { figures } from '../bench/markdown.mjs';
 import { type Play, preparePlay } from '../bench/plays.mjs';
 import { against, change, guessTime, leastOfEach, spread, summary } from '../bench/statistics.mjs';

@@ -2,7 +2,7 @@
 // All kinds of motion that techniques which keep something must bear, drawn at random: steady, turning, speeding up,
 // jumping; boxes of one size or of many; some that come and go, or become static; given one by one or in place.
 import { BroadPhase } from 'broadphase';
-import { fingerprint } from '../bench/fingerprint.mjs';
+import { fingerprint } from '../bench/harness/fingerprint.mjs';
 import { createRandom } from '../src/scenes/random.ts';
 import { setBox } from './set-box.ts';
 

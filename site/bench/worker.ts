@@ -1,6 +1,6 @@
 // Runs one race in a worker, so that the page stays quick: the pairs of all contenders are compared first, then they are
 // timed in turns, round after round, as bench/ does in Node.
-import { fingerprint } from '../../bench/fingerprint.mjs';
+import { fingerprint } from '../../bench/harness/fingerprint.mjs';
 import { median, summary } from '../../bench/statistics.mjs';
 import { createScene, type SceneName } from '../../src/scenes/index.ts';
 import { contenders, type Running } from './peers.ts';

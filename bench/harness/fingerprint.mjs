@@ -22,3 +22,16 @@ function mix(value) {
   hash = Math.imul(hash ^ (hash >>> 15), 0x846ca68b);
   return hash ^ (hash >>> 16);
 }
+
+const bits = new Uint32Array(1);
+const asFloat = new Float32Array(bits.buffer);
+
+/** Of the boxes of a frame, to float32: two frames with the same are the same frame. */
+export function fingerprintOfBoxes(boxes) {
+  let hash = boxes.length;
+  for (let k = 0; k < boxes.length; k++) {
+    asFloat[0] = boxes[k];
+    hash = (Math.imul(hash ^ bits[0], 0x01000193) + k) | 0;
+  }
+  return (hash >>> 0).toString(16);
+}

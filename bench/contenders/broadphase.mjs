@@ -1,0 +1,38 @@
+// This library. How boxes are given is the row's `by`: each by `set`, all in place by `boxes()`, or all by `setAll`.
+// Boxes that the scene knows to rest are told to be static.
+import { BroadPhase } from '../../build/bench/library.mjs';
+
+export function create({ dimensions, count, boxes: first, fixed = 0, variant, row }) {
+  const space = new BroadPhase({ dimensions, technique: variant });
+  if (fixed > 0) {
+    space.setAll(first);
+    for (let id = 0; id < fixed; id++) space.setStatic(id);
+  }
+  return {
+    give: giving(space, { dimensions, count, fixed, by: row.by }),
+    update() {
+      space.update();
+      return space.pairs.length;
+    },
+    pairs: () => space.pairs,
+    stats: () => ({ bytes: space.stats.bytes, kept: variant === 'auto' && space.stats.technique === 'incremental' }),
+    dispose: () => space.dispose(),
+  };
+}
+
+function giving(space, { dimensions, count, fixed, by }) {
+  if (by === 'boxes') return (boxes) => space.boxes(count).set(boxes);
+  if (by === 'setAll') return (boxes) => space.setAll(boxes);
+  if (dimensions === 2) {
+    return (boxes) => {
+      for (let id = fixed, k = 4 * fixed; id < count; id++, k += 4) {
+        space.set(id, boxes[k], boxes[k + 1], boxes[k + 2], boxes[k + 3]);
+      }
+    };
+  }
+  return (boxes) => {
+    for (let id = fixed, k = 6 * fixed; id < count; id++, k += 6) {
+      space.set(id, boxes[k], boxes[k + 1], boxes[k + 2], boxes[k + 3], boxes[k + 4], boxes[k + 5]);
+    }
+  };
+}

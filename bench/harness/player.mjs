@@ -1,0 +1,104 @@
+// One contender playing one scene, frame after frame. The scene's own motion is never timed, nor is what is noted of a frame.
+import { clocked } from './clock.mjs';
+import { fingerprint, fingerprintOfBoxes } from './fingerprint.mjs';
+import { partOf } from './frames.mjs';
+
+/**
+ * What is noted of the frames that were timed: their numbers, the milliseconds of each part (`give` the boxes, `update`,
+ * `walk` over the pairs), how many pairs were found, and fingerprints of the pairs and of the boxes.
+ */
+const nothing = () => ({
+  frames: [],
+  give: [],
+  update: [],
+  walk: [],
+  pairs: [],
+  found: [],
+  seen: [],
+  kept: 0,
+  bytes: 0,
+});
+
+export class Player {
+  #scene;
+  #contender;
+  #plan;
+  #stride;
+  #frame = 0;
+  #notes = nothing();
+  /** Milliseconds of the updates that warm up, for who is asked how it starts. */
+  #start = [];
+  #sink = 0;
+
+  constructor(scene, contender, plan, stride = 1) {
+    this.#scene = scene;
+    this.#contender = contender;
+    this.#plan = plan;
+    this.#stride = stride;
+  }
+
+  /** Whether frames are left. */
+  get over() {
+    return this.#frame >= this.#plan.warmUp + this.#plan.timed;
+  }
+
+  get notes() {
+    return { ...this.#notes, start: this.#start, sink: this.#sink };
+  }
+
+  /** Plays the next frames, as many as are asked for or are left. */
+  play(frames) {
+    const end = Math.min(this.#frame + frames, this.#plan.warmUp + this.#plan.timed);
+    for (; this.#frame < end; this.#frame++) {
+      // The first frame is the scene as it was made.
+      if (this.#frame > 0) this.#scene.step(this.#frame);
+      const part = partOf(this.#frame, this.#plan, this.#stride);
+      if (part === 'no') continue;
+      const times = this.#time();
+      if (part === 'timed') this.#note(times);
+      else if (this.#frame < this.#plan.warmUp) this.#start.push(times.give + times.update);
+    }
+  }
+
+  /** Plays the first frames and tells the least milliseconds that one took. */
+  probe(frames) {
+    const times = [];
+    for (let k = 0; k < frames && !this.over; k++) {
+      const start = performance.now();
+      this.play(1);
+      times.push(performance.now() - start);
+    }
+    return Math.min(...times);
+  }
+
+  #time() {
+    const { boxes } = this.#scene;
+    const contender = this.#contender;
+    const give = contender.give ? clocked(() => contender.give(boxes)) : 0;
+    const update = clocked(() => {
+      this.#sink += contender.update(boxes);
+    });
+    const walk = contender.walk
+      ? clocked(() => {
+          this.#sink += contender.walk();
+        })
+      : 0;
+    return { give, update, walk };
+  }
+
+  #note({ give, update, walk }) {
+    const notes = this.#notes;
+    notes.frames.push(this.#frame);
+    notes.give.push(give);
+    notes.update.push(update);
+    notes.walk.push(walk);
+    const pairs = this.#contender.pairs();
+    notes.pairs.push(pairs.length / 2);
+    notes.found.push(fingerprint(pairs));
+    notes.seen.push(fingerprintOfBoxes(this.#scene.boxes));
+    const stats = this.#contender.stats?.();
+    if (!stats) return;
+    if (stats.kept) notes.kept++;
+    notes.bytes = Math.max(notes.bytes, stats.bytes);
+  }
+}

@@ -1,0 +1,40 @@
+// Figures out of the times of frames. The headline is the median frame; the mean has the spikes in it.
+
+const sum = (values) => values.reduce((total, value) => total + value, 0);
+
+export const mean = (values) => sum(values) / values.length;
+
+/** The value below which that share of the values lies. */
+export function quantile(values, share) {
+  const sorted = Float64Array.from(values).sort();
+  return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
+}
+
+export function median(values) {
+  const sorted = Float64Array.from(values).sort();
+  const half = sorted.length >> 1;
+  return sorted.length % 2 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+}
+
+/** Frames in how many groups tell the noise. */
+const groups = 5;
+
+/**
+ * `range`: the least and the highest median of five groups of neighbouring frames. What lies between them is noise.
+ */
+export function spread(times) {
+  const size = Math.ceil(times.length / groups);
+  const medians = [];
+  for (let from = 0; from < times.length; from += size) medians.push(median(times.slice(from, from + size)));
+  return {
+    median: median(times),
+    mean: mean(times),
+    p95: quantile(times, 0.95),
+    worst: Math.max(...times),
+    range: [Math.min(...medians), Math.max(...medians)],
+  };
+}
+
+/** Of frames that were played several times, each time the same ones: the least that each took. */
+export const leastOfEach = (playings) =>
+  playings[0].map((first, frame) => playings.reduce((least, times) => Math.min(least, times[frame]), first));
