@@ -18,6 +18,8 @@ constinit Space<2> flat(ids, options);
 constinit Space<3> solid(ids, options);
 bool is_flat = true;
 f64 io[16];
+Ring<2> flat_ring;
+Ring<3> solid_ring;
 
 /// Calls `what` with the space in use.
 template <class What> auto with_space(What what) { return is_flat ? what(flat) : what(solid); }
@@ -44,9 +46,11 @@ EXPORT(set_bounds)() -> void {
 EXPORT(reserve)(u32 count) -> void {
   with_space([&](auto& space) { space.reserve(count); });
 }
-/// Adds or moves a box; its numbers are in io.
-EXPORT(set)(u32 id) -> void {
-  with_space([&](auto& space) { space.set(id, io); });
+EXPORT(ring_address)() -> f64* { return is_flat ? &flat_ring.dense : &solid_ring.dense; }
+/// Adds or moves the boxes of the ring.
+EXPORT(take)(u32 count) -> void {
+  if (is_flat) flat.take(flat_ring, count);
+  else solid.take(solid_ring, count);
 }
 EXPORT(remove)(u32 id) -> u32 {
   return with_space([&](auto& space) { return space.remove(id); });

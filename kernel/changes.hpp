@@ -1,8 +1,9 @@
 // Which boxes have changed since the last update.
-// Idea: a list of slots and a bit for each, so that a slot enters once; or, where memory was written past our eyes,
+// Idea: a list of slots and a mark for each, so that a slot enters once; or, where memory was written past our eyes,
 // "all may have". What is not in it is what it was, so an update of a world at rest costs nothing.
 // Boxes that come all at once are compared with those of before, or seen where they are expected (expected.hpp).
-// Cost: about 1 ns for each that is noted, half a nanosecond to compare a box; 4 bytes and a bit for each box.
+// A mark is a byte: bits of neighbours would be read and written one after the other.
+// Cost: about 1 ns for each that is noted, half a nanosecond to compare a box; 5 bytes for each box.
 #pragma once
 #include "heap.hpp"
 
@@ -19,27 +20,42 @@ template <u32 bytes> bool differ(const void* one, const void* other) {
 }
 
 class Changes {
-  Buffer<u32> list_, bits_;
-  u32 count_ = 0, words_ = 0;
+  Buffer<u32> list_;
+  Buffer<u8> marks_;
+  u32 count_ = 0, room_ = 0;
   bool some_ = false;  // false: all may have changed
 
  public:
+  /// For many notes in a row: what they need, in registers. `end` takes it back.
+  struct Notes {
+    u32* list;
+    u8* marks;
+    u32 count;
+
+    void note(u32 slot) {
+      list[count] = slot;
+      count += 1 - marks[slot];
+      marks[slot] = 1;
+    }
+  };
+  Notes begin() const { return {list_.data(), marks_.data(), count_}; }
+  void end(const Notes& notes) { count_ = notes.count; }
+
   /// Room for that many slots; nothing is lost where memory ends.
   void make_room(u64 slots) {
-    if (slots <= u64(words_) * 32) return;
-    u64 words = (slots + 31) / 32;
-    list_.grow(words * 32 + 1, count_);  // one more: a slot that is known already is written and not counted
-    bits_.grow(words, words_);
-    __builtin_memset(bits_.data() + words_, 0, (words - words_) * sizeof(u32));
-    words_ = u32(words);
+    if (slots <= room_) return;
+    list_.grow(slots + 1, count_);  // one more: a slot that is known already is written and not counted
+    marks_.grow(slots, room_);
+    __builtin_memset(marks_.data() + room_, 0, slots - room_);
+    room_ = u32(slots);
   }
+  u32 room() const { return room_; }
 
   void note(u32 slot) {
     if (!some_) return;
-    u32& word = bits_[slot / 32];
-    list_[count_] = slot;
-    count_ += ~word >> slot % 32 & 1;
-    word |= 1u << slot % 32;
+    Notes notes = begin();
+    notes.note(slot);
+    end(notes);
   }
 
   void note_all() { some_ = false; }
@@ -72,7 +88,7 @@ class Changes {
   /// From now on nothing has changed.
   void clear(u32 slots) {
     make_room(slots);
-    for (u32 k = 0; k < count_; k++) bits_[list_[k] / 32] = 0;
+    for (u32 k = 0; k < count_; k++) marks_[list_[k]] = 0;
     count_ = 0;
     some_ = true;
   }

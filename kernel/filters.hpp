@@ -83,6 +83,7 @@ class Filters {
 
   // The slots' doings, as in Space; only while active.
   COLD void make_room(u64 count, u32 keep) { rules_.grow(count, keep); }
+  u64 room() const { return rules_.capacity(); }
   COLD void insert(u32 slot) { change(slot) = everybody; }
   COLD void move(u32 from, u32 to) { change(to) = rules_[from]; }
   COLD void renumber(const Ids& ids, u32 count) {

@@ -46,6 +46,8 @@ class Ids {
   bool same() const { return !named_; }
   /// The id of each slot, or null where slot and id are the same.
   const u32* names() const { return named_ ? id_of_.data() : nullptr; }
+  /// Of each 4,096 ids: where the slots + 1 of these stand, 0 where none of them was ever used.
+  const Buffer<u32>* pages() const { return pages_; }
   u32 id(u32 slot) const { return !named_ ? slot : id_of_[slot]; }
 
   u32 slot(u32 id) const {

@@ -7,9 +7,9 @@
 #pragma once
 #include "events.hpp"
 #include "filters.hpp"
-#include "inbox.hpp"
 #include "neighbours.hpp"
 #include "queries.hpp"
+#include "ring.hpp"
 #include "rounding.hpp"
 #include "snapshot.hpp"
 #include "techniques.hpp"
@@ -21,11 +21,17 @@ template <int D> class Space {
   // Below this many boxes testing all against all costs less than looking at them first.
   static constexpr u32 handful = 24;
 
+  // More than so many are read beforehand, all that are taken together, when they are set: see Ring.
+  static constexpr u32 near_boxes = 20000;
+
   // Bytes a box, pairs included, that an update takes in ordinary scenes; and that stand once all is kept.
   static constexpr u32 usual_bytes = D == 2 ? 448 : 640, kept_bytes = D == 2 ? 352 : 640;
 
   // Updates until it is asked again whether a technique that keeps nothing has seen these boxes before.
   static constexpr u32 unheld = 8;
+
+  // Bytes a box that all arrays of boxes may take as they grow.
+  static constexpr u32 most_bytes = 2 * (width * (sizeof(f32) + sizeof(f64)) + 24);
 
   // Bytes a pair that the tables take in which pairs are looked up.
   static constexpr u32 bytes_to_look_up = 24;
@@ -41,7 +47,7 @@ template <int D> class Space {
   Buffer<f32> before_;    // the boxes of the last update, while they are exposed and, though nothing is kept, few change
   u32 copied_ = 0;        // how many there are in it; 0: it is not in use
   u32 blind_ = 0, pause_ = 1;  // updates until it is tried again; how many the next pause has
-  Inbox<D> inbox_;        // of the boxes that are set
+  bool tight_ = false;    // memory may not be had for the first double
   Filters filters_;
   Changes changes_;  // since the last update, for the technique that asks
   Wrap wrap_;
@@ -78,34 +84,46 @@ template <int D> class Space {
     if (count > ids_.count()) make_room(count, ids_.count());
   }
 
-  /// Adds or moves a box: D minima, then D maxima, none NaN, no minimum above its maximum.
-  void set(u32 id, const f64* box) {
-    f32x4 first, last;  // never in memory: see round_outward
-    bool exact = round_outward(box, first, last);
-    if (!exact && !rounding_) start_rounding();
-    u32 slot = ids_.slot(id);
-    if (slot == Ids::none) {
-      make_room(u64(ids_.count()) + 1, ids_.count());
-      slot = ids_.insert(id);
-      if (filters_.active()) filters_.insert(slot);
-      changes_.note(slot);
+  /// Adds or moves the first `count` boxes of the ring, in their order, and says what may wait in it from now on. All
+  /// ids but one that comes alone are in the space, or there is room for them.
+  NOINLINE void take(Ring<D>& ring, u32 count) {
+    u32 slots[Ring<D>::batch];
+    for (u32 from = 0; from < count; from += Ring<D>::batch) {
+      const f64* entries = ring.entries + from * Ring<D>::step;
+      u32 many = smaller(count - from, Ring<D>::batch);
+      // What can fail comes first.
+      if (!rounding_ && !are_floats(entries, many)) start_rounding();
+      find_slots(entries, many, slots);
+      if (ids_.count() > near_boxes) {
+        read_rows(boxes_.data(), width * sizeof(f32), slots, many, 1);
+        if (rounding_) read_rows(exact_.data(), width * sizeof(f64), slots, many, 1);
+      }
+      if (rounding_) put<true>(entries, slots, many);
+      else put<false>(entries, slots, many);
     }
-    if (rounding_) {
-      f64* to = exact_.data() + u64(slot) * width;
-      if (differ<width * sizeof(f64)>(to, box)) changes_.note(slot);
-      __builtin_memcpy(to, box, width * sizeof(f64));
-      rounded_[slot] = !exact;
-    }
-    inbox_.put(slot, first, last);
-    if (inbox_.full() || exposed_) settle();
+    tell(ring);
   }
 
-  /// Puts the boxes of the inbox among the others. Who reads boxes calls it before.
-  NOINLINE void settle() { inbox_.empty(boxes_.data(), changes_); }
+  /// Says what may wait in the ring.
+  NOINLINE void tell(Ring<D>& ring) {
+    ring.dense = ring.room = ring.pages = 0;
+    if (exposed_) return;
+    if (!ids_.same() && room() < ids_.count() + Ring<D>::most) {
+      u64 more = u64(ids_.count()) + Ring<D>::most;
+      tight_ = !heap::reach(more * most_bytes);
+      if (!tight_ && more <= max_slots) make_room(more, ids_.count());
+    }
+    if (tight_) return;
+    if (ids_.same()) {
+      ring.dense = ids_.count();
+      ring.room = room() - ids_.count();
+    } else if (room() >= ids_.count() + Ring<D>::most) {
+      ring.pages = f64(reinterpret_cast<size_t>(ids_.pages()));
+    }
+  }
 
   /// Takes a box away; false where there is none.
   COLD bool remove(u32 id) {
-    settle();
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
     if (keeps_events) events.make_room(id);
@@ -125,7 +143,6 @@ template <int D> class Space {
 
   /// The numbers a box was given with; false where there is none.
   COLD bool get(u32 id, f64* box) {
-    settle();
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
     for (u32 k = 0; k < width; k++) box[k] = number(slot, k);
@@ -167,7 +184,6 @@ template <int D> class Space {
     bool rounded = false;
     i32 bad = doubles ? round_staged(count, rounded) : first_bad(staged_.data(), count);
     if (bad >= 0) return bad;
-    settle();
     if (!exposed_ && rounding_ == rounded && ids_.same() && ids_.count() == count) note_staged();
     else renumber(count);
     take_staged(rounded);
@@ -177,7 +193,6 @@ template <int D> class Space {
   /// The boxes of ids 0 … count - 1, to be written in place. Ids from count on are removed, new ones are points
   /// at the origin.
   COLD f32* expose(u32 count) {
-    settle();
     u32 had = ids_.count();
     if (!ids_.same()) {
       f32* to = stage(count);
@@ -220,7 +235,6 @@ template <int D> class Space {
 
   /// Writes what stands in the space to `snapshot`. Returns the first bad id among boxes written in place, or -1.
   COLD i32 save() {
-    settle();
     i32 bad = bad_in_place();
     if (bad >= 0) return bad;
     if (!ordered_) changes_.note_all();  // those pairs are in another order
@@ -239,7 +253,6 @@ template <int D> class Space {
   /// Where the bytes are bad nothing changes.
   COLD SnapshotFault restore() {
     if (!snapshot.is_whole()) return SnapshotFault::damaged;
-    settle();
     const SnapshotHeader& head = snapshot.head();
     bool doubles = snapshot.doubles(), rounded = false;
     void* staged = doubles ? static_cast<void*>(stage_exact(head.count)) : stage(head.count);
@@ -256,7 +269,6 @@ template <int D> class Space {
 
   /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
   COLD i32 update() {
-    settle();
     Technique chosen = choose();
     bool follows = chosen == Technique::incremental;
     bool looked_at = false;
@@ -303,7 +315,7 @@ template <int D> class Space {
     stats.pairs = f64(pairs.count);
     // Growing later would cut the views of the pairs off, in the midst of a loop over them: what a few more boxes, the
     // first filter, double or gap, and the first question take is taken now.
-    reach(ids_.count(), pairs.count * bytes_to_look_up + (1 << 16));
+    reach(ids_.count(), pairs.count * bytes_to_look_up + (1 << 17));
     stats.bytes = f64(heap::used);
     explain();
     return -1;
@@ -342,7 +354,6 @@ template <int D> class Space {
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
   /// all finite boxes.
   COLD void structure() {
-    settle();
     techniques_.with(ran_, [&](auto& used) { used.structure(cells, cell_count, stats); });
     f32 least[D], most[D];
     for (int a = 0; a < D; a++) {
@@ -391,7 +402,6 @@ template <int D> class Space {
 
   /// The number of the first invariant that does not hold (see src/broad-phase.ts), or 0; `detail`: where.
   COLD u32 validate(u32& detail) {
-    settle();
     detail = 0;
     if (!ids_.valid()) return 1;
     if (!exposed_) {
@@ -550,7 +560,6 @@ template <int D> class Space {
 
   /// The index takes over what stands in the space.
   COLD void see() {
-    settle();
     index_.see(boxes_.data(), rounding_ ? exact_.data() : nullptr, ids_, filters_.active() ? filters_.rules() : nullptr);
   }
 
@@ -567,20 +576,93 @@ template <int D> class Space {
   COLD void make_room(u64 count, u32 keep) {
     if (count > max_slots) fail(Fault::out_of_memory, f64(count) * width * sizeof(f32));
     boxes_.grow(count * width + padding, u64(keep) * width);
-    changes_.make_room(boxes_.capacity() / width);
-    if (filters_.active()) filters_.make_room(count, keep);
+    u64 all = boxes_.capacity() / width;
+    changes_.make_room(all);
+    if (filters_.active()) filters_.make_room(all, keep);
     if (rounding_) {
-      exact_.grow(count * width, u64(keep) * width);
-      rounded_.grow(count, keep);
+      exact_.grow(all * width, u64(keep) * width);
+      rounded_.grow(all, keep);
     }
+    tight_ = !rounding_ && !heap::reach(2 * all * width * sizeof(f64));  // for the first double
+  }
+
+  /// How many boxes there is room for in all of these arrays.
+  u32 room() const {
+    u64 all = smaller(u64(max_slots), (boxes_.capacity() - padding) / width);
+    all = smaller(all, u64(changes_.room()));
+    if (filters_.active()) all = smaller(all, filters_.room());
+    if (rounding_) all = smaller(all, smaller(exact_.capacity() / width, rounded_.capacity()));
+    return u32(larger(all, u64(ids_.count())));
+  }
+
+  /// Whether float32 holds all numbers of these boxes of the ring.
+  NOINLINE static bool are_floats(const f64* entry, u32 count) {
+    i32x4 rounded = {};
+    for (; count > 0; count--, entry += Ring<D>::step) {
+      for (u32 a = 0; a < D; a++) {
+        f64x2 numbers = load<f64x2>(entry + 1 + 2 * a);
+        rounded |= bits<i32x4>(widen(narrow(numbers)) != numbers);
+      }
+    }
+    return !any(rounded);
+  }
+
+  /// The slots of these boxes of the ring; those that have none get one.
+  void find_slots(const f64* entry, u32 count, u32* slots) {
+    u32 known = ids_.same() ? ids_.count() : 0;
+    for (u32 k = 0; k < count; k++, entry += Ring<D>::step) {
+      u32 slot = Ring<D>::id(entry);
+      if (slot >= known) {
+        slot = add(slot);
+        known = ids_.same() ? ids_.count() : 0;
+      }
+      slots[k] = slot;
+    }
+  }
+
+  /// The slot of an id, which gets one if it has none.
+  NOINLINE u32 add(u32 id) {
+    u32 slot = ids_.slot(id);
+    if (slot != Ids::none) return slot;
+    if (ids_.count() >= room()) make_room(u64(ids_.count()) + 1, ids_.count());
+    slot = ids_.insert(id);
+    if (filters_.active()) filters_.insert(slot);
+    changes_.note(slot);
+    return slot;
+  }
+
+  /// Puts boxes of the ring in their slots, and notes which are not what stood there.
+  template <bool rounding> NOINLINE void put(const f64* entry, const u32* slots, u32 count) {
+    f32* boxes = boxes_.data();
+    bool notes = !changes_.all();
+    Changes::Notes changed = changes_.begin();
+    for (u32 k = 0; k < count; k++, entry += Ring<D>::step) {
+      const f64* box = entry + 1;
+      u32 slot = slots[k];
+      f32* to = boxes + u64(slot) * width;
+      f32x4 first, last;
+      bool exact = round_outward(box, first, last);
+      if constexpr (rounding) {
+        f64* its = exact_.data() + u64(slot) * width;
+        if (notes && differ<width * sizeof(f64)>(its, box)) changed.note(slot);
+        __builtin_memcpy(its, box, width * sizeof(f64));
+        rounded_[slot] = !exact;
+      } else if (notes) {
+        i32x4 other = bits<i32x4>(first) ^ load<i32x4>(to);
+        if constexpr (D == 3) other |= bits<i32x4>(last) ^ load<i32x4>(to + width - 4);
+        if (any(other)) changed.note(slot);
+      }
+      store(to, first);
+      if constexpr (D == 3) store(to + width - 4, last);
+    }
+    if (notes) changes_.end(changed);
   }
 
   /// From now on the doubles are kept too.
   COLD void start_rounding() {
-    settle();
     u32 n = ids_.count();
-    exact_.reserve(u64(n) * width);
-    rounded_.reserve(n);
+    exact_.reserve(boxes_.capacity());
+    rounded_.reserve(boxes_.capacity() / width);
     for (u64 k = 0; k < u64(n) * width; k++) exact_[k] = boxes_[k];
     if (n) __builtin_memset(rounded_.data(), 0, n);
     rounding_ = true;

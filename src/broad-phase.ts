@@ -269,17 +269,23 @@ export class BroadPhase extends Queries {
       // biome-ignore lint/complexity/noArguments: the same
       badSet(arguments, this.dimensions);
     }
-    const io = this.io();
-    io[0] = a;
-    io[1] = b;
-    io[2] = c;
-    io[3] = d;
+    if (!flat && (typeof e !== 'number' || typeof f !== 'number')) badSet([id, a, b, c, d, e, f], 3);
+    const waits = id < this.dense || this.mayWait(id);
+    let k = waits ? this.next : this.drain(); // else it comes alone
+    if (k >= this.ring.length) k = this.drain();
+    const { ring } = this;
+    ring[k] = id;
+    ring[k + 1] = a;
+    ring[k + 2] = b;
+    ring[k + 3] = c;
+    ring[k + 4] = d;
+    this.next = k + 5;
     if (!flat) {
-      if (typeof e !== 'number' || typeof f !== 'number') badSet([id, a, b, c, d, e, f], 3);
-      io[4] = e;
-      io[5] = f;
+      ring[k + 5] = e!;
+      ring[k + 6] = f!;
+      this.next = k + 7;
     }
-    this.#write(id);
+    if (!waits) this.#takeNow();
     return this;
   }
 
@@ -348,21 +354,26 @@ export class BroadPhase extends Queries {
       // biome-ignore lint/complexity/noArguments: the same
       badSwept(arguments, this.dimensions);
     }
-    const io = this.io();
+    const waits = id < this.dense || this.mayWait(id);
+    let k = waits ? this.next : this.drain(); // else it comes alone
+    if (k >= this.ring.length) k = this.drain();
+    const { ring } = this;
+    ring[k] = id;
     if (flat) {
-      io[0] = a + Math.min(e, 0);
-      io[1] = b + Math.min(f, 0);
-      io[2] = c + Math.max(e, 0);
-      io[3] = d + Math.max(f, 0);
+      ring[k + 1] = a + Math.min(e, 0);
+      ring[k + 2] = b + Math.min(f, 0);
+      ring[k + 3] = c + Math.max(e, 0);
+      ring[k + 4] = d + Math.max(f, 0);
     } else {
-      io[0] = a + Math.min(g!, 0);
-      io[1] = b + Math.min(h!, 0);
-      io[2] = c + Math.min(i!, 0);
-      io[3] = d + Math.max(g!, 0);
-      io[4] = e + Math.max(h!, 0);
-      io[5] = f + Math.max(i!, 0);
+      ring[k + 1] = a + Math.min(g!, 0);
+      ring[k + 2] = b + Math.min(h!, 0);
+      ring[k + 3] = c + Math.min(i!, 0);
+      ring[k + 4] = d + Math.max(g!, 0);
+      ring[k + 5] = e + Math.max(h!, 0);
+      ring[k + 6] = f + Math.max(i!, 0);
     }
-    this.#write(id);
+    this.next = k + this.width + 1;
+    if (!waits) this.#takeNow();
     return this;
   }
 
@@ -397,6 +408,7 @@ export class BroadPhase extends Queries {
       if (length === view.length) view.set(boxes);
       else
         view.set(Array.isArray(boxes) ? boxes.slice(0, view.length) : (boxes as Float64Array).subarray(0, view.length));
+      this.forget();
       const bad = kernel.replace(count, single ? 0 : 1);
       if (bad >= 0) badBox('setAll', bad, view.slice(bad * width, (bad + 1) * width), this.dimensions);
     } catch (error) {
@@ -431,8 +443,10 @@ export class BroadPhase extends Queries {
   boxes(count: number): Float32Array {
     checkBoxCount('boxes: count', count);
     try {
-      const at = this.kernel.expose(count) >>> 0;
-      const { buffer } = this.kernel.memory;
+      const { kernel } = this;
+      this.forget();
+      const at = kernel.expose(count) >>> 0;
+      const { buffer } = kernel.memory;
       const length = count * this.width;
       let view = this.#view;
       if (view?.buffer !== buffer || view.byteOffset !== at || view.length !== length) {
@@ -461,7 +475,9 @@ export class BroadPhase extends Queries {
     if (id >>> 0 !== id || id > maxId) badId('delete', id);
     this.#view = undefined;
     try {
-      return this.kernel.remove(id) === 1;
+      const { kernel } = this;
+      this.forget();
+      return kernel.remove(id) === 1;
     } catch (error) {
       this.recover(error, 'delete');
     }
@@ -477,7 +493,7 @@ export class BroadPhase extends Queries {
    */
   has(id: number): boolean {
     if (id >>> 0 !== id || id > maxId) badId('has', id);
-    return this.kernel.has(id) === 1;
+    return this.knows(id);
   }
 
   /**
@@ -576,6 +592,7 @@ export class BroadPhase extends Queries {
    */
   clear(): void {
     this.kernel.clear();
+    this.forget();
     this.#view = undefined;
   }
 
@@ -791,6 +808,7 @@ export class BroadPhase extends Queries {
       if (fault === 0) {
         new Uint8Array(this.kernel.memory.buffer, at, source.length).set(source);
         fault = this.kernel.restore();
+        this.forget();
       }
     } catch (error) {
       this.recover(error, 'restore');
@@ -902,14 +920,10 @@ export class BroadPhase extends Queries {
     return view;
   }
 
-  /** Adds or moves the box whose numbers stand in the kernel's array. */
-  #write(id: number): void {
+  /** A box that cannot wait: it may fail, or a view of the boxes is open that has to show it. */
+  #takeNow(): void {
     this.#view = undefined;
-    try {
-      this.kernel.set(id);
-    } catch (error) {
-      this.recover(error, 'set');
-    }
+    this.flush();
   }
 }
 

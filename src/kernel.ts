@@ -15,7 +15,8 @@ export interface KernelExports {
   set_wrap(): void;
   set_bounds(): void;
   reserve(count: number): void;
-  set(id: number): void;
+  ring_address(): number;
+  take(count: number): void;
   remove(id: number): number;
   has(id: number): number;
   get(id: number): number;

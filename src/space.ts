@@ -5,13 +5,28 @@ import { instantiate, type KernelExports } from './kernel.ts';
 /** A number of views kept, so that pair counts seen lately make no garbage. */
 const viewsKept = 256;
 
+/** Numbers at the beginning of the ring, in which the kernel says what may wait there: see kernel/ring.hpp. */
+const ringHead = 3;
+const ringBoxes = 512;
+/** Behind the last word of any memory. */
+const nowhere = 2 ** 30;
+
 /** One instance of the kernel. Users meet it as BroadPhase. */
 export abstract class Space {
   /** How many axes the boxes have, as the constructor was told. */
   readonly dimensions: 2 | 3;
 
-  /** @internal */
-  protected kernel: KernelExports;
+  #own: KernelExports;
+  /** Boxes that wait to be taken by the kernel, in its memory: of each its id, then its numbers. @internal */
+  protected ring = new Float64Array();
+  /** Where the next one goes. @internal */
+  protected next = ringHead;
+  /** The ids below this are in the space, once all that wait are taken; 0 where that is not known. @internal */
+  protected dense = 0;
+  #room = 0;
+  /** Where the kernel's table of pages of ids stands among its words: see kernel/ids.hpp. */
+  #pages = nowhere;
+  #words = new Uint32Array();
   /** Numbers in a box. @internal */
   protected readonly width: number;
   /** Whether the world wraps around. @internal */
@@ -23,7 +38,7 @@ export abstract class Space {
     this.dimensions = dimensions;
     this.wraps = wraps;
     this.width = 2 * dimensions;
-    this.kernel = instantiate();
+    this.#own = instantiate();
     this.#stackTop = this.kernel.__stack_pointer.value;
     this.kernel.open_space(dimensions);
   }
@@ -37,13 +52,83 @@ export abstract class Space {
    * space.size; // → 1
    */
   get size(): number {
-    return this.kernel.size();
+    return this.dense > 0 ? this.dense : this.kernel.size();
+  }
+
+  /** The kernel, which knows of all that was set: whoever calls it cannot forget to tell it. @internal */
+  protected get kernel(): KernelExports {
+    if (this.next !== ringHead) this.flush();
+    return this.#own;
   }
 
   /** Lets go of the memory at once; it also goes with the object. Any call after this throws. */
   dispose(): void {
-    this.kernel = disposed;
+    this.#own = disposed;
+    this.next = ringHead;
+    this.ring = new Float64Array();
+    this.forget();
     this.#io = new Float64Array();
+  }
+
+  /** Whether there is a box of this id. @internal */
+  protected knows(id: number): boolean {
+    if (id < this.dense) return true;
+    const page = this.#words[this.#pages + 2 * (id >>> 12)]!;
+    if (page > 0 && this.#words[(page >>> 2) + (id & 4095)]! > 0) return true;
+    return this.kernel.has(id) === 1;
+  }
+
+  /**
+   * Whether a box of an id from `dense` on may wait in the ring, since taking it cannot fail. Asked once for each box
+   * that will.
+   * @internal
+   */
+  protected mayWait(id: number): boolean {
+    if (id !== this.dense || this.#room === 0) {
+      // Where growing memory has cut the view off nothing is found, and the box is taken at once.
+      return this.#words[this.#pages + 2 * (id >>> 12)]! > 0;
+    }
+    this.dense++;
+    this.#room--;
+    return true;
+  }
+
+  /** Nothing is known any more of what may wait: to be called after what adds boxes or takes them away. @internal */
+  protected forget(): void {
+    this.dense = this.#room = 0;
+    this.#pages = nowhere;
+  }
+
+  /** The kernel takes what waits. @internal */
+  protected flush(): void {
+    const own = this.#own;
+    const count = (this.next - ringHead) / (this.width + 1);
+    this.next = ringHead;
+    this.forget();
+    try {
+      own.take(count);
+    } catch (error) {
+      this.recover(error, 'set');
+    }
+    if (this.ring.length === 0) this.#openRing();
+    this.dense = this.ring[0]!;
+    this.#room = this.ring[1]!;
+    if (this.ring[2]! > 0) {
+      this.#pages = this.ring[2]! / 4;
+      if (this.#words.length === 0) this.#words = new Uint32Array(own.memory.buffer);
+    }
+  }
+
+  /** The ring is full, or was cut off as memory grew; gives where the next box goes. @internal */
+  protected drain(): number {
+    if (this.next !== ringHead) this.flush();
+    if (this.ring.length === 0) this.#openRing();
+    return ringHead;
+  }
+
+  #openRing(): void {
+    const own = this.#own;
+    this.ring = new Float64Array(own.memory.buffer, own.ring_address(), ringHead + ringBoxes * (this.width + 1));
   }
 
   /** The kernel's array for numbers in and out. Growing memory cuts views off: their length is then 0. @internal */

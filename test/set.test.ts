@@ -56,6 +56,49 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     }
   });
 
+  test('who is there and how many is known at once, whatever waits', () => {
+    const random = createRandom(dimensions);
+    for (const first of [0, 1, 4095, 70_000]) {
+      const space = new BroadPhase({ dimensions });
+      const there = new Map<number, number[]>();
+      for (let k = 0; k < 1200; k++) {
+        const what = random();
+        const id = first + Math.floor(random() * (k < 600 ? k + 1 : 9000));
+        if (what < 0.9) {
+          there.set(id, box(random));
+          setBox(space, id, there.get(id)!);
+        } else if (what < 0.97) {
+          expect(space.delete(id)).toBe(there.delete(id));
+        } else if (what < 0.972) {
+          space.clear();
+          there.clear();
+        } else if (what < 0.98) {
+          space.update();
+        }
+        expect(space.has(id)).toBe(there.has(id));
+        expect(space.size).toBe(there.size);
+        if (k % 100 === 0) for (const [id, its] of there) expect(space.get(id, [])).toEqual(its);
+      }
+      space.validate();
+    }
+  });
+
+  test('boxes that wait are taken though memory grows in between', () => {
+    const space = new BroadPhase({ dimensions });
+    const point = (x: number) => Array<number>(2 * dimensions).fill(x);
+    for (let id = 0; id < 100; id++) setBox(space, id, point(id));
+    space.update();
+    setBox(space, 3, point(7));
+    new BroadPhase({ dimensions }).setAll(new Float32Array(2 * dimensions)).update(); // another space has another ring
+    space.setAll(new Float32Array(200_000 * 2 * dimensions)); // takes what waits, then replaces it
+    expect(space.get(3, [])).toEqual(point(0));
+    setBox(space, 5, point(9));
+    const before = space.snapshot();
+    expect(() => setBox(space, 6, point(Number.NaN))).toThrow('NaN');
+    expect(Buffer.compare(space.snapshot(), before)).toBe(0);
+    expect(space.get(5, [])).toEqual(point(9));
+  });
+
   test('the very first question, the outermost cells and the invariants see what was set since the update', () => {
     const point = (x: number) => Array<number>(dimensions).fill(x);
     const space = new BroadPhase({ dimensions, technique: 'incremental' });

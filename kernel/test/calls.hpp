@@ -105,7 +105,7 @@ template <int D> class Calls {
     auto fresh = open<D>(Technique::brute_force);
     fresh->settings = instance_->settings;
     for (u32 id : model_.ids()) {
-      fresh->space.set(id, model_.at(id).data());
+      ::set(fresh->space, id, model_.at(id).data());
       const Rule& rule = model_.rule(id);
       fresh->space.filter(fresh->ids.slot(id), rule.layer, rule.mask);
       for (u32 bit : {u32(is_static), u32(is_red), u32(is_blue)}) {
@@ -242,7 +242,7 @@ template <int D> class Calls {
 
   void set(u32 id, const Box<D>& box) {
     if (!model_.has(id) && model_.count() >= most_boxes) return;
-    if (made([&] { space_.set(id, box.data()); })) model_.set(id, box);
+    if (made([&] { ::set(space_, id, box.data()); })) model_.set(id, box);
   }
 
   void remove(u32 id) {

@@ -56,7 +56,7 @@ template <int D> void check_changes() {
       for (u32 k = 0; k < 40; k++) {
         const Box<D>& box = state & 2 ? doubles[k] : floats[k];
         u32 id = state & 1 ? k * 700 : k;
-        fixture->space.set(id, box.data());
+        set(fixture->space, id, box.data());
         fixture->model.set(id, box);
       }
       if (state & 4) {
@@ -83,7 +83,7 @@ template <int D> void check_changes() {
     for (u32 k = 40; k < 300; k++) {
       u32 id = state & 1 ? k * 700 : k;
       failures += starve(
-          fixture->space, [&] { fixture->space.set(id, doubles[k].data()); }, [&] { fixture->unchanged(); });
+          fixture->space, [&] { set(fixture->space, id, doubles[k].data()); }, [&] { fixture->unchanged(); });
       fixture->model.set(id, doubles[k]);
     }
     fixture->works();
@@ -125,13 +125,13 @@ template <int D> void check_kept_updates() {
     for (u32 id = 0; id < (much ? 60u : 12u); id++) {
       Box<D> box = f.model.at(id);
       for (u32 n = 0; n < 2 * D; n++) box[n] += (id % 2 ? 0.125 : -0.125) * (k / 30 % 2 ? 1 : -1);
-      f.space.set(id, box.data());
+      set(f.space, id, box.data());
       f.model.set(id, box);
     }
     if (!much) return;
     Box<D> other = f.model.at(77);
     for (u32 id : {f.model.count(), 99u}) {
-      f.space.set(id, other.data());
+      set(f.space, id, other.data());
       f.model.set(id, other);
     }
   };
@@ -222,7 +222,7 @@ template <int D> void check_huge_mover() {
       huge[D + a] = f32(huge[a] + side);
     }
     if (k == 0) replace(space, boxes, false);
-    else space.set(0, huge.data());
+    else set(space, 0, huge.data());
     heap::copied = 0;
     CHECK(space.update() == -1);
     if (k > 10) most = larger(most, heap::copied);
@@ -246,7 +246,7 @@ template <int D> void check_settled_room() {
     for (u32 id = 0; id < count; id += 20) {
       boxes[id][0] += 0.05f;
       boxes[id][D] += 0.05f;
-      space.set(id, boxes[id].data());
+      set(space, id, boxes[id].data());
     }
     heap::copied = 0;
     CHECK(space.update() == -1);

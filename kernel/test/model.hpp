@@ -154,6 +154,14 @@ template <int D> PairList sorted_pairs(const Space<D>& space) {
   return found;
 }
 
+/// Adds or moves a box, as JavaScript does one that may not wait.
+template <int D> void set(Space<D>& space, u32 id, const f64* box) {
+  Ring<D> ring;
+  ring.entries[0] = id;
+  __builtin_memcpy(ring.entries + 1, box, 2 * D * sizeof(f64));
+  space.take(ring, 1);
+}
+
 /// Stages boxes and puts them in place of all; as float32 where `doubles` is false. Returns the first bad one.
 template <int D> i32 replace(Space<D>& space, const Boxes<D>& boxes, bool doubles) {
   u32 count = u32(boxes.size());

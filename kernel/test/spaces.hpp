@@ -229,7 +229,7 @@ template <int D> void check_rounding() {
     f64 x = k < std::size(special) ? special[k] : bits<f64>(random.bits64());
     if (x != x) continue;
     Box<D> box = cube<D>(x, x), held;
-    space.set(3, box.data());
+    set(space, 3, box.data());
     CHECK(space.get(3, held.data()));
     CHECK(held == box);
     u32 detail;
@@ -240,7 +240,7 @@ template <int D> void check_rounding() {
   for (u32 k = 0; k < 1000; k++) {
     Box<D> box;  // no two numbers alike
     for (u32 n = 0; n < 2 * D; n++) box[n] = f32(n) + (random.bits64() % 3 ? 0 : random.fraction() / 2);
-    space.set(3, box.data());
+    set(space, 3, box.data());
     f32* floats = space.expose(4) + 3 * 2 * D;
     for (u32 n = 0; n < 2 * D; n++) CHECK(floats[n] == outward(box[n], n >= D));
   }
@@ -264,12 +264,12 @@ template <int D> void check_exposed() {
   CHECK(space.update() == 4);
 
   Box<D> rounded = cube<D>(0.1, 0.1);
-  space.set(2, rounded.data());
+  set(space, 2, rounded.data());
   CHECK(space.update() == 4);
   CHECK(space.validate(detail) == 0);
 
   Box<D> good = cube<D>(0, 0);
-  space.set(4, good.data());
+  set(space, 4, good.data());
   CHECK(space.update() == -1);
   CHECK(space.pairs.count == 3);
   CHECK(space.validate(detail) == 0);

@@ -38,6 +38,7 @@ template <int D> class Player {
   Hash hash_;
   const f64* at_;
   const f64* end_;
+  Ring<D> ring_;
 
   f64 next() { return *at_++; }
   u32 whole() { return u32(next()); }
@@ -77,7 +78,9 @@ template <int D> class Player {
 
   void set() {
     u32 id = whole();
-    space_.set(id, at_);
+    ring_.entries[0] = id;
+    __builtin_memcpy(ring_.entries + 1, at_, width * sizeof(f64));
+    space_.take(ring_, 1);
     at_ += width;
   }
   void filter() {
