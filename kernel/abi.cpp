@@ -193,12 +193,13 @@ EXPORT(ask_area)(u32 mask, u32 ignored, u32 from, u32 most) -> u32 {
     return count;
   });
 }
-/// The number of hits.
-EXPORT(ask_order)(u32 moving, u32 mask, u32 ignored, u32 after, u32 most) -> u32 {
+/// The number of hits: of what is nearest (0), on a ray (1), or on the way of a box that is to stop (2).
+EXPORT(ask_order)(u32 kind, u32 mask, u32 ignored, u32 after, u32 most) -> u32 {
   return with_space([&](auto& space) {
     read_question(space.question, mask, ignored);
+    space.question.stops = kind == 2;
     Hit last{io[after_at], after, 0};
-    return space.ask_order(moving != 0, most, after == no_id ? nullptr : &last);
+    return space.ask_order(kind != 0, most, after == no_id ? nullptr : &last);
   });
 }
 EXPORT(hits_address)() -> const Hit* {

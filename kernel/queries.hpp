@@ -9,8 +9,7 @@
 // Cost, among 10,000 boxes: 0.4 us for a box with 20 in it, 0.5 us for a ray that goes far, 1.4 us for the 10 nearest.
 #pragma once
 #include "index.hpp"
-#include "rounding.hpp"
-
+#include "meeting.hpp"
 
 /// What a question is asked with.
 template <int D> struct Question {
@@ -19,14 +18,19 @@ template <int D> struct Question {
   f64 radius = 0;              // of a circle; negative: none
   f64 limit = 0;               // the largest rank
   f64 length = 0;              // of the way, where its share is to be ranked by distance; else 1
+  bool stops = false;          // times are to be stopped at: see meeting.hpp
   u32 mask = 0;                // layers; all bits: every box, even one without a layer
   u32 ignored = 0;             // an id
 };
 
 struct Hit {
-  f64 rank;  // what the moving box has moved, or distance squared
-  u32 id;
+  f64 rank;  // what the moving box has moved, or the distance
+  u32 id;    // with `corner`
   i32 side;  // of moving boxes: axis + 1 of the face that is hit, negative where its normal is; 0: none
+
+  /// With the ids of what is met only at a corner, so that faces that are met at the same time come before it: who
+  /// walks over a floor stays on the box below, and does not run into the next.
+  static constexpr u32 corner = 0x80000000;
 
   bool operator<(const Hit& other) const { return rank < other.rank || (rank == other.rank && id < other.id); }
 };
@@ -165,7 +169,7 @@ template <int D> class Queries {
     search<true>(index_.top(), 0, hits);
   }
 
-  /// The nearest boxes to the point, by distance squared.
+  /// The nearest boxes to the point.
   COLD void near(Hits& hits) {
     for (int a = 0; a < D; a++) {
       above_[a] = splat(round_up(asked_.lo[a]));
@@ -214,12 +218,13 @@ template <int D> class Queries {
   COLD u32 touching(u32 number, u32 left) const {
     f64 ranks[8];
     if (is_circle()) left &= distances(number, squared_, ranks);
-    if (!index_.rounded()) return left;
+    if (!index_.rounded() && squared_ < 1e300) return left;
     for (u32 all = left; all; all &= all - 1) {
       u32 lane = u32(__builtin_ctz(all));
       f64 box[2 * D];
       index_.box(number * 8 + lane, box);
-      bool touch = !is_circle() || ranks[lane] <= squared_;
+      bool touch = true;
+      if (is_circle()) touch = squared_ < 1e300 ? ranks[lane] <= squared_ : distance(number * 8 + lane, ranks[lane]) <= asked_.radius;
       for (int a = 0; a < D && !is_circle(); a++) touch &= box[a] <= asked_.hi[a] && asked_.lo[a] <= box[D + a];
       if (!touch) left &= ~(1u << lane);
     }
@@ -270,7 +275,7 @@ template <int D> class Queries {
   /// in place of the last three bits stands the lane, so that what is written can be sorted as integers. Returns one
   /// bit for each box that is not surely beyond the limit.
   SHARED u32 least_distances(const Block& block, f64 limit, u32 (&to)[8]) const {
-    f32x4 most = splat(most_rank(limit));
+    f32x4 most = splat(most_rank<false>(limit));
     u32 close = 0;
     ROLLED for (u32 half = 0; half < 8; half += 4) {
       f32x4 sum = {};
@@ -295,7 +300,7 @@ template <int D> class Queries {
       return close;
     }
     constexpr f32 slack = 1e-6f, least_slack = 1e-37f;
-    f32x4 most = splat(most_rank(limit));
+    f32x4 most = splat(most_rank<true>(limit));
     ROLLED for (u32 half = 0; half < 8; half += 4) {
       f32x4 enter = {}, leave = splat(__builtin_inff());
       for (int a = 0; a < D; a++) {
@@ -326,13 +331,32 @@ template <int D> class Queries {
       for (; at > 0 && rank < order[at - 1]; at--) order[at] = order[at - 1];
       order[at] = rank;
     }
-    for (u32 k = 0; k < n && order[k] <= (bits<u32>(most_rank(hits.limit)) | lane_bits); k++) {
+    for (u32 k = 0; k < n && order[k] <= (bits<u32>(most_rank<moving>(hits.limit)) | lane_bits); k++) {
       search<moving>(level - 1, number * 8 + (order[k] & lane_bits), hits);
     }
   }
 
-  /// In the terms of what is estimated; no less than the limit.
-  f32 most_rank(f64 limit) const { return is_tame_ ? round_up(limit * scale_) : __builtin_inff(); }
+  /// In the terms of what is estimated, times or squared distances; no less than the limit.
+  template <bool moving> f32 most_rank(f64 limit) const {
+    if (!moving) return round_up(squared_limit(limit));
+    return is_tame_ ? round_up(limit * scale_) : __builtin_inff();
+  }
+  /// No less than the square of every distance within the limit.
+  static f64 squared_limit(f64 limit) { return limit * limit * (1 + 1e-15) + 1e-300; }
+
+  /// The distance of the point to a box whose square is given, which may have overflowed.
+  f64 distance(u32 place, f64 squared) const {
+    if (squared < 1e300) return __builtin_sqrt(squared);
+    f64 box[2 * D], away[D], most = 0, sum = 0;
+    index_.box(place, box);
+    for (int a = 0; a < D; a++) {
+      away[a] = larger(0.0, larger(box[a] - asked_.lo[a], asked_.lo[a] - box[D + a]));
+      most = larger(most, away[a]);
+    }
+    if (!(most < __builtin_inf())) return most;
+    for (int a = 0; a < D; a++) sum += (away[a] / most) * (away[a] / most);
+    return most * __builtin_sqrt(sum);
+  }
 
   /// Writes the squared distances to eight boxes. Returns one bit for each within the limit, and perhaps more.
   SHARED u32 distances(u32 number, f64 limit, f64 (&to)[8]) const {
@@ -363,12 +387,12 @@ template <int D> class Queries {
     return close;
   }
 
-  /// Offers boxes by their distance to the point, squared.
+  /// Offers boxes by their distance to the point.
   SHARED void offer_near(u32 number, Hits& hits) const {
     f64 ranks[8];
-    for (u32 left = distances(number, hits.limit, ranks); left; left &= left - 1) {
+    for (u32 left = distances(number, squared_limit(hits.limit), ranks); left; left &= left - 1) {
       u32 lane = u32(__builtin_ctz(left)), place = number * 8 + lane;
-      if (ranks[lane] <= hits.limit && wanted(place)) hits.offer({ranks[lane], index_.id(place), 0});
+      if (wanted(place)) hits.offer({distance(place, ranks[lane]), index_.id(place), 0});
     }
   }
 
@@ -379,24 +403,9 @@ template <int D> class Queries {
       if (!wanted(place)) continue;
       f64 box[2 * D];
       index_.box(place, box);
-      i32 side = 0;
-      f64 enter = 0, leave = __builtin_inf();
-      for (int a = 0; a < D; a++) {
-        f64 along = asked_.along[a];
-        f64 ahead = box[a] - asked_.hi[a], behind = box[D + a] - asked_.lo[a];  // to the first and the last touch
-        bool before = asked_.hi[a] < box[a], past = asked_.lo[a] > box[D + a];
-        if (before || past) {
-          f64 time = before ? along > 0 ? ahead / along : __builtin_inf() : along < 0 ? behind / along : __builtin_inf();
-          if (time > enter || side == 0) {
-            enter = time;
-            side = before ? -(a + 1) : a + 1;
-          }
-        }
-        // The same infinity on both sides is never left.
-        f64 way = along > 0 ? behind : ahead;
-        if (along != 0 && way == way) leave = smaller(leave, way / along);
-      }
-      if (enter <= leave && enter < __builtin_inf()) hits.offer({enter * asked_.length, index_.id(place), side});
+      Meeting met;
+      if (!meets<D>(asked_.lo, asked_.hi, asked_.along, box, asked_.stops, met)) continue;
+      hits.offer({met.time * asked_.length, index_.id(place) | (met.corner ? Hit::corner : 0), met.side});
     }
   }
 };

@@ -117,6 +117,8 @@ export let beginAnew: (space: BroadPhase) => number;
  * Boxes are closed: touching boxes overlap. Boxes of zero size are points, infinite ones are half planes; both
  * are legal. The pairs are exactly those of the numbers given, doubles included, whatever the technique.
  *
+ * Rays and sweeps meet a box where their way leads into a face of it: along a face or away from it is no hit.
+ *
  * Questions (`queryBox` to `nearest`, `isColliding`, `collisionsOf`) are answered by what the last update saw: boxes
  * that were set, moved or deleted since then make no difference until the next, and before the first update there is
  * nothing. (A space that is never asked keeps no copy of its boxes; so the very first question, if boxes changed after

@@ -28,6 +28,11 @@ const limitAt = 13;
 const lengthAt = 14;
 const afterAt = 15;
 
+/** What the kernel is asked for: see there. */
+const near = 0;
+const onRay = 1;
+const onWay = 2;
+
 /** How many answers a visitor's search goes ahead. */
 const part = 64;
 
@@ -58,7 +63,8 @@ const isNumber = (value: unknown): value is number => typeof value === 'number';
  * All questions are answered by what the last update saw: boxes that were set, moved or deleted since then make no
  * difference until the next, and before the first update there is nothing. (A space that is never asked keeps no copy
  * of its boxes; so the very first question, if boxes changed after the update before it, sees them as they are now.)
- * Boxes are closed: what touches counts. All is decided in double precision. The options are read at each call; to
+ * Boxes are closed: what touches counts. Rays and sweeps meet a box where their way leads into a face of it: along a
+ * face or away from it is no hit. All is decided in double precision. The options are read at each call; to
  * make no garbage, keep and reuse them with an `out` in them, whose answers stay about as many.
  *
  * All questions throw RangeError for NaN, a minimum above its maximum, infinite points, ways and directions, negative
@@ -236,9 +242,10 @@ export abstract class Queries extends Space {
   }
 
   /**
-   * The first box that a ray meets, or `undefined`: of several at the same distance the one of the smallest id.
-   * The direction may have any length; where it has none the ray is a point. 2D: `rayCast(x, y, directionX,
-   * directionY, options?)`.
+   * The first box that a ray meets, or `undefined`: of several at the same distance as in `sweep`.
+   * The direction may have any length; where it has none the ray is a point. A ray that begins at a face meets it
+   * where it leads into the box, at distance 0; one that leads along it or away does not. One that begins inside has
+   * distance 0 and no normal. Edges and corners count. 2D: `rayCast(x, y, directionX, directionY, options?)`.
    *
    * @param x where it begins: finite, as is y
    * @param directionX where it points: finite, as is directionY
@@ -272,7 +279,7 @@ export abstract class Queries extends Space {
   ): RayHit | undefined;
   rayCast(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayOptions) {
     options = this.#ray('rayCast', a, b, c, d, e, f, options);
-    if (this.#order('rayCast', true, options, 1) === 0) return undefined;
+    if (this.#order('rayCast', onRay, options, 1) === 0) return undefined;
     const hit: RayHit = options?.out ?? { id: 0, distance: 0, normal: [] };
     hit.distance = this.#doubleView()[this.#readHit(0, hit)]!;
     return hit;
@@ -312,12 +319,12 @@ export abstract class Queries extends Space {
   rayCastAll(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayAllOptions): RayHit[] {
     options = this.#ray('rayCastAll', a, b, c, d, e, f, options);
     if (options?.visit !== undefined) {
-      this.#visitOrder('rayCastAll', true, options, everything, options.visit);
+      this.#visitOrder('rayCastAll', onRay, options, everything, options.visit);
       return none as RayHit[];
     }
     const out = options?.out ?? [];
     checkOut('rayCastAll', out);
-    const count = this.#order('rayCastAll', true, options, everything);
+    const count = this.#order('rayCastAll', onRay, options, everything);
     for (let k = 0; k < count; k++) {
       const hit = out[k] ?? this.#spare.pop() ?? { id: 0, distance: 0, normal: [] };
       hit.distance = this.#doubleView()[this.#readHit(k, hit)]!;
@@ -329,8 +336,11 @@ export abstract class Queries extends Space {
 
   /**
    * The first box that a moving box meets, or `undefined`: the swept test for what is too fast to be looked at from
-   * frame to frame. Of several met at the same time the one of the smallest id. A box that is in the space meets
-   * itself: name it in `ignore`. 2D: `sweep(minX, minY, maxX, maxY, dx, dy, options?)`.
+   * frame to frame. It meets what its way leads into: who stands on a floor meets it only on a way down. Where it
+   * overlaps a box from the start the time is 0, and the normal all 0. Of several met at the same time, faces come
+   * before corners, then the smallest id. A box that is in the space meets itself: name it in `ignore`. Who stops at
+   * `x + dx * time` touches, up to rounding, and never ends inside: see the guide to queries. 2D: `sweep(minX, minY,
+   * maxX, maxY, dx, dy, options?)`.
    *
    * @param minX where it stands now: any numbers but NaN
    * @param dx how far it moves along the first axis, and so on: finite
@@ -410,10 +420,10 @@ export abstract class Queries extends Space {
     io[limitAt] = 1;
     io[lengthAt] = 1;
     if (options?.visit !== undefined) {
-      this.#visitOrder('sweep', true, options, everything, options.visit);
+      this.#visitOrder('sweep', onWay, options, everything, options.visit);
       return undefined;
     }
-    if (this.#order('sweep', true, options, 1) === 0) return undefined;
+    if (this.#order('sweep', onWay, options, 1) === 0) return undefined;
     const hit: SweepHit = options?.out ?? { id: 0, time: 0, normal: [] };
     hit.time = this.#doubleView()[this.#readHit(0, hit)]!;
     return hit;
@@ -423,7 +433,7 @@ export abstract class Queries extends Space {
    * The ids of the `k` boxes nearest to a point, by the distance to the box, which is 0 inside, and then by id. 2D:
    * `nearest(x, y, k, options?)`.
    * @param x where from: finite, as is y
-   * @param k how many: an integer from 1 on
+   * @param k how many: an integer from 1 on, or Infinity for all
    * @returns fewer than k where there are no more, or none within `maxDistance`
    * @throws as all questions do: see {@link BroadPhase}
    *
@@ -453,20 +463,22 @@ export abstract class Queries extends Space {
     } else {
       this.#point('nearest', x, y, z);
     }
-    if (typeof most !== 'number') badValue('nearest: k', most, 'an integer from 1 on', true);
-    if (!(Number.isInteger(most) && most >= 1)) badValue('nearest: k', most, 'an integer from 1 on');
+    if (typeof most !== 'number') badValue('nearest: k', most, 'an integer from 1 on, or Infinity', true);
+    if (!(Number.isInteger(most) && most >= 1) && most !== Number.POSITIVE_INFINITY) {
+      badValue('nearest: k', most, 'an integer from 1 on, or Infinity');
+    }
     const wanted = Math.min(most, everything);
     checkOptions('nearest', options);
     const { maxDistance = Number.POSITIVE_INFINITY } = options ?? {};
     checkDistance('nearest: maxDistance', maxDistance);
-    this.io()[limitAt] = maxDistance * maxDistance;
+    this.io()[limitAt] = maxDistance;
     if (options?.visit !== undefined) {
-      this.#visitOrder('nearest', false, options, wanted, options.visit);
+      this.#visitOrder('nearest', near, options, wanted, options.visit);
       return none as number[];
     }
     const out = options?.out ?? [];
     checkOut('nearest', out);
-    const count = this.#order('nearest', false, options, wanted);
+    const count = this.#order('nearest', near, options, wanted);
     const words = this.#wordView();
     const first = this.kernel.hits_address() >>> 2;
     for (let n = 0; n < count; n++) out[n] = words[first + 4 * n + 2]!;
@@ -559,12 +571,12 @@ export abstract class Queries extends Space {
   }
 
   /** Asks for the first boxes that the box in the kernel's array meets, or for the nearest; returns how many. */
-  #order(where: string, moving: boolean, options: QueryOptions | undefined, most: number): number {
+  #order(where: string, kind: number, options: QueryOptions | undefined, most: number): number {
     if (this.wraps) noQueries(where);
     const mask = maskOf(where, options);
     const ignored = ignoredOf(where, options);
     try {
-      return this.kernel.ask_order(moving ? 1 : 0, mask, ignored, nobody, most);
+      return this.kernel.ask_order(kind, mask, ignored, nobody, most);
     } catch (error) {
       this.recover(error, where);
     }
@@ -596,7 +608,7 @@ export abstract class Queries extends Space {
 
   #visitOrder(
     where: string,
-    moving: boolean,
+    kind: number,
     options: QueryOptions,
     most: number,
     visitor: (id: number, rank: number) => unknown,
@@ -610,7 +622,7 @@ export abstract class Queries extends Space {
       for (let left = most, after = nobody; left > 0; left -= part) {
         const wanted = Math.min(left, part);
         this.io().set(visit.question);
-        const count = this.kernel.ask_order(moving ? 1 : 0, mask, ignored, after, wanted);
+        const count = this.kernel.ask_order(kind, mask, ignored, after, wanted);
         const first = this.kernel.hits_address();
         const words = this.#wordView();
         const doubles = this.#doubleView();
@@ -620,8 +632,7 @@ export abstract class Queries extends Space {
         }
         const updates = this.kernel.updates();
         for (let k = 0; k < count; k++) {
-          const rank = visit.ranks[k]!;
-          if (visitor(visit.ids[k]!, moving ? rank : Math.sqrt(rank)) === false) return;
+          if (visitor(visit.ids[k]! & maxId, visit.ranks[k]!) === false) return;
           if (this.kernel.updates() !== updates) updatedInside(where);
         }
         if (count < wanted) return;
@@ -660,7 +671,7 @@ export abstract class Queries extends Space {
   #readHit(k: number, hit: { id: number; normal: number[] }): number {
     const at = this.kernel.hits_address() + 16 * k;
     const words = this.#wordView();
-    hit.id = words[(at >>> 2) + 2]!;
+    hit.id = words[(at >>> 2) + 2]! & maxId; // above it stands whether it was met at a corner
     const side = words[(at >>> 2) + 3]! | 0;
     for (let axis = 0; axis < this.dimensions; axis++) {
       hit.normal[axis] = side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0;

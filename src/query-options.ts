@@ -31,7 +31,7 @@ export interface NearestOptions extends QueryOptions {
 export interface RayHit {
   /** Of the box. */
   id: number;
-  /** From the origin to the box, in units of the world; 0 where the ray begins inside. */
+  /** From the origin to the box, in units of the world; 0 where the ray begins at its face or inside. */
   distance: number;
   /** Of the face that is hit, against the ray: one number per axis, -1, 0 or 1; all 0 where the ray begins inside. */
   normal: number[];
@@ -59,7 +59,10 @@ export interface RayAllOptions extends QueryOptions {
 export interface SweepHit {
   /** Of the box. */
   id: number;
-  /** The share of the way, 0 … 1, that is done when they touch; 0 where they overlap from the start. */
+  /**
+   * The share of the way, 0 … 1, that is done when they touch; 0 where they touch or overlap from the start. It is
+   * rounded towards the start: `maxX + dx * time` is never beyond the face.
+   */
   time: number;
   /** Of the face that is hit, against the motion: as in {@link RayHit}. */
   normal: number[];

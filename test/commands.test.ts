@@ -273,7 +273,9 @@ function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>
         const hits = on(space).rayCastAll(...point, ...way, options) as { id: number; distance: number }[];
         const first = on(space).rayCast(...point, ...way, options) as { id: number; distance: number } | undefined;
         expect(first).toEqual(hits[0]);
-        const met = ahead(seen(model), [...point, ...point], way, Infinity, options).map(({ id }) => id);
+        const met = ahead(seen(model), [...point, ...point], way, Infinity, options, Math.hypot(...way)).map(
+          ({ id }) => id,
+        );
         expect(ascending(hits.map(({ id }) => id))).toEqual(ascending(met));
       }),
     ),

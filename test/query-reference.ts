@@ -38,52 +38,111 @@ function squared(point: readonly number[], { box }: Entry): number {
 }
 
 export function inCircle(entries: Entries, centre: readonly number[], radius: number, asked: Asked): number[] {
-  const near = [...wanted(entries, asked)].filter(([, entry]) => squared(centre, entry) <= radius * radius);
+  const near = [...wanted(entries, asked)].filter(([, entry]) =>
+    radius * radius < 1e300 ? squared(centre, entry) <= radius * radius : distance(centre, entry) <= radius,
+  );
   return ascending(near.map(([id]) => id));
+}
+
+/** The distance, which has no larger square than a double holds only where it is not very large. */
+function distance(point: readonly number[], entry: Entry): number {
+  const square = squared(point, entry);
+  if (square < 1e300) return Math.sqrt(square);
+  const { box } = entry;
+  const away = point.map((x, axis) => Math.max(box[axis] - x, x - box[axis + point.length], 0));
+  const most = Math.max(...away);
+  return most === Infinity ? most : most * Math.sqrt(away.reduce((sum, x) => sum + (x / most) ** 2, 0));
 }
 
 export function near(entries: Entries, point: readonly number[], k: number, asked: Asked): Ranked[] {
   const { maxDistance = Infinity } = asked;
-  const all = [...wanted(entries, asked)].map(([id, entry]) => ({ id, rank: squared(point, entry), normal: [] }));
-  return inOrder(all.filter(({ rank }) => rank <= maxDistance * maxDistance)).slice(0, k);
+  const all = [...wanted(entries, asked)].map(([id, entry]) => ({ id, rank: distance(point, entry), normal: [] }));
+  return inOrder(all.filter(({ rank }) => rank <= maxDistance)).slice(0, k);
 }
 
-/** What a box meets that moves by `way`, with its time, or with the distance where `length` is that of the way. */
+/**
+ * What a box meets that moves by `way`: with its time, as what is to be stopped at, or where `length` is that of the
+ * way with its distance. What is met at a corner alone comes behind all that is met at the same time.
+ */
 export function ahead(
   entries: Entries,
   box: readonly number[],
   way: readonly number[],
   limit: number,
   asked: Asked,
-  length = 1,
+  length?: number,
 ): Ranked[] {
-  const hits: Ranked[] = [];
+  const hits: (Ranked & { corner: boolean })[] = [];
   for (const [id, entry] of wanted(entries, asked)) {
-    const met = meeting(box, way, entry.box);
-    if (met && met.time * length <= limit) hits.push({ id, rank: met.time * length, normal: met.normal });
+    const met = meeting(box, way, entry.box, length === undefined);
+    const rank = met ? met.time * (length ?? 1) : Infinity;
+    if (met && rank <= limit) hits.push({ id, rank, normal: met.normal, corner: met.corner });
   }
-  return inOrder(hits);
+  hits.sort((a, b) => a.rank - b.rank || Number(a.corner) - Number(b.corner) || a.id - b.id);
+  return hits.map(({ id, rank, normal }) => ({ id, rank, normal }));
 }
 
-function meeting(moving: readonly number[], way: readonly number[], still: readonly number[]) {
-  const d = way.length;
-  let enter = 0;
-  let leave = Infinity;
-  let face = -1;
-  for (let a = 0; a < d; a++) {
-    const [lo, hi, from, to] = [moving[a], moving[a + d], still[a], still[a + d]];
-    if (hi < from || lo > to) {
-      // Apart along this axis: it must move towards the other.
-      if (Math.sign(way[a]) !== (hi < from ? 1 : -1)) return undefined;
-      const time = (hi < from ? from - hi : to - lo) / way[a];
-      if (time > enter || face < 0) {
-        enter = time;
-        face = a;
-      }
-    }
-    const last = way[a] > 0 ? to - lo : from - hi;
-    if (way[a] !== 0 && !Number.isNaN(last)) leave = Math.min(leave, last / way[a]);
+const touch = 2 ** -48;
+const roundings = 2 ** -51;
+const sizeOf = (x: number) => (Number.isFinite(x) ? Math.abs(x) : 0);
+const isSingle = (x: number) => Math.fround(x) === x || Number.isNaN(x);
+const bits = new BigUint64Array(1);
+const double = new Float64Array(bits.buffer);
+
+function below(x: number): number {
+  double[0] = x;
+  bits[0]!--;
+  return double[0]!;
+}
+
+/** The share of the way along one axis until lo … hi touches a face. */
+function timeTo(lo: number, hi: number, face: number, along: number, stops: boolean): number {
+  const forth = along > 0;
+  let gap = Math.max(0, forth ? face - hi : lo - face);
+  if (!stops) return gap / Math.abs(along);
+  if (lo < hi && !(isSingle(lo) && isSingle(hi) && isSingle(face))) {
+    const error = roundings * (gap + sizeOf(lo) + sizeOf(hi) + sizeOf(face));
+    const other = forth ? face - (hi - lo) : face + (hi - lo);
+    if (error > touch * Math.max(sizeOf(face), sizeOf(other))) gap = Math.max(0, gap - error);
   }
-  if (enter > leave || enter === Infinity) return undefined;
-  return { time: enter, normal: Array.from({ length: d }, (_, a) => (a === face ? -Math.sign(way[a]) : 0)) };
+  let time = gap / Math.abs(along);
+  while (time > 0 && time < Infinity && (forth ? hi + along * time > face : lo + along * time < face)) {
+    time = below(time);
+  }
+  return time;
+}
+
+function meeting(moving: readonly number[], way: readonly number[], still: readonly number[], stops: boolean) {
+  const d = way.length;
+  const touched: { axis: number; time: number }[] = [];
+  const leaves: number[] = [];
+  let edge = false;
+  for (let a = 0; a < d; a++) {
+    const [lo, hi, from, to, along] = [moving[a], moving[a + d], still[a], still[a + d], way[a]];
+    const slack = Math.min(touch * Math.max(sizeOf(lo), sizeOf(hi)), (hi - lo) / 4);
+    const before = hi < from || (hi <= from + slack && Number.isFinite(hi));
+    const past = lo > to || (lo >= to - slack && Number.isFinite(lo));
+    leaves[a] = Infinity;
+    if (along === 0) {
+      if (before || past) edge = true;
+      if ((before || past) && (lo < hi || hi < from || lo > to)) return undefined;
+      continue;
+    }
+    if (along > 0 ? past : before) return undefined;
+    const leave = (along > 0 ? to - lo : from - hi) / along;
+    if (!Number.isNaN(leave)) leaves[a] = leave;
+    if (before || past) touched.push({ axis: a, time: timeTo(lo, hi, along > 0 ? from : to, along, stops) });
+  }
+  if (touched.length === 0) return edge ? undefined : { time: 0, normal: Array<number>(d).fill(0), corner: false };
+  const time = Math.max(...touched.map((face) => face.time));
+  const [{ axis }, second] = touched.filter((face) => face.time === time);
+  if (time === Infinity) return undefined;
+  for (let a = 0; a < d; a++) {
+    if (a !== axis && (moving[a] < moving[a + d] ? leaves[a] <= time : leaves[a] < time)) return undefined;
+  }
+  return {
+    time,
+    normal: Array.from({ length: d }, (_, a) => (a === axis ? -Math.sign(way[a]) : 0)),
+    corner: second !== undefined,
+  };
 }
