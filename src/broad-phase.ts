@@ -1,7 +1,20 @@
 // The class BroadPhase: a Map from id to box that knows which of its boxes overlap.
 // All state lives in the kernel's memory (kernel/space.hpp); this file checks what comes in, passes it on, and
 // gives views of what comes out. Nothing here runs once per box or per pair of an update.
-import { badBox, badCount, badId, badQuestion, badValue, checkBits, maxId, noBox, sweep2, sweep3 } from './errors.ts';
+import {
+  badBox,
+  badCount,
+  badId,
+  badQuestion,
+  badValue,
+  checkBits,
+  checkOptions,
+  isId,
+  maxId,
+  noBox,
+  sweep2,
+  sweep3,
+} from './errors.ts';
 import { builtTechniques } from './kernel.ts';
 import { Queries } from './queries.ts';
 import { badSnapshot, bytesOf, headerBytes } from './snapshot.ts';
@@ -14,7 +27,7 @@ export interface BroadPhaseOptions {
   /** One of {@link BroadPhase.techniques}. Default `'auto'`. */
   technique?: TechniqueName;
   /**
-   * For grids: the side of a cell, or one number per axis, above 0. One so small that boxes would stand in very many
+   * For grids, which `auto` has none of: the side of a cell, or one number per axis, above 0. One so small that boxes would stand in very many
    * cells is doubled until they do not. Left out: chosen from the boxes.
    */
   cellSize?: number | readonly number[];
@@ -34,6 +47,18 @@ export interface BroadPhaseOptions {
   /** A hint: how many boxes there will be, 0 … 2^24. Saves growing while they are added. */
   capacity?: number;
 }
+
+/** The names of all options. */
+export const optionNames: readonly (keyof BroadPhaseOptions)[] = [
+  'dimensions',
+  'technique',
+  'cellSize',
+  'bounds',
+  'wrap',
+  'events',
+  'margin',
+  'capacity',
+];
 
 /** All that there are, in the order of the kernel's numbers, which stand in snapshots: new ones go before 'auto'. */
 const techniques = [
@@ -106,6 +131,12 @@ const broken = [
 export let splitColours: (space: BroadPhase, red: number) => void;
 
 /**
+ * For find-pairs.ts: `setAll`, by the name of another function in errors.
+ * @internal
+ */
+export let fill: (space: BroadPhase, boxes: Boxes, count: number | undefined, where: string) => BroadPhase;
+
+/**
  * For find-pairs.ts: makes a space that has its first options as new. Returns how many bytes it has used at most.
  * @internal
  */
@@ -160,6 +191,7 @@ export class BroadPhase extends Queries {
   readonly #beganViews: Uint32Array[] = [];
   readonly #endedViews: Uint32Array[] = [];
   readonly #events: boolean;
+  readonly #wrap: readonly number[] | undefined;
   #technique: TechniqueName;
   /** What `boxes()` gave last, while it is in use. */
   #view: Float32Array | undefined;
@@ -176,9 +208,7 @@ export class BroadPhase extends Queries {
    * new BroadPhase({ capacity: -1 }); // throws RangeError: capacity: got -1, expected an integer from 0 to 16777216
    */
   constructor(options: BroadPhaseOptions = {}) {
-    if (typeof options !== 'object' || options === null) {
-      badValue('new BroadPhase', options, 'an object of options', true);
-    }
+    checkOptions('new BroadPhase', options, optionNames);
     const {
       dimensions = 2,
       technique = 'auto',
@@ -210,6 +240,7 @@ export class BroadPhase extends Queries {
     }
     if (margin !== undefined) this.kernel.set_margin(margin);
     if (wrap) {
+      this.#wrap = [...wrap];
       io.set(wrap);
       this.kernel.set_wrap();
     }
@@ -260,18 +291,18 @@ export class BroadPhase extends Queries {
     if (
       // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
       arguments.length !== this.width + 1 ||
-      id >>> 0 !== id ||
-      id > maxId ||
-      !(flat ? a <= c && b <= d : a <= d && b <= e! && c <= f!) ||
+      typeof id !== 'number' ||
       typeof a !== 'number' ||
       typeof b !== 'number' ||
       typeof c !== 'number' ||
-      typeof d !== 'number'
+      typeof d !== 'number' ||
+      id >>> 0 !== id ||
+      id > maxId ||
+      !(flat ? a <= c && b <= d : areNumbers(e, f) && a <= d && b <= e! && c <= f!)
     ) {
       // biome-ignore lint/complexity/noArguments: the same
       badSet(arguments, this.dimensions);
     }
-    if (!flat && (typeof e !== 'number' || typeof f !== 'number')) badSet([id, a, b, c, d, e, f], 3);
     const waits = id < this.dense || this.mayWait(id);
     let k = waits ? this.next : this.drain(); // else it comes alone
     if (k >= this.ring.length) k = this.drain();
@@ -346,10 +377,9 @@ export class BroadPhase extends Queries {
     if (
       // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
       arguments.length !== (flat ? 7 : 10) ||
-      id >>> 0 !== id ||
-      id > maxId ||
-      !(flat ? a <= c && b <= d : a <= d && b <= e && c <= f) ||
+      !isId(id) ||
       !(areNumbers(a, b, c, d, e, f) && (flat || areNumbers(g, h, i))) ||
+      !(flat ? a <= c && b <= d : a <= d && b <= e && c <= f) ||
       // What is infinite is NaN without itself.
       (flat ? e - e + (f - f) : g! - g! + (h! - h!) + (i! - i!)) !== 0
     ) {
@@ -392,17 +422,18 @@ export class BroadPhase extends Queries {
    * space.setAll([0, 0, 10, 10, 5, 5, 15, 15]).update();
    * space.pairs; // → Uint32Array [0, 1]
    */
-  setAll(boxes: Boxes, count?: number): this {
+  setAll(boxes: Boxes, count?: number): this;
+  setAll(boxes: Boxes, count?: number, where = 'setAll'): this {
     const width = this.width;
     const single = boxes instanceof Float32Array;
-    checkBoxes('setAll', boxes);
-    if (count === undefined) count = countBoxes('setAll', boxes, this.dimensions);
+    checkBoxes(where, boxes);
+    if (count === undefined) count = countBoxes(where, boxes, this.dimensions);
     const { length } = boxes;
-    checkBoxCount('setAll: count', count);
+    checkBoxCount(`${where}: count`, count);
     if (count * width > length) {
-      badValue('setAll: count', count, `at most ${Math.floor(length / width)}, as ${length} numbers were given`);
+      badValue(`${where}: count`, count, `at most ${Math.floor(length / width)}, as ${length} numbers were given`);
     }
-    if (Array.isArray(boxes)) checkNumbers(boxes, count, this.dimensions); // typed arrays hold nothing else
+    if (Array.isArray(boxes)) checkNumbers(where, boxes, count, this.dimensions); // typed arrays hold nothing else
     try {
       const kernel = this.kernel;
       const at = (single ? kernel.stage(count) : kernel.stage_exact(count)) >>> 0;
@@ -412,9 +443,9 @@ export class BroadPhase extends Queries {
         view.set(Array.isArray(boxes) ? boxes.slice(0, view.length) : (boxes as Float64Array).subarray(0, view.length));
       this.forget();
       const bad = kernel.replace(count, single ? 0 : 1);
-      if (bad >= 0) badBox('setAll', bad, view.slice(bad * width, (bad + 1) * width), this.dimensions);
+      if (bad >= 0) badBox(where, bad, view.slice(bad * width, (bad + 1) * width), this.dimensions);
     } catch (error) {
-      this.recover(error, 'setAll');
+      this.recover(error, where);
     }
     this.#view = undefined;
     return this;
@@ -474,7 +505,7 @@ export class BroadPhase extends Queries {
    * space.delete(7); // → false
    */
   delete(id: number): boolean {
-    if (id >>> 0 !== id || id > maxId) badId('delete', id);
+    if (!isId(id)) badId('delete', id);
     this.#view = undefined;
     try {
       const { kernel } = this;
@@ -494,7 +525,7 @@ export class BroadPhase extends Queries {
    * new BroadPhase().has(7); // → false
    */
   has(id: number): boolean {
-    if (id >>> 0 !== id || id > maxId) badId('has', id);
+    if (!isId(id)) badId('has', id);
     return this.knows(id);
   }
 
@@ -512,6 +543,7 @@ export class BroadPhase extends Queries {
    * The same without garbage.
    * @param id an integer from 0 to 2^24 - 1
    * @param out filled with 4 numbers (3D: 6) and returned
+   * @throws TypeError where it is no array, or one of fixed length that is too short
    *
    * @example
    * const space = new BroadPhase();
@@ -520,7 +552,11 @@ export class BroadPhase extends Queries {
    */
   get<Out extends Float32Array | Float64Array | number[]>(id: number, out: Out): Out | undefined;
   get(id: number, out: Float32Array | Float64Array | number[] = new Float64Array(this.width)) {
-    if (id >>> 0 !== id || id > maxId) badId('get', id);
+    if (!isId(id)) badId('get', id);
+    const fixed = ArrayBuffer.isView(out);
+    if (!(fixed || Array.isArray(out)) || (fixed && !(out.length >= this.width))) {
+      badValue('get: out', out, `an array, or a typed array of ${this.width} numbers`, true);
+    }
     if (this.kernel.get(id) === 0) return undefined;
     const io = this.io();
     for (let k = 0; k < this.width; k++) out[k] = io[k]!;
@@ -548,7 +584,7 @@ export class BroadPhase extends Queries {
    * space.update().pairs; // → Uint32Array [0, 1, 1, 2]
    */
   setFilter(id: number, layer: number, mask: number): this {
-    if (id >>> 0 !== id || id > maxId) badId('setFilter', id);
+    if (!isId(id)) badId('setFilter', id);
     checkBits('setFilter: layer', layer);
     checkBits('setFilter: mask', mask);
     try {
@@ -574,7 +610,7 @@ export class BroadPhase extends Queries {
    * space.update().pairCount; // → 2
    */
   setStatic(id: number, isStatic = true): this {
-    if (id >>> 0 !== id || id > maxId) badId('setStatic', id);
+    if (!isId(id)) badId('setStatic', id);
     if (typeof isStatic !== 'boolean') badValue('setStatic: isStatic', isStatic, 'true or false', true);
     try {
       if (this.kernel.set_static(id, isStatic ? 1 : 0) === 0) noBox('setStatic', id);
@@ -634,7 +670,8 @@ export class BroadPhase extends Queries {
   }
 
   /**
-   * Each overlapping pair of ids once, `[a0, b0, a1, b1, …]` with a < b, as of the last update. The order
+   * Each overlapping pair of ids once, `[a0, b0, a1, b1, …]` with a < b, as of the last update: boxes that were deleted
+   * since are still named. The order
    * depends only on the calls made. A view of the kernel's memory: valid until the next `update()`, or until adding
    * many boxes at once makes memory grow; then its length is 0. There is room for some boxes, and for all questions.
    *
@@ -822,6 +859,30 @@ export class BroadPhase extends Queries {
   }
 
   /**
+   * What JSON has of a space, and what is printed of it: not its boxes, which `snapshot` saves.
+   *
+   * @example
+   * const space = new BroadPhase().set(7, 0, 0, 1, 1);
+   * JSON.stringify(space); // → '{"dimensions":2,"technique":"auto","size":1,"pairs":0}'
+   */
+  toJSON(): { dimensions: 2 | 3; technique: TechniqueName; size: number; pairs: number } | { disposed: true } {
+    if (this.disposed) return { disposed: true };
+    return { dimensions: this.dimensions, technique: this.technique, size: this.size, pairs: this.pairCount };
+  }
+
+  /**
+   * For Node's console.
+   * @internal
+   */
+  [Symbol.for('nodejs.util.inspect.custom')](
+    _depth: number,
+    options: unknown,
+    inspect: (value: unknown, options: unknown) => string,
+  ): string {
+    return `BroadPhase ${inspect(this.toJSON(), options)}`;
+  }
+
+  /**
    * Checks every invariant of the space, in time proportional to boxes and pairs.
    * @throws Error that says what is broken, which would be a fault of this library
    *
@@ -850,12 +911,14 @@ export class BroadPhase extends Queries {
   }
 
   /**
-   * For broadphase/trace: calls `watcher` after each update from now on; without one, no longer.
+   * For broadphase/trace: calls `watcher` after each update from now on; without one, no longer. Returns the size of
+   * the world, where it wraps around.
    * @internal
    */
-  [watch](watcher?: Watcher): void {
+  [watch](watcher?: Watcher): readonly number[] | undefined {
     if (watcher && this.#watcher) throw new Error('this BroadPhase is being recorded already');
     this.#watcher = watcher;
+    return this.#wrap;
   }
 
   static {
@@ -866,6 +929,7 @@ export class BroadPhase extends Queries {
         space.recover(error, 'findPairsBetween');
       }
     };
+    fill = (space, ...given) => space.setAll(...(given as unknown as [Boxes]));
     beginAnew = (space) => {
       space.clear();
       return space.kernel.begin_anew() >>> 0;
@@ -932,7 +996,7 @@ export class BroadPhase extends Queries {
 /** Finds what is wrong with the arguments of `set`. */
 function badSet(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
   const id = given[0];
-  if (typeof id !== 'number' || id >>> 0 !== id || id > maxId) badId('set', id);
+  if (!isId(id)) badId('set', id);
   if (given.length !== 1 + 2 * dimensions) badCount('set', id, given.length, dimensions);
   badBox('set', id, Array.prototype.slice.call(given, 1), dimensions);
 }
@@ -940,11 +1004,11 @@ function badSet(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
 /** Finds what is wrong with the arguments of `setSwept`. */
 function badSwept(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
   const id = given[0];
-  if (typeof id !== 'number' || id >>> 0 !== id || id > maxId) badId('setSwept', id);
+  if (!isId(id)) badId('setSwept', id);
   badQuestion('setSwept', Array.prototype.slice.call(given, 1), dimensions === 2 ? sweep2 : sweep3, 'a number');
 }
 
-const areNumbers = (a: unknown, b: unknown, c: unknown, d: unknown = 0, e: unknown = 0, f: unknown = 0): boolean =>
+const areNumbers = (a: unknown, b: unknown, c: unknown = 0, d: unknown = 0, e: unknown = 0, f: unknown = 0): boolean =>
   typeof a === 'number' &&
   typeof b === 'number' &&
   typeof c === 'number' &&
@@ -1021,11 +1085,11 @@ export function countBoxes(where: string, boxes: Boxes, dimensions: 2 | 3): numb
 }
 
 /** Each number of the first `count` boxes of an array really is one; what it is worth the kernel checks. */
-function checkNumbers(boxes: ArrayLike<unknown>, count: number, dimensions: 2 | 3): void {
+function checkNumbers(where: string, boxes: ArrayLike<unknown>, count: number, dimensions: 2 | 3): void {
   const width = 2 * dimensions;
   for (let k = 0; k < count * width; k++) {
     if (typeof boxes[k] === 'number') continue;
     const id = Math.floor(k / width);
-    badBox('setAll', id, Array.prototype.slice.call(boxes, id * width, (id + 1) * width), dimensions);
+    badBox(where, id, Array.prototype.slice.call(boxes, id * width, (id + 1) * width), dimensions);
   }
 }

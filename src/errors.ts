@@ -23,6 +23,9 @@ export function show(value: unknown): string {
   return Object.is(value, -0) ? '-0' : String(value);
 }
 
+/** Whether it is an integer in range. */
+export const isId = (id: unknown): id is number => typeof id === 'number' && id >>> 0 === id && id <= maxId;
+
 /** An id that is no integer in range. */
 export function badId(where: string, id: unknown): never {
   const message = `${where}: the id is ${show(id)}, expected an integer from 0 to ${maxId}`;
@@ -71,13 +74,53 @@ export function badValue(where: string, value: unknown, expected: string, wrongT
 
 /** Layers and masks are 32 bits. */
 export function checkBits(where: string, bits: unknown): void {
-  if ((bits as number) >>> 0 === bits) return;
-  badValue(where, bits, 'an integer from 0 to 4294967295 (of signed bits, write bits >>> 0)', typeof bits !== 'number');
+  if (typeof bits !== 'number') badValue(where, bits, 'an integer from 0 to 4294967295', true);
+  if (bits >>> 0 === bits) return;
+  badValue(where, bits, `an integer from 0 to 4294967295${bits < 0 ? ' (of signed bits, write bits >>> 0)' : ''}`);
 }
 
 /** Where answers are written to. */
 export function checkOut(where: string, out: unknown): void {
   if (!Array.isArray(out)) badValue(`${where}: out`, out, 'an array', true);
+}
+
+/** Whether what a ray or a moving box meets can be written to it. */
+export const isHit = (out: unknown): boolean =>
+  typeof out === 'object' && out !== null && Array.isArray((out as { normal?: unknown }).normal);
+
+/** What a ray or a moving box meets cannot be written to it: `time` or `distance` says how far it is. */
+export function badHit(where: string, out: unknown, far: 'distance' | 'time'): never {
+  badValue(where, out, `an object { id: 0, ${far}: 0, normal: [] }`, true);
+}
+
+/** An object of options, all of which are known; those left undefined do not count. */
+export function checkOptions(where: string, options: unknown, known: readonly string[]): void {
+  if (options === undefined) return;
+  if (typeof options !== 'object' || options === null) badValue(where, options, 'an object of options', true);
+  for (const name in options) {
+    if (known.includes(name) || (options as Record<string, unknown>)[name] === undefined) continue;
+    const [nearest] = [...known].sort((a, b) => edits(name, a) - edits(name, b));
+    throw new TypeError(
+      `${where}: there is no option ${show(name)}, did you mean ${show(nearest)}? There are ${known.join(', ')}`,
+    );
+  }
+}
+
+/** What is left out is the lesser fault. */
+const leftOut = 0.4;
+
+/** How many letters have to be changed, put in or left out to make one word of another. */
+function edits(from: string, to: string): number {
+  let row = Array.from({ length: to.length + 1 }, (_, k) => k * leftOut);
+  for (let k = 0; k < from.length; k++) {
+    const above = row;
+    row = [k + 1];
+    for (let n = 0; n < to.length; n++) {
+      const same = from[k]!.toLowerCase() === to[n]!.toLowerCase() ? 0 : 1;
+      row.push(Math.min(above[n]! + same, above[n + 1]! + 1, row[n]! + leftOut));
+    }
+  }
+  return row[to.length]!;
 }
 
 /** A question whose numbers are not what they should be: `names` says which, `expected` what, in front. */

@@ -8,8 +8,11 @@ import {
   beginAnew,
   checkBoxes,
   countBoxes,
+  fill,
+  optionNames,
   splitColours,
 } from './broad-phase.ts';
+import { checkOptions } from './errors.ts';
 
 /** By dimensions. A space is not here while it is in use: a getter in the caller's array may call again. */
 const spares: (BroadPhase | undefined)[] = [];
@@ -18,7 +21,8 @@ const spares: (BroadPhase | undefined)[] = [];
 const mostBytes = 64 * 2 ** 20;
 
 /** The space for a call with these options. */
-function borrow(options?: BroadPhaseOptions): BroadPhase {
+function borrow(where: string, options?: BroadPhaseOptions): BroadPhase {
+  checkOptions(where, options, optionNames);
   const dimensions = plain(options);
   const spare = spares[dimensions];
   if (spare === undefined) return new BroadPhase(options);
@@ -53,8 +57,8 @@ function plain(options?: BroadPhaseOptions): number {
  * findPairs([0, 0, 10, 10, 5, 5, 15, 15]); // → Uint32Array [0, 1]
  */
 export function findPairs(boxes: Boxes, options?: BroadPhaseOptions): Uint32Array {
-  const space = borrow(options);
-  const pairs = space.setAll(boxes).update().pairs.slice();
+  const space = borrow('findPairs', options);
+  const pairs = fill(space, boxes, undefined, 'findPairs').update().pairs.slice();
   giveBack(space, options);
   return pairs;
 }
@@ -74,12 +78,12 @@ export function findPairs(boxes: Boxes, options?: BroadPhaseOptions): Uint32Arra
  * findPairsBetween(players, coins); // → Uint32Array [0, 0]
  */
 export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOptions): Uint32Array {
-  const space = borrow(options);
+  const space = borrow('findPairsBetween', options);
   checkBoxes('findPairsBetween: red', red);
   checkBoxes('findPairsBetween: blue', blue);
   const reds = countBoxes('findPairsBetween: red', red, space.dimensions);
   countBoxes('findPairsBetween: blue', blue, space.dimensions);
-  space.setAll(join(red, blue));
+  fill(space, join(red, blue), undefined, 'findPairsBetween');
   splitColours(space, reds);
   const pairs = space.update().pairs.slice();
   giveBack(space, options);

@@ -76,10 +76,16 @@ let techniques = 0;
  * init('kernel.wasm' as never); // throws TypeError: init: got kernel.wasm, expected a WebAssembly.Module
  */
 export function init(source: WebAssembly.Module | BufferSource): void {
-  if (source instanceof WebAssembly.Module) module = source;
-  else if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) module = compile(source);
+  if (source instanceof WebAssembly.Module) module = checked(source);
+  else if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) module = checked(compile(source));
   else throw new TypeError(`init: got ${String(source)}, expected a WebAssembly.Module or the bytes of one`);
   techniques = 0;
+}
+
+/** The module, if it is a kernel of this library: else what was there before stays. */
+function checked(module: WebAssembly.Module): WebAssembly.Module {
+  if (WebAssembly.Module.exports(module).some(({ name }) => name === 'open_space')) return module;
+  throw new TypeError("init: got a module that is no kernel, expected the one of 'broadphase/kernel.wasm'");
 }
 
 /** A fresh kernel with memory of its own. */

@@ -2,13 +2,27 @@
 // Everything is answered as of the last update; what the questions need is made at the first after it. The kernel
 // answers (kernel/queries.hpp); this file checks the questions, and copies the answers to where they are wanted. A
 // visitor gets them in parts, so that the search ends where it says so, and may ask questions itself.
-import { badId, badQuestion, badValue, checkOut, corners, maxId, sweep2, sweep3 } from './errors.ts';
+import {
+  badHit,
+  badId,
+  badQuestion,
+  badValue,
+  checkOptions,
+  checkOut,
+  corners,
+  isHit,
+  isId,
+  maxId,
+  sweep2,
+  sweep3,
+} from './errors.ts';
 import {
   checkDistance,
-  checkOptions,
   checkVisitor,
   everything,
+  farOptions,
   type IdsOptions,
+  idsOptions,
   ignoredOf,
   maskOf,
   type NearestOptions,
@@ -17,6 +31,7 @@ import {
   type RayAllOptions,
   type RayHit,
   type RayOptions,
+  rayOptions,
   type SweepHit,
   type SweepOptions,
 } from './query-options.ts';
@@ -68,7 +83,8 @@ const isNumber = (value: unknown): value is number => typeof value === 'number';
  * make no garbage, keep and reuse them with an `out` in them, whose answers stay about as many.
  *
  * All questions throw RangeError for NaN, a minimum above its maximum, infinite points, ways and directions, negative
- * distances, and masks and ids out of range; TypeError for other than numbers and for a wrong number of them.
+ * distances, and masks and ids out of range; TypeError for other than numbers, for a wrong number of them, and for
+ * options that there are not.
  */
 export abstract class Queries extends Space {
   #words = new Uint32Array();
@@ -90,8 +106,8 @@ export abstract class Queries extends Space {
    * space.isColliding(7, 8); // → false
    */
   isColliding(a: number, b: number): boolean {
-    if (a >>> 0 !== a || a > maxId) badId('isColliding', a);
-    if (b >>> 0 !== b || b > maxId) badId('isColliding', b);
+    if (!isId(a)) badId('isColliding', a);
+    if (!isId(b)) badId('isColliding', b);
     try {
       return this.kernel.is_pair(a, b) === 1;
     } catch (error) {
@@ -113,7 +129,7 @@ export abstract class Queries extends Space {
    * space.collisionsOf(1).sort(); // → [2, 3]
    */
   collisionsOf(id: number, out: number[] = []): number[] {
-    if (id >>> 0 !== id || id > maxId) badId('collisionsOf', id);
+    if (!isId(id)) badId('collisionsOf', id);
     checkOut('collisionsOf', out);
     try {
       return this.#copyIds(this.kernel.partners(id), out);
@@ -161,13 +177,13 @@ export abstract class Queries extends Space {
   queryBox(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: IdsOptions): number[] {
     const io = this.io();
     if (this.width === 4) {
-      if (!(a <= c && b <= d && isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d)) || f !== undefined) {
+      if (!(isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d) || f !== undefined) {
         badQuestion('queryBox', [a, b, c, d, e, f, options], corners[2], number);
       }
       options = e as IdsOptions | undefined;
     } else {
-      const good = a <= d && b <= (e as number) && c <= (f as number) && isNumber(a) && isNumber(b) && isNumber(c);
-      if (!(good && isNumber(d) && isNumber(e) && isNumber(f))) {
+      const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && isNumber(e) && isNumber(f);
+      if (!(good && a <= d && b <= e && c <= f)) {
         badQuestion('queryBox', [a, b, c, d, e, f], corners[3], number);
       }
       io[4] = e;
@@ -278,7 +294,8 @@ export abstract class Queries extends Space {
     options?: RayOptions,
   ): RayHit | undefined;
   rayCast(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayOptions) {
-    options = this.#ray('rayCast', a, b, c, d, e, f, options);
+    options = this.#ray('rayCast', rayOptions, a, b, c, d, e, f, options);
+    if (options?.out !== undefined && !isHit(options.out)) badHit('rayCast: out', options.out, 'distance');
     if (this.#order('rayCast', onRay, options, 1) === 0) return undefined;
     const hit: RayHit = options?.out ?? { id: 0, distance: 0, normal: [] };
     hit.distance = this.#doubleView()[this.#readHit(0, hit)]!;
@@ -317,13 +334,14 @@ export abstract class Queries extends Space {
     options?: RayAllOptions,
   ): RayHit[];
   rayCastAll(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayAllOptions): RayHit[] {
-    options = this.#ray('rayCastAll', a, b, c, d, e, f, options);
+    options = this.#ray('rayCastAll', farOptions, a, b, c, d, e, f, options);
     if (options?.visit !== undefined) {
       this.#visitOrder('rayCastAll', onRay, options, everything, options.visit);
       return none as RayHit[];
     }
     const out = options?.out ?? [];
     checkOut('rayCastAll', out);
+    for (let k = 0; k < out.length; k++) if (!isHit(out[k])) badHit(`rayCastAll: out[${k}]`, out[k], 'distance');
     const count = this.#order('rayCastAll', onRay, options, everything);
     for (let k = 0; k < count; k++) {
       const hit = out[k] ?? this.#spare.pop() ?? { id: 0, distance: 0, normal: [] };
@@ -397,14 +415,15 @@ export abstract class Queries extends Space {
   ) {
     const io = this.io();
     if (this.width === 4) {
-      const good = a <= c && b <= d && isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d);
+      const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d;
       if (!(good && isPlace(e) && isPlace(f)) || h !== undefined) {
         badQuestion('sweep', [a, b, c, d, e, f, g, h, i, options], sweep2, number);
       }
       options = g as SweepOptions | undefined;
     } else {
-      const good = a <= d && b <= e && c <= f && isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d);
-      if (!(good && isNumber(e) && isNumber(f) && isPlace(g) && isPlace(h) && isPlace(i))) {
+      const all = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && isNumber(e) && isNumber(f);
+      const good = all && a <= d && b <= e && c <= f;
+      if (!(good && isPlace(g) && isPlace(h) && isPlace(i))) {
         badQuestion('sweep', [a, b, c, d, e, f, g, h, i], sweep3, number);
       }
       io[6] = g;
@@ -419,10 +438,12 @@ export abstract class Queries extends Space {
     io[5] = f;
     io[limitAt] = 1;
     io[lengthAt] = 1;
+    checkOptions('sweep', options, idsOptions);
     if (options?.visit !== undefined) {
       this.#visitOrder('sweep', onWay, options, everything, options.visit);
       return undefined;
     }
+    if (options?.out !== undefined && !isHit(options.out)) badHit('sweep: out', options.out, 'time');
     if (this.#order('sweep', onWay, options, 1) === 0) return undefined;
     const hit: SweepHit = options?.out ?? { id: 0, time: 0, normal: [] };
     hit.time = this.#doubleView()[this.#readHit(0, hit)]!;
@@ -468,7 +489,7 @@ export abstract class Queries extends Space {
       badValue('nearest: k', most, 'an integer from 1 on, or Infinity');
     }
     const wanted = Math.min(most, everything);
-    checkOptions('nearest', options);
+    checkOptions('nearest', options, farOptions);
     const { maxDistance = Number.POSITIVE_INFINITY } = options ?? {};
     checkDistance('nearest: maxDistance', maxDistance);
     this.io()[limitAt] = maxDistance;
@@ -516,6 +537,7 @@ export abstract class Queries extends Space {
   /** The same for a ray, with its limit. */
   #ray<Options extends { maxDistance?: number }>(
     where: string,
+    known: readonly string[],
     a: number,
     b: number,
     c: number,
@@ -546,7 +568,7 @@ export abstract class Queries extends Space {
     io[0] = a;
     io[1] = b;
     writeLength(io, this.width, this.dimensions);
-    checkOptions(where, options);
+    checkOptions(where, options, known);
     const { maxDistance = Number.POSITIVE_INFINITY } = options ?? {};
     io[limitAt] = checkDistance(`${where}: maxDistance`, maxDistance);
     return options;
@@ -555,6 +577,7 @@ export abstract class Queries extends Space {
   /** Asks for the boxes that touch what stands in the kernel's array. */
   #area(where: string, options: IdsOptions | undefined): number[] {
     if (this.wraps) noQueries(where);
+    checkOptions(where, options, idsOptions);
     const mask = maskOf(where, options);
     const ignored = ignoredOf(where, options);
     if (options?.visit !== undefined) {

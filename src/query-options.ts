@@ -1,5 +1,5 @@
 // What the questions of queries.ts may be given, and what they answer; and the checks of it.
-import { badId, badValue, checkBits, maxId } from './errors.ts';
+import { badId, badValue, checkBits, isId } from './errors.ts';
 
 /** What every question may be given, and an `out` or a `visit` of its own. */
 export interface QueryOptions {
@@ -82,7 +82,6 @@ export const everything = 0xffffffff;
 export const nobody = 0xffffffff;
 
 export function maskOf(where: string, options: QueryOptions | undefined): number {
-  checkOptions(where, options);
   const mask = options?.mask;
   if (mask === undefined) return everything;
   checkBits(`${where}: mask`, mask);
@@ -92,14 +91,14 @@ export function maskOf(where: string, options: QueryOptions | undefined): number
 export function ignoredOf(where: string, options: QueryOptions | undefined): number {
   const id = options?.ignore;
   if (id === undefined) return nobody;
-  if (id >>> 0 !== id || id > maxId) badId(`${where}: ignore`, id);
+  if (!isId(id)) badId(`${where}: ignore`, id);
   return id;
 }
 
-export function checkOptions(where: string, options: unknown): void {
-  if (options === undefined || (typeof options === 'object' && options !== null)) return;
-  badValue(`${where}: options`, options, 'an object of options', true);
-}
+/** The options of each kind of question. */
+export const idsOptions = ['mask', 'ignore', 'out', 'visit'] as const;
+export const rayOptions = ['mask', 'ignore', 'maxDistance', 'out'] as const;
+export const farOptions = [...rayOptions, 'visit'] as const;
 
 export function checkVisitor(where: string, visitor: unknown): void {
   if (typeof visitor !== 'function') badValue(`${where}: visit`, visitor, 'a function', true);

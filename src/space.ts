@@ -61,6 +61,11 @@ export abstract class Space {
     return this.#own;
   }
 
+  /** @internal */
+  protected get disposed(): boolean {
+    return this.kernel === disposed;
+  }
+
   /** Lets go of the memory at once; it also goes with the object. Any call after this throws. */
   dispose(): void {
     this.#own = disposed;

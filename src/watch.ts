@@ -1,7 +1,7 @@
 // How broadphase/trace sees what stands in a space: a method under a registered symbol, since the two entries of the
 // package are bundled apart and share nothing else.
 
-/** The key of the method of BroadPhase that sets its watcher. */
+/** The key of the method of BroadPhase that sets its watcher, and gives the size of its world where that wraps around. */
 export const watch: unique symbol = Symbol.for('broadphase.watch') as never;
 
 /**

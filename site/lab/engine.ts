@@ -41,7 +41,7 @@ export class Engine implements Record<keyof Requests, unknown> {
   /** @throws TraceError where a file is broken: the scene before stays */
   async open(source: Source, frame: number): Promise<Opened> {
     const feed = await openSource(source, frame);
-    this.#use(this.#makeSpace(this.#setup, feed.dimensions));
+    this.#use(this.#makeSpace(this.#setup, feed));
     this.#feed = feed;
     this.#recording = this.#before = undefined;
     const { dimensions, world, frames } = feed;
@@ -177,8 +177,10 @@ export class Engine implements Record<keyof Requests, unknown> {
     this.#heatAt = -Infinity;
   }
 
-  #makeSpace({ technique, cellSize }: Setup, dimensions = this.#feed?.dimensions ?? 2): BroadPhase {
-    return new BroadPhase({ dimensions, technique, ...(cellSize === undefined ? {} : { cellSize }) });
+  #makeSpace({ technique, cellSize }: Setup, feed = this.#feed): BroadPhase {
+    const { dimensions = 2, frame } = feed ?? {};
+    const options = { dimensions, technique, cellSize, wrap: frame?.wrap };
+    return new BroadPhase(options as BroadPhaseOptions); // what is undefined is as if it were not there
   }
 
   /** Keeps the frame at hand, as the one before the next: in the same array, while it fits. */

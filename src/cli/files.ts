@@ -62,7 +62,7 @@ function exportRaw(source: FrameSource): Uint8Array {
 }
 
 function exportTrace(source: FrameSource): Uint8Array {
-  const writer = new TraceWriter(source.dimensions);
+  const writer = new TraceWriter(source.dimensions, source.wrap);
   const pieces: Uint8Array[] = [writer.header()];
   for (const { boxes, ids, rules } of source) pieces.push(writer.frame(boxes, ids, rules));
   pieces.push(writer.end());
@@ -78,6 +78,7 @@ function slice(source: FrameSource, range: string): FrameSource {
   }
   return {
     dimensions: source.dimensions,
+    wrap: source.wrap,
     frames: to - from + 1,
     *[Symbol.iterator](): Generator<Frame> {
       for (const frame of source) {

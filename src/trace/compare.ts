@@ -1,6 +1,6 @@
 // All techniques on the same frames, side by side.
 import { BroadPhase, type TechniqueName } from 'broadphase';
-import type { FrameSource } from './format.ts';
+import { type FrameSource, worldOf } from './format.ts';
 import { begin, type ReplayOptions, timeUpdate } from './replay.ts';
 import { type Summary, summarize } from './statistics.ts';
 
@@ -49,7 +49,7 @@ export function compare(source: FrameSource, options: CompareOptions = {}): Comp
   const { techniques = BroadPhase.techniques, passes = 3, progress, ...settings } = options;
   const contenders = techniques.map((technique) => ({
     technique,
-    space: new BroadPhase({ ...settings, technique, dimensions: source.dimensions }),
+    space: new BroadPhase({ ...worldOf(source), ...settings, technique, dimensions: source.dimensions }),
     times: [] as number[],
     tests: 0,
     bytes: 0,

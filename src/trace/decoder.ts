@@ -20,11 +20,18 @@ export class FrameDecoder {
   #index = 0;
   /** What may be set in the first byte of a frame. */
   readonly #flags: number;
+  readonly #wraps: boolean;
+  /** The size of the world, where it wraps around: once the first frame is read. */
+  wrap: readonly number[] | undefined;
 
-  /** @param version of the trace: older ones know less */
-  constructor(dimensions: 2 | 3, version: number) {
+  /**
+   * @param version of the trace: older ones know less
+   * @param wraps whether its world wraps around
+   */
+  constructor(dimensions: 2 | 3, version: number, wraps: boolean) {
     this.#state = new TraceState(dimensions);
     this.#flags = doublesFlag | (version > 1 ? rulesFlag : 0);
+    this.#wraps = wraps;
   }
 
   /** How many frames have been read. */
@@ -50,7 +57,16 @@ export class FrameDecoder {
     const kind = first & ~this.#flags;
     if (kind !== frameKind.snapshot && kind !== frameKind.changes) cursor.fail(`a frame of unknown kind ${first}`);
     if (kind === frameKind.changes && this.#index === 0) cursor.fail('the first frame is not a snapshot');
+    if (this.#wraps && this.#index === 0) this.#readWrap(cursor);
     return this.#decodeBoxes(cursor, kind === frameKind.snapshot, first);
+  }
+
+  #readWrap(cursor: Cursor): void {
+    const sizes = new Float64Array(this.#state.width / 2);
+    const bytes = new Uint8Array(sizes.buffer);
+    for (let k = 0; k < bytes.length; k++) bytes[k] = cursor.byte('the size of the world');
+    for (const size of sizes) if (!(size > 0 && size <= 1e300)) cursor.fail(`a world of ${size}, expected above 0`);
+    this.wrap = [...sizes];
   }
 
   #decodeBoxes(cursor: Cursor, snapshot: boolean, flags: number): Frame {
@@ -79,7 +95,7 @@ export class FrameDecoder {
     const boxes = (doubles ? state.was : this.#floats).subarray(0, count * width);
     const ids = state.named ? state.ids.subarray(0, count) : undefined;
     const rules = state.ruled ? state.rules.subarray(0, 3 * count) : undefined;
-    return { index: this.#index++, count, ids, rules, boxes, changed };
+    return { index: this.#index++, count, ids, rules, wrap: this.wrap, boxes, changed };
   }
 
   /** Boxes from this place on go. */

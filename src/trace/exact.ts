@@ -5,7 +5,7 @@ const idLimit = 2 ** 24;
 
 /**
  * The pairs of closed boxes that overlap and may meet. Box k has the id `ids[k]`, or k; `rules` are those of
- * {@link Frame.rules}.
+ * {@link Frame.rules}. In a world that wraps around every two boxes are looked at.
  *
  * @param boxes minima then maxima, box after box
  * @returns the sorted set of pairs, one number for each: the smaller id times 2^24, plus the larger
@@ -18,7 +18,9 @@ export function exactPairs(
   dimensions: 2 | 3,
   ids?: ArrayLike<number>,
   rules?: ArrayLike<number>,
+  wrap?: readonly number[],
 ): Float64Array {
+  if (wrap) return wrappedPairs(boxes, wrap, ids, rules);
   const width = 2 * dimensions;
   const count = boxes.length / width;
   const axis = longestAxis(boxes, dimensions);
@@ -45,6 +47,52 @@ export function exactPairs(
     }
   }
   return Float64Array.from(keys).sort();
+}
+
+function wrappedPairs(
+  boxes: ArrayLike<number>,
+  wrap: readonly number[],
+  ids?: ArrayLike<number>,
+  rules?: ArrayLike<number>,
+): Float64Array {
+  const d = wrap.length;
+  const count = boxes.length / (2 * d);
+  const keys: number[] = [];
+  for (let i = 0; i < count; i++) {
+    for (let j = i + 1; j < count; j++) {
+      if (rules && !mayMeet(rules, 3 * i, 3 * j)) continue;
+      const [p, q] = [2 * d * i, 2 * d * j];
+      const meet = wrap.every((size, a) =>
+        wrapsOver(boxes[p + a], boxes[p + d + a], boxes[q + a], boxes[q + d + a], size),
+      );
+      if (meet) keys.push(ids ? key(ids[i], ids[j]) : key(i, j));
+    }
+  }
+  return Float64Array.from(keys).sort();
+}
+
+/** Whether some whole number of worlds, added to the one, makes the two overlap. */
+function wrapsOver(aMin: number, aMax: number, bMin: number, bMax: number, size: number): boolean {
+  const most = (bMax - aMin) / size;
+  const least = (bMin - aMax) / size;
+  if (!(Number.isFinite(most) && Number.isFinite(least))) return true; // without an end: it reaches all around
+  // Whole numbers lie between the two; exactly where doubles may have been rounded over one.
+  const rounded = 1e-12 + 1e-15 * ((Math.abs(aMin) + Math.abs(aMax) + Math.abs(bMin) + Math.abs(bMax)) / size);
+  const sure = (x: number) => Math.abs(x - Math.round(x)) > rounded && Math.abs(x) < 1e9;
+  if (sure(most) && sure(least)) return Math.ceil(least) <= Math.floor(most);
+  const world = whole(size);
+  return floorOf(whole(bMax) - whole(aMin), world) >= -floorOf(whole(aMax) - whole(bMin), world);
+}
+
+const floorOf = (a: bigint, b: bigint): bigint => (a >= 0n || a % b === 0n ? a / b : a / b - 1n);
+
+/** A double in units of the smallest there is. */
+function whole(x: number): bigint {
+  const bits = new BigUint64Array(Float64Array.of(x).buffer)[0]!;
+  const exponent = (bits >> 52n) & 0x7ffn;
+  const fraction = bits & 0xfffffffffffffn;
+  const size = exponent === 0n ? fraction : (fraction | 0x10000000000000n) << (exponent - 1n);
+  return x < 0 ? -size : size;
 }
 
 /** The pairs [a, b, a, b, …] as such a set; a pair given twice is there twice. */

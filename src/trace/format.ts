@@ -6,7 +6,7 @@ export const magic = Uint8Array.of(0x89, 0x42, 0x50, 0x54, 0x0d, 0x0a, 0x1a, 0x0
 /** The version that is written, and the newest that is read. */
 export const formatVersion = 2;
 
-/** Magic, version (2 bytes), dimensions, a reserved zero, checksum of those twelve. */
+/** Magic, version (2 bytes), dimensions, what kind of world, checksum of those twelve. */
 export const headerBytes = 16;
 
 /** Before the body of each frame: its length and its checksum. */
@@ -21,6 +21,12 @@ export const doublesFlag = 0x10;
 /** Set in the first byte of a frame in which rules change: who may meet whom. Since version 2. */
 export const rulesFlag = 0x20;
 
+/**
+ * What kind of world: 0, or 1 where it wraps around, and the first frame has its size. Readers that know nothing of it
+ * refuse all but 0.
+ */
+export const wrapsAround = 1;
+
 /** What a rule says: that a box is static, and that a layer and a mask follow. */
 export const ruleBits = { still: 1, filter: 2 } as const;
 
@@ -28,7 +34,7 @@ export const ruleBits = { still: 1, filter: 2 } as const;
 export const maxBoxes = 2 ** 24;
 
 /** No body is longer: every box new, in 3D, all numbers doubles of 8 bytes, its id and its rule. */
-export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10 + 16) + 64;
+export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10 + 16) + 64 + 24;
 
 /**
  * A trace that cannot be read: what is wrong, and where.
@@ -66,6 +72,8 @@ export interface Frame {
   readonly ids: Uint32Array | undefined;
   /** Layer, mask, and 1 where it is static, of each box; left out where none has a rule of its own. */
   readonly rules?: Uint32Array | undefined;
+  /** The size of the world along each axis, where it wraps around. */
+  readonly wrap?: readonly number[] | undefined;
   /** Minima then maxima of each box: float32 where that holds all of them exactly. */
   readonly boxes: Float32Array | Float64Array;
   /** How many boxes are new or differ from the frame before. */
@@ -78,4 +86,10 @@ export interface FrameSource extends Iterable<Frame> {
   readonly dimensions: 2 | 3;
   /** How many frames there are. */
   readonly frames: number;
+  /** The size of the world along each axis, where it wraps around. */
+  readonly wrap?: readonly number[] | undefined;
 }
+
+/** As an option of a space. */
+export const worldOf = ({ wrap }: { wrap?: readonly number[] | undefined }): { wrap?: readonly number[] } =>
+  wrap ? { wrap } : {};

@@ -11,6 +11,7 @@ import {
   magic,
   maxBodyBytes,
   TraceError,
+  wrapsAround,
 } from './format.ts';
 
 /** How a trace is opened. */
@@ -37,20 +38,24 @@ export class Trace implements FrameSource {
   readonly dimensions: 2 | 3;
   /** How many frames there are. */
   readonly frames: number;
+  /** The size of the world along each axis, where it wraps around. */
+  readonly wrap: readonly number[] | undefined;
   /** With `salvage`: what is wrong with the file behind its last good frame. */
   readonly fault: TraceError | undefined;
   readonly #bytes: Uint8Array;
   readonly #version: number;
+  readonly #wraps: boolean;
 
   /** @throws TraceError that says what is wrong, in which frame, at which byte */
   constructor(bytes: Uint8Array, options: OpenOptions = {}) {
     this.#bytes = bytes;
-    const { dimensions, version, checksum } = readHeader(bytes);
+    const { dimensions, version, wraps, checksum } = readHeader(bytes);
     this.dimensions = dimensions;
     this.#version = version;
+    this.#wraps = wraps;
     let frames = 0;
+    const decoder = new FrameDecoder(dimensions, version, wraps);
     try {
-      const decoder = new FrameDecoder(dimensions, version);
       const bodies = checkedBodies(bytes, checksum);
       // Decoded once here, so that what goes through the frames later never meets an error.
       for (const { body, offset } of bodies) if (decoder.decode(body, offset)) frames++;
@@ -59,11 +64,12 @@ export class Trace implements FrameSource {
       this.fault = error;
     }
     this.frames = frames;
+    this.wrap = decoder.wrap;
   }
 
   /** The frames, one after the other: each is valid until the next. */
   *[Symbol.iterator](): Generator<Frame> {
-    const decoder = new FrameDecoder(this.dimensions, this.#version);
+    const decoder = new FrameDecoder(this.dimensions, this.#version, this.#wraps);
     let at = headerBytes;
     for (let k = 0; k < this.frames; k++) {
       const start = at + frameHeaderBytes;
@@ -113,8 +119,8 @@ export async function* readTrace(
   const queue = new ChunkQueue('getReader' in chunks ? chunksOf(chunks) : chunks);
   const head = await queue.take(headerBytes);
   if (!head) throw truncatedHeader(queue.bytesLeft);
-  let { dimensions, version, checksum } = readHeader(head);
-  const decoder = new FrameDecoder(dimensions, version);
+  let { dimensions, version, wraps, checksum } = readHeader(head);
+  const decoder = new FrameDecoder(dimensions, version, wraps);
   let offset = headerBytes;
   for (let index = 0; ; index++) {
     const start = await queue.take(frameHeaderBytes);
@@ -131,7 +137,7 @@ export async function* readTrace(
   if (await queue.take(1)) throw tooMany(decoder.frames, offset);
 }
 
-function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; version: number; checksum: number } {
+function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; version: number; wraps: boolean; checksum: number } {
   const known = Math.min(bytes.length, magic.length);
   for (let k = 0; k < known; k++) {
     if (bytes[k] === magic[k]) continue;
@@ -147,8 +153,9 @@ function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; version: number; ch
   if (uint32At(bytes, headerBytes - 4) !== checksum) throw new TraceError('corrupted: wrong checksum', -1, 12);
   const dimensions = bytes[10];
   if (dimensions !== 2 && dimensions !== 3) throw new TraceError(`${dimensions} dimensions, expected 2 or 3`, -1, 10);
-  if (version === 0 || bytes[11] !== 0) throw new TraceError('not a header of this format', -1, 8);
-  return { dimensions, version, checksum };
+  const wraps = version > 1 && bytes[11] === wrapsAround;
+  if (version === 0 || (bytes[11] !== 0 && !wraps)) throw new TraceError('not a header of this format', -1, 8);
+  return { dimensions, version, wraps, checksum };
 }
 
 /** The bodies of all frames, the end's included, each after its checksum was found right. */

@@ -2,17 +2,22 @@
 // update before, so that it does not matter by which calls they came to be there. Each frame leaves at once as one
 // piece of bytes: whatever happens to the game, what was recorded before is safe.
 import type { BroadPhase } from 'broadphase';
-import { watch } from '../watch.ts';
+import { badValue, checkOptions } from '../errors.ts';
+import { type Watcher, watch } from '../watch.ts';
 import { TraceWriter } from './writer.ts';
 
 /** What a recording asks of a stream of Node. */
 export interface NodeSink {
-  /** Takes some bytes. */
-  write(bytes: Uint8Array): unknown;
+  /** Takes some bytes, and calls back when they are written or lost. */
+  write(bytes: Uint8Array, done: (error?: Error | null) => void): unknown;
   /** Ends the stream, and calls back when all is written. */
   end(done: () => void): unknown;
-  /** Listens for errors. */
-  on(event: 'error', listener: (error: Error) => void): unknown;
+  /** Listens for errors, and for the end. */
+  on(event: 'error' | 'close', listener: (error?: Error) => void): unknown;
+  /** Whether it takes no more bytes, where it says so. */
+  readonly writableEnded?: boolean;
+  /** Whether it is of no use any more, where it says so. */
+  readonly destroyed?: boolean;
 }
 
 /** Options of {@link record}. */
@@ -32,7 +37,10 @@ export interface RecordOptions {
  * recording.frames; // → 3
  */
 export class Recording {
-  /** What has stopped the recording before `stop()` was called: an error of the stream. */
+  /**
+   * What has stopped the recording before `stop()` was called: an error of the stream, or one in writing a frame. The
+   * game goes on, and frames from then on are not recorded.
+   */
   fault: unknown;
   #space: BroadPhase | undefined;
   readonly #writer: TraceWriter;
@@ -42,14 +50,20 @@ export class Recording {
 
   /** Begins at once: see {@link record}. */
   constructor(space: BroadPhase, options: RecordOptions = {}) {
-    this.#writer = new TraceWriter(space.dimensions);
-    space[watch]((...frame) => this.#write(this.#writer.frame(...frame)));
-    this.#space = space;
-    this.#sink = openSink(options.to, (error) => {
-      this.fault ??= error;
+    if (typeof space?.[watch] !== 'function') badValue('record', space, 'a BroadPhase', true);
+    checkOptions('record', options, ['to']);
+    this.#sink = openSink(options.to, (error) => this.#fail(error));
+    // Attached last: where anything fails, the space is as it was.
+    try {
+      const wrap = space[watch]((...frame) => this.#record(frame));
+      this.#space = space;
+      this.#writer = new TraceWriter(space.dimensions, wrap);
+      this.#write(this.#writer.header());
+    } catch (error) {
       this.#detach();
-    });
-    this.#write(this.#writer.header());
+      this.#sink.drop();
+      throw error;
+    }
   }
 
   /**
@@ -123,10 +137,29 @@ export class Recording {
   }
 
   async #end(): Promise<void> {
-    if (this.fault === undefined) this.#write(this.#writer.end());
     this.#detach();
-    await this.#sink.close();
+    try {
+      if (this.fault === undefined) this.#write(this.#writer.end());
+      const closed = this.#sink.close();
+      if (this.fault === undefined) await closed; // a broken stream may never answer
+    } catch (error) {
+      this.#fail(error);
+    }
     if (this.fault !== undefined) throw this.fault;
+  }
+
+  /** Whatever goes wrong with a frame ends the recording, not the game. */
+  #record(frame: Parameters<Watcher>): void {
+    try {
+      this.#write(this.#writer.frame(...frame));
+    } catch (error) {
+      this.#fail(error);
+    }
+  }
+
+  #fail(error: unknown): void {
+    this.fault ??= error ?? new Error('record: the stream failed');
+    this.#detach();
   }
 
   #write(bytes: Uint8Array): void {
@@ -143,7 +176,8 @@ export class Recording {
 /**
  * Records every `update()` of a space from now on, the first as a snapshot.
  *
- * @throws Error where the space is being recorded already
+ * @throws Error where the space is being recorded already; TypeError for other than a space, and where `to` is no
+ *   stream or a locked one; what the stream throws. The space is as before.
  *
  * @example
  * const space = new BroadPhase();
@@ -159,6 +193,8 @@ export function record(space: BroadPhase, options?: RecordOptions): Recording {
 interface Sink {
   write(bytes: Uint8Array): void;
   close(): Promise<void>;
+  /** Lets go of it, where recording has not begun. */
+  drop(): void;
   /** What was written, where it is kept in memory. */
   kept?: Uint8Array[];
 }
@@ -166,26 +202,54 @@ interface Sink {
 function openSink(to: RecordOptions['to'], failed: (error: unknown) => void): Sink {
   if (to === undefined) {
     const kept: Uint8Array[] = [];
-    return { write: (bytes) => kept.push(bytes), close: async () => {}, kept };
+    return { write: (bytes) => kept.push(bytes), close: async () => {}, drop: () => {}, kept };
   }
-  if ('getWriter' in to) {
-    const writer = to.getWriter();
-    writer.closed.catch(failed);
-    return {
-      write: (bytes) => void writer.write(bytes).catch(failed),
-      close: () => writer.close().catch(failed),
-    };
-  }
+  const has = (name: string) => typeof (to as unknown as Record<string, unknown> | null)?.[name] === 'function';
+  if (has('getWriter')) return openStream(to as WritableStream<Uint8Array>, failed);
+  if (has('write') && has('end') && has('on')) return openNodeStream(to as NodeSink, failed);
+  badValue('record: to', to, 'a WritableStream or a stream of Node', true);
+}
+
+function openStream(to: WritableStream<Uint8Array>, failed: (error: unknown) => void): Sink {
+  if (to.locked) badValue('record: to', to, 'a stream that nobody else holds: this one is locked', true);
+  const writer = to.getWriter();
+  writer.closed.catch(failed);
+  return {
+    write: (bytes) => void writer.write(bytes).catch(failed),
+    close: () => writer.close().catch(failed),
+    drop: () => writer.releaseLock(),
+  };
+}
+
+function openNodeStream(to: NodeSink, failed: (error: unknown) => void): Sink {
+  const checkOpen = () => {
+    if (to.writableEnded || to.destroyed) throw new Error('record: the stream has ended, expected one that is open');
+  };
+  checkOpen();
+  let ending = false;
   let over = () => {};
   const failure = new Promise<void>((resolve) => {
     over = resolve;
   });
-  to.on('error', (error) => {
+  const fail = (error?: unknown) => {
     failed(error);
     over();
+  };
+  to.on('error', fail);
+  to.on('close', () => {
+    if (!ending) fail(new Error('record: the stream was closed before the recording was stopped'));
   });
   return {
-    write: (bytes) => void to.write(bytes),
-    close: () => Promise.race([failure, new Promise<void>((resolve) => to.end(resolve))]),
+    write: (bytes) => {
+      checkOpen();
+      to.write(bytes, (error) => {
+        if (error) fail(error);
+      });
+    },
+    close: () => {
+      ending = true;
+      return Promise.race([failure, new Promise<void>((resolve) => to.end(resolve))]);
+    },
+    drop: () => {},
   };
 }

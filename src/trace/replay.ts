@@ -1,7 +1,7 @@
 // Plays frames into a BroadPhase and measures each update.
 import { BroadPhase, type BroadPhaseOptions, type TechniqueName } from 'broadphase';
 import { type Difference, differenceOf, exactPairs, pairKeys } from './exact.ts';
-import type { Frame, FrameSource } from './format.ts';
+import { type Frame, type FrameSource, worldOf } from './format.ts';
 import { all } from './state.ts';
 
 /** What the last frame left in a space: a copy, since frames are views. */
@@ -121,7 +121,7 @@ export interface ReplayedFrame {
  * played[2].difference; // → null
  */
 export function* replay(source: FrameSource, options: ReplayOptions = {}, verify = false): Generator<ReplayedFrame> {
-  const space = new BroadPhase({ ...options, dimensions: source.dimensions });
+  const space = new BroadPhase({ ...worldOf(source), ...options, dimensions: source.dimensions });
   for (const frame of source) {
     if (frame.index === 0) begin(space, frame, true);
     const ms = timeUpdate(space, frame);
@@ -132,7 +132,7 @@ export function* replay(source: FrameSource, options: ReplayOptions = {}, verify
       yield result;
       continue;
     }
-    const expected = exactPairs(frame.boxes, source.dimensions, frame.ids, frame.rules);
+    const expected = exactPairs(frame.boxes, source.dimensions, frame.ids, frame.rules, options.wrap ?? source.wrap);
     yield { ...result, difference: differenceOf(pairKeys(space.pairs), expected) ?? null };
   }
   space.dispose();

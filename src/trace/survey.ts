@@ -1,6 +1,6 @@
 // What is in a trace: how many boxes, how large, how dense, how many move, how many pairs.
 import { BroadPhase } from 'broadphase';
-import type { Frame, FrameSource } from './format.ts';
+import { type Frame, type FrameSource, worldOf } from './format.ts';
 import { applyFrame } from './replay.ts';
 import { type Bin, doublingHistogram, type Summary, summarize } from './statistics.ts';
 
@@ -14,6 +14,8 @@ export interface Survey {
   ids: boolean;
   /** Whether any box is static or has a filter. */
   rules: boolean;
+  /** The size of the world along each axis, where it wraps around. */
+  wrap?: readonly number[];
   /** Whether any number is no float32. */
   doubles: boolean;
   /** How many boxes a frame has. */
@@ -52,7 +54,7 @@ export interface Survey {
 export function survey(source: FrameSource, progress?: (done: number, total: number) => void): Survey {
   const { dimensions } = source;
   const middle = source.frames >> 1;
-  const space = new BroadPhase({ dimensions });
+  const space = new BroadPhase({ ...worldOf(source), dimensions });
   const counts: number[] = [];
   const pairs: number[] = [];
   const moving: number[] = [];
@@ -83,6 +85,7 @@ export function survey(source: FrameSource, progress?: (done: number, total: num
     frames: source.frames,
     ids,
     rules,
+    ...worldOf(source),
     doubles,
     boxes: summarize(counts),
     pairs: summarize(pairs),

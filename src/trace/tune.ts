@@ -5,7 +5,7 @@
 // Machines are noisy, so every time is the fastest of several, candidates take turns, and what is far behind the best
 // is given up early. Whether a technique looks at a parameter at all is found by trying: its counters change.
 import { BroadPhase, type TechniqueName } from 'broadphase';
-import type { Frame, FrameSource } from './format.ts';
+import { type Frame, type FrameSource, worldOf } from './format.ts';
 import { applyFrame, begin, timeUpdate } from './replay.ts';
 import { percentile, type Summary, summarize } from './statistics.ts';
 import { longestSides } from './survey.ts';
@@ -208,7 +208,7 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
     techniques: techniques.map((name) => screened.find(({ technique }) => technique === name)!).sort(byTime),
     curves,
     frames: counted(frames, describeFrames(frames, dimensions)),
-    code: codeOf(best, dimensions),
+    code: codeOf(best, dimensions, source.wrap),
   };
 }
 
@@ -253,7 +253,7 @@ function counted<T>(frames: readonly Frame[], values: readonly T[]): T[] {
  * have been the machine's doing. Frames differ, and a frame cannot be timed again alone: so only their sum decides.
  */
 function measure(candidate: Candidate, dimensions: 2 | 3, frames: readonly Frame[], limit: number): number {
-  const space = new BroadPhase({ ...candidate, dimensions });
+  const space = new BroadPhase({ ...worldOf(frames[0]), ...candidate, dimensions });
   const times: number[] = [];
   const { least, most } = screenPasses;
   const allowed = limit * counted(frames, [...frames.keys()]).length;
@@ -285,7 +285,12 @@ export function heeds(
 ): boolean {
   const typical = typicalSide(frames[0], dimensions);
   const counters = [1, 8].map((factor) => {
-    const space = new BroadPhase({ ...candidate, dimensions, [parameter]: rounded(factor * typical) });
+    const space = new BroadPhase({
+      ...worldOf(frames[0]),
+      ...candidate,
+      dimensions,
+      [parameter]: rounded(factor * typical),
+    });
     const counted = frames.map((frame) => {
       applyFrame(space, frame);
       const { tests, cells, entries } = space.update().stats;
@@ -343,7 +348,7 @@ function runFinal(
 ): Measured[] {
   const runs = candidates.map((candidate) => ({
     candidate,
-    space: new BroadPhase({ ...candidate, dimensions }),
+    space: new BroadPhase({ ...worldOf(frames[0]), ...candidate, dimensions }),
     times: [] as number[],
   }));
   const started = performance.now();
@@ -369,7 +374,7 @@ function runFinal(
 }
 
 function describeFrames(frames: readonly Frame[], dimensions: 2 | 3): Tuned['frames'] {
-  const space = new BroadPhase({ dimensions });
+  const space = new BroadPhase({ ...worldOf(frames[0]), dimensions });
   return frames.map((frame) => {
     timeUpdate(space, frame);
     return { index: frame.index, boxes: frame.count, changed: frame.changed, pairs: space.pairCount };
@@ -379,9 +384,14 @@ function describeFrames(frames: readonly Frame[], dimensions: 2 | 3): Tuned['fra
 /** The techniques of `import 'broadphase'`; for the others the code to paste imports from 'broadphase/all'. */
 const lean: readonly TechniqueName[] = ['auto', 'brute-force', 'strip-sweep', 'incremental'];
 
-export function codeOf({ technique, cellSize, margin }: Candidate, dimensions: 2 | 3): string {
+export function codeOf(
+  { technique, cellSize, margin }: Candidate,
+  dimensions: 2 | 3,
+  wrap?: readonly number[],
+): string {
   const options = [
     dimensions === 3 ? 'dimensions: 3' : '',
+    wrap ? `wrap: [${wrap.join(', ')}]` : '',
     technique === 'auto' ? '' : `technique: '${technique}'`,
     cellSize === undefined ? '' : `cellSize: ${cellSize}`,
     margin === undefined ? '' : `margin: ${margin}`,

@@ -11,6 +11,7 @@ import {
   maxBoxes,
   ruleBits,
   rulesFlag,
+  wrapsAround,
 } from './format.ts';
 import { predict, putDistance } from './numbers.ts';
 import { all, IdSet, TraceState } from './state.ts';
@@ -38,11 +39,18 @@ export class TraceWriter {
   readonly #renamed: number[] = [];
   readonly #reruled: number[] = [];
   readonly #seen = new IdSet();
+  readonly #wrap: readonly number[] | undefined;
 
-  /** @throws RangeError for other than 2 or 3 dimensions */
-  constructor(dimensions: 2 | 3) {
+  /**
+   * @param wrap the size of the world along each axis, where it wraps around
+   * @throws RangeError for other than 2 or 3 dimensions
+   */
+  constructor(dimensions: 2 | 3, wrap?: readonly number[]) {
     if (dimensions !== 2 && dimensions !== 3) throw new RangeError(`a trace has 2 or 3 dimensions, not ${dimensions}`);
+    if (wrap && wrap.length !== dimensions)
+      throw new RangeError(`trace: a world of ${wrap} in ${dimensions} dimensions`);
     this.dimensions = dimensions;
+    this.#wrap = wrap;
     this.#state = new TraceState(dimensions);
   }
 
@@ -57,6 +65,7 @@ export class TraceWriter {
     out.bytes.set(magic);
     out.bytes[8] = formatVersion;
     out.bytes[10] = this.dimensions;
+    out.bytes[11] = this.#wrap ? wrapsAround : 0;
     this.#checksum = crc32(out.bytes, 0, headerBytes - 4);
     out.putUint32(headerBytes - 4, this.#checksum);
     return out.bytes.slice(0, headerBytes);
@@ -96,6 +105,8 @@ export class TraceWriter {
     const reruled = this.#findRules(ruled);
     const kind = this.frames === 0 ? frameKind.snapshot : frameKind.changes;
     const out = this.#begin(kind | (doubles ? doublesFlag : 0) | (reruled.length > 0 ? rulesFlag : 0));
+    const wrap = this.frames === 0 ? this.#wrap : undefined;
+    for (const byte of new Uint8Array(Float64Array.from(wrap ?? []).buffer)) out.byte(byte);
     out.varint(count);
     this.#writeIds(ids, renamed);
     if (ruled && reruled.length > 0) this.#writeRules(ruled, reruled);
