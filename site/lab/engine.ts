@@ -1,6 +1,6 @@
 // What runs in a worker of the lab: one scene, and one space that finds its pairs. Each frame goes on by one step,
 // is solved (this alone is timed), coloured, and packed into arrays to draw. It knows nothing of messages or pages.
-import { BroadPhase, findPairsBetween, type Stats } from 'broadphase';
+import { BroadPhase, type BroadPhaseOptions, findPairsBetween, type Stats } from 'broadphase';
 import { type Frame, TraceWriter } from 'broadphase/trace';
 import type { SceneName } from '../../src/scenes/index.ts';
 import { pairsDigest } from '../../src/trace/compare.ts';
