@@ -8,6 +8,7 @@
 #pragma once
 #include "curve_order.hpp"
 #include "filters.hpp"
+#include "rounding.hpp"
 
 template <int D> class Index {
   static constexpr u32 width = 2 * D;
@@ -68,9 +69,14 @@ template <int D> class Index {
     u32 n = ids.count();
     count_ = 0;
     built_ = false;
-    copy(boxes_, boxes, u64(n) * width, 4);
     rounded_ = exact;
-    if (exact) copy(exact_, exact, u64(n) * width, 0);
+    if (exact) {
+      copy(exact_, exact, u64(n) * width, 0);
+      boxes_.reserve(u64(n) * width + 4);
+      for (u64 s = 0; s < n; s++) round_outward<D>(exact + s * width, boxes_.data() + s * width);
+    } else {
+      copy(boxes_, boxes, u64(n) * width, 4);
+    }
     filtered_ = rules;
     if (rules) copy(rules_, rules, n, 0);
     named_ = !ids.same();

@@ -94,17 +94,24 @@ template <int D> class LongSweep {
   }
 
   /// Appends those that overlap.
-  NOINLINE static void test(const LaneView<D>& lanes, const Near* from, const Near* end, Pairs& pairs) {
+  template <bool watch> NOINLINE static void test_as(const LaneView<D>& lanes, const Near* from, const Near* end, Pairs& pairs) {
     u64* out = pairs.room(pairs.list.data() + pairs.count, u64(end - from) * block);
     for (; from < end; from++) {
       Probe<D> probe(lanes, from->item);
+      const u64* begin = out;
+      i32x4 touching = {};
       u32 four;
       for (u32 which = from->which; which; which &= ~0xfu << four) {
         four = u32(__builtin_ctz(which)) & ~3u;
         u32x4 tags = load<u32x4>(lanes.tag + from->at + four);
-        out = append(out, probe.slot, tags & splat(slot_mask), bitmask(probe.hits(lanes, from->at + four, tags)));
+        out = append(out, probe.slot, tags & splat(slot_mask), bitmask(probe.template hits<watch>(lanes, from->at + four, tags, touching)));
       }
+      if (watch && any(touching)) pairs.doubt(begin, out);
     }
     pairs.count = Pairs::between(pairs.list.data(), out);
+  }
+  static void test(const LaneView<D>& lanes, const Near* from, const Near* end, Pairs& pairs) {
+    if (pairs.watch) test_as<true>(lanes, from, end, pairs);
+    else test_as<false>(lanes, from, end, pairs);
   }
 };

@@ -12,6 +12,11 @@ struct Pairs {
   u64 count = 0;
   u64 kept = 0;  // the first so many stand as the incremental technique left them, for it to leave them again
 
+  // Pairs are in doubt of which two bounds are equal in float32: in the numbers given these may be apart.
+  bool watch = false;   // whether they are to be noted
+  Buffer<u64> doubts;   // ranges of pairs with some in doubt: where each begins, where it ends
+  u32 doubt_count = 0;  // ranges
+
   static constexpr u64 slack = 4;  // the compress-store writes up to four pairs past the end
 
   /// How many pairs stand between two places. The difference of pointers is signed: in 32 bits it ends at 2 GiB.
@@ -24,6 +29,20 @@ struct Pairs {
     u64 have = between(list.data(), out);
     if (have + more + slack > list.capacity()) return list.grow(have + more + slack, have) + have;
     return out;
+  }
+
+  /// Some of the pairs between two places are in doubt.
+  NOINLINE void doubt(const u64* from, const u64* until) {
+    u64 begin = between(list.data(), from), end = between(list.data(), until);
+    if (begin == end) return;
+    u64* last = doubts.grow(2 * u64(doubt_count) + 2, 2 * u64(doubt_count)) + 2 * doubt_count;
+    if (doubt_count > 0 && last[-1] == begin) {
+      last[-1] = end;
+      return;
+    }
+    last[0] = begin;
+    last[1] = end;
+    doubt_count++;
   }
 };
 

@@ -1,4 +1,5 @@
-// Doubles to float32, outward: what is rounded down is never above, what is rounded up never below.
+// Doubles to float32, outward, for what has to contain them: what is rounded down is never above, what is rounded up
+// never below.
 #pragma once
 #include "simd.hpp"
 
@@ -22,4 +23,14 @@ inline f32x4 round_down(f64x2 x, f64x2 sign) {
   above = __builtin_shufflevector(above, above, 0, 2, 0, 2);
   b -= (b >> 31 | 1) & above;
   return bits<f32x4>(bits<u32x4>(b) ^ bits<u32x4>(narrow(sign)));
+}
+
+/// A box rounded outward.
+template <int D> void round_outward(const f64* box, f32* to) {
+  for (u32 a = 0; a < D; a++) {
+    f64x2 numbers = load<f64x2>(box + 2 * a);
+    f32x4 pair = round_down(numbers, f64x2{2 * a < D ? 0.0 : -0.0, 2 * a + 1 < D ? 0.0 : -0.0});
+    to[2 * a] = pair[0];
+    to[2 * a + 1] = pair[1];
+  }
 }

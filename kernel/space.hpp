@@ -1,16 +1,17 @@
 // A space: boxes by id, the technique that finds their pairs, and the exactness of the answer.
 //
-// Boxes live twice over where they must: as float32 rounded outward, which every technique searches, and, from
-// the first box on that float32 cannot hold, as the doubles that were given. Pairs found in float32 are then
-// re-tested in double where one of the two was rounded. Boxes that float32 holds pay nothing.
+// Boxes live twice over where they must: as float32, which every technique searches, and, from the first box on that
+// float32 cannot hold, as the doubles that were given. They are rounded so that the order of numbers is kept (see
+// gap_map.hpp), and so only pairs of which two bounds are equal in float32 are in doubt: these are tested again in
+// double. Boxes that float32 holds pay nothing.
 // Every change allocates before it writes: when memory ends, the space is as it was.
 #pragma once
 #include "events.hpp"
 #include "filters.hpp"
+#include "gap_map.hpp"
 #include "neighbours.hpp"
 #include "queries.hpp"
 #include "ring.hpp"
-#include "rounding.hpp"
 #include "snapshot.hpp"
 #include "techniques.hpp"
 #include "wrap.hpp"
@@ -23,6 +24,11 @@ template <int D> class Space {
 
   // More than so many are read beforehand, all that are taken together, when they are set: see Ring.
   static constexpr u32 near_boxes = 20000;
+
+  // So many points, all at one place, are few candidates for an update.
+  static constexpr u32 usual_collapsed = 256;
+  // Updates between two looks for a better map, and boxes from which on it is worth one.
+  static constexpr u32 look_every = 16, worth_a_look = 64;
 
   // Bytes a box, pairs included, that an update takes in ordinary scenes; and that stand once all is kept.
   static constexpr u32 usual_bytes = D == 2 ? 448 : 640, kept_bytes = D == 2 ? 352 : 640;
@@ -40,9 +46,14 @@ template <int D> class Space {
   const Settings& options_;
   Buffer<f32> boxes_, staged_;
   Buffer<f64> exact_, staged_exact_;  // the doubles given, while `rounding_`
-  Buffer<u8> rounded_, staged_rounded_;  // per slot, while `rounding_`: whether float32 cannot hold the box
   bool rounding_ = false;
+  GapMap<D> map_;  // from doubles to float32, while `rounding_`; plain while boxes are exposed or the world wraps around
+  u32 collapsed_ = 0;   // how many boxes given since the last update are points in float32, on some axis, but are none
+  u32 bearable_ = usual_collapsed;  // with more of them another map is looked for at once
+  u32 look_in_ = 0;     // updates until it is looked for anyhow
   bool exposed_ = false;  // `boxes()` has handed out the memory: look at each update for what was written
+  Buffer<f32> shown_;     // where that memory is, once the boxes had to move elsewhere
+  u32 shown_count_ = 0;   // boxes in it; 0: it is not in use
   bool unseen_ = false;   // all boxes were given at once: so too, though none is bad
   Buffer<f32> before_;    // the boxes of the last update, while they are exposed and, though nothing is kept, few change
   u32 copied_ = 0;        // how many there are in it; 0: it is not in use
@@ -92,7 +103,7 @@ template <int D> class Space {
       const f64* entries = ring.entries + from * Ring<D>::step;
       u32 many = smaller(count - from, Ring<D>::batch);
       // What can fail comes first.
-      if (!rounding_ && !are_floats(entries, many)) start_rounding();
+      if (!rounding_ && !are_floats(entries + 1, many, Ring<D>::step)) start_rounding();
       find_slots(entries, many, slots);
       if (ids_.count() > near_boxes) {
         read_rows(boxes_.data(), width * sizeof(f32), slots, many, 1);
@@ -124,6 +135,7 @@ template <int D> class Space {
 
   /// Takes a box away; false where there is none.
   COLD bool remove(u32 id) {
+    see_shown();
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
     if (keeps_events) events.make_room(id);
@@ -136,13 +148,14 @@ template <int D> class Space {
     __builtin_memcpy(boxes_.data() + u64(slot) * width, boxes_.data() + u64(last) * width, width * sizeof(f32));
     if (rounding_) {
       __builtin_memcpy(exact_.data() + u64(slot) * width, exact_.data() + u64(last) * width, width * sizeof(f64));
-      rounded_[slot] = rounded_[last];
     }
+    show(slot);
     return true;
   }
 
   /// The numbers a box was given with; false where there is none.
   COLD bool get(u32 id, f64* box) {
+    see_shown();
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
     for (u32 k = 0; k < width; k++) box[k] = number(slot, k);
@@ -155,7 +168,9 @@ template <int D> class Space {
     ids_.reset(0);
     filters_.clear();
     changes_.note_all();
-    exposed_ = rounding_ = false;
+    exposed_ = false;
+    shown_count_ = 0;
+    hold_floats();
     copied_ = 0;
   }
 
@@ -172,7 +187,6 @@ template <int D> class Space {
   COLD f32* stage(u32 count) { return staged_.reserve(u64(count) * width + padding); }
   COLD f64* stage_exact(u32 count) {
     stage(count);
-    staged_rounded_.reserve(count);
     return staged_exact_.reserve(u64(count) * width);
   }
 
@@ -193,13 +207,14 @@ template <int D> class Space {
   /// The boxes of ids 0 … count - 1, to be written in place. Ids from count on are removed, new ones are points
   /// at the origin.
   COLD f32* expose(u32 count) {
+    take_written();
     u32 had = ids_.count();
-    if (!ids_.same()) {
+    bool ids_were_same = ids_.same();
+    if (!ids_were_same) {
       f32* to = stage(count);
       for (u32 id = 0; id < count; id++) {
         u32 slot = ids_.slot(id);
-        if (slot == Ids::none) __builtin_memset(to + u64(id) * width, 0, width * sizeof(f32));
-        else __builtin_memcpy(to + u64(id) * width, boxes_.data() + u64(slot) * width, width * sizeof(f32));
+        for (u32 k = 0; k < width; k++) to[u64(id) * width + k] = slot == Ids::none ? 0 : f32(number(slot, k));
       }
       renumber(count);
       boxes_.swap(staged_);
@@ -210,9 +225,13 @@ template <int D> class Space {
       }
       renumber(count);
     }
-    if (rounding_) changes_.note_all();  // boxes that touch only as they are rounded are pairs from now on
-    rounding_ = false;
+    if (rounding_) {
+      for (u32 k = 0; ids_were_same && k < smaller(count, had) * width; k++) boxes_[k] = f32(exact_[k]);
+      changes_.note_all();  // boxes that touch only as they are rounded are pairs from now on
+      hold_floats();
+    }
     exposed_ = true;
+    shown_count_ = 0;
     // Growing later would cut the caller's view off, so take now what an update usually needs. Memory that is
     // not touched costs nothing.
     reach(count, 1 << 18);
@@ -235,12 +254,13 @@ template <int D> class Space {
 
   /// Writes what stands in the space to `snapshot`. Returns the first bad id among boxes written in place, or -1.
   COLD i32 save() {
+    see_shown();
     i32 bad = bad_in_place();
     if (bad >= 0) return bad;
+    take_written();
     if (!ordered_) changes_.note_all();  // those pairs are in another order
     ordered_ = true;
-    bool doubles = false;
-    for (u32 s = 0; rounding_ && s < ids_.count(); s++) doubles |= rounded_[s];
+    bool doubles = rounding_ && !are_floats(exact_.data(), ids_.count(), width);
     u8 used = technique == Technique::automatic ? SnapshotHeader::automatic : u8(technique);
     snapshot.write(D, used, doubles, ids_, filters_, keeps_events ? &events : nullptr);
     const void* boxes = doubles ? static_cast<const void*>(exact_.data()) : boxes_.data();
@@ -269,11 +289,15 @@ template <int D> class Space {
 
   /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
   COLD i32 update() {
+    see_shown();
     Technique chosen = choose();
     bool follows = chosen == Technique::incremental;
     bool looked_at = false;
     i32 bad = (exposed_ || unseen_) && follows ? see_written(looked_at) : bad_in_place();
     if (bad >= 0) return bad;
+    take_written();
+    bool wraps = options_.wrap[0] > 0;
+    if (rounding_ && !exposed_ && !wraps && look_for_map()) looked_at = false;
     unseen_ = false;
     if (follows && chosen == ran_ && changes_.none() && ids_.count() == seen_ && !filters_.changed()) return rest();
     Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_, looked_at};
@@ -283,28 +307,30 @@ template <int D> class Space {
       scene.excluded = filters_.excluded();
       if (others || scene.boxes != boxes_.data()) scene.changes = nullptr;
     }
-    bool wraps = options_.wrap[0] > 0;
     if (wraps) {
       const f64* doubles = rounding_ ? exact_.data() : nullptr;
       scene.changes = nullptr;
       scene.boxes = wrap_.unfold(scene.count, scene.excluded, filters_, boxes_.data(), doubles, options_.wrap, D);
     }
-    pairs.count = 0;
+    pairs.count = pairs.doubt_count = 0;
+    pairs.watch = rounding_ && !wraps;
     stats = Stats{};
     if (chosen != ran_) {
       release_techniques();
       pairs.kept = 0;
     }
     ran_ = chosen;
-    techniques_.with(ran_, [&](auto& chosen) { chosen.update(scene, options_, pairs, stats); });
+    Settings mapped = options_;
+    for (u32 n = 0; options_.bounds[0] < options_.bounds[D] && n < width; n++) mapped.bounds[n] = map_.map(options_.bounds[n], n % D);
+    techniques_.with(ran_, [&](auto& chosen) { chosen.update(scene, mapped, pairs, stats); });
     if (filters_.active() || rounding_ || wraps || !ids_.same()) pairs.kept = 0;
     if (follows) changes_.clear(ids_.count());
     else changes_.note_all();
     seen_ = ids_.count();
     if (stats.candidates == 0) stats.candidates = f64(pairs.count);
     if (wraps) wrap_.fold(pairs);
+    else if (rounding_) retest();
     if (filters_.active()) filters_.finish(pairs);
-    if (rounding_ && !wraps) retest();
     if (!ids_.same()) name_pairs();
     if (asked_) see();
     if (restored_) table_.made = false;
@@ -354,6 +380,7 @@ template <int D> class Space {
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
   /// all finite boxes.
   COLD void structure() {
+    see_shown();
     techniques_.with(ran_, [&](auto& used) { used.structure(cells, cell_count, stats); });
     f32 least[D], most[D];
     for (int a = 0; a < D; a++) {
@@ -371,6 +398,8 @@ template <int D> class Space {
         f32& hi = cells[c * width + D + a];
         if (!detail::is_finite(lo)) lo = smaller(least[a], hi);
         if (!detail::is_finite(hi)) hi = larger(most[a], lo);
+        lo = f32(map_.unmap(lo, u32(a)));
+        hi = f32(map_.unmap(hi, u32(a)));
       }
     }
   }
@@ -384,6 +413,7 @@ template <int D> class Space {
     pairs.count = events.began.count = events.ended.count = 0;
     table_.made = neighbours_made_ = false;
     before_.release();
+    pairs.doubts.release();
     copied_ = 0;
     wrap_.release();
     index_.release();
@@ -402,6 +432,7 @@ template <int D> class Space {
 
   /// The number of the first invariant that does not hold (see src/broad-phase.ts), or 0; `detail`: where.
   COLD u32 validate(u32& detail) {
+    see_shown();
     detail = 0;
     if (!ids_.valid()) return 1;
     if (!exposed_) {
@@ -411,16 +442,11 @@ template <int D> class Space {
         return 2;
       }
     }
-    for (u32 s = 0; rounding_ && s < ids_.count(); s++) {
+    for (u32 s = 0; rounding_ && !exposed_ && s < ids_.count(); s++) {
       detail = ids_.id(s);
-      bool exact = true;
-      for (u32 k = 0; k < width; k++) {
-        f64 given = exact_[u64(s) * width + k];
-        f64 held = boxes_[u64(s) * width + k];
-        if (k < D ? held > given : held < given) return 3;
-        exact &= !(held < given || held > given);  // a NaN written in place is for the next update to find
-      }
-      if (exact == bool(rounded_[s])) return 4;
+      f32 image[width];
+      round(exact_.data() + u64(s) * width, image);
+      if (differ<width * sizeof(f32)>(image, boxes_.data() + u64(s) * width)) return 3;
     }
     for (u64 p = 0; p < pairs.count; p++) {
       u32 a = u32(pairs.list[p]), b = u32(pairs.list[p] >> 32);
@@ -544,22 +570,53 @@ template <int D> class Space {
   /// What was staged is now what stands in the space; `rounded`: with doubles that float32 cannot hold.
   void take_staged(bool rounded) {
     boxes_.swap(staged_);
+    if (rounded) exact_.swap(staged_exact_);
+    else hold_floats();
     rounding_ = rounded;
-    if (rounded) {
-      exact_.swap(staged_exact_);
-      rounded_.swap(staged_rounded_);
-    }
     exposed_ = false;
+    shown_count_ = 0;
     copied_ = 0;
   }
 
   f64 number(u32 slot, u32 k) const {
     u64 at = u64(slot) * width + k;
-    return rounding_ ? exact_[at] : f64(boxes_[at]);
+    if (!rounding_) return boxes_[at];
+    if (!exposed_) return exact_[at];
+    f64 box[width];
+    as_written(slot, box);
+    return box[k];
+  }
+
+  /// A box of which some numbers may have been written in place since it was given: those that are not what was shown.
+  COLD void as_written(u32 slot, f64* to) const {
+    const f64* given = exact_.data() + u64(slot) * width;
+    const f32* now = boxes_.data() + u64(slot) * width;
+    f32 shown[width];
+    round(given, shown);
+    for (u32 k = 0; k < width; k++) to[k] = shown[k] == now[k] ? given[k] : f64(now[k]);
+    for (u32 a = 0; a < D; a++) {
+      // One side as it was given, the other as it was written: rounding may have put them in this order.
+      if (to[a] <= to[D + a]) continue;
+      to[a] = now[a];
+      to[D + a] = now[D + a];
+    }
+  }
+
+  /// Takes over what was written in place, none of it bad, over boxes that were given as doubles.
+  COLD void take_written() {
+    see_shown();
+    for (u32 s = 0; exposed_ && rounding_ && s < ids_.count(); s++) {
+      f64 box[width];
+      as_written(s, box);
+      __builtin_memcpy(exact_.data() + u64(s) * width, box, sizeof(box));
+      round(box, boxes_.data() + u64(s) * width);
+      show(s);
+    }
   }
 
   /// The index takes over what stands in the space.
   COLD void see() {
+    see_shown();
     index_.see(boxes_.data(), rounding_ ? exact_.data() : nullptr, ids_, filters_.active() ? filters_.rules() : nullptr);
   }
 
@@ -575,13 +632,18 @@ template <int D> class Space {
   /// Room for `count` boxes in every array that has one entry a box.
   COLD void make_room(u64 count, u32 keep) {
     if (count > max_slots) fail(Fault::out_of_memory, f64(count) * width * sizeof(f32));
+    if (exposed_ && shown_count_ == 0 && count * width + padding > boxes_.capacity()) {
+      f32* moved = shown_.reserve(larger(count * width + padding, boxes_.capacity() + boxes_.capacity() / 2));
+      if (keep) __builtin_memcpy(moved, boxes_.data(), u64(keep) * width * sizeof(f32));
+      boxes_.swap(shown_);
+      shown_count_ = keep;
+    }
     boxes_.grow(count * width + padding, u64(keep) * width);
     u64 all = boxes_.capacity() / width;
     changes_.make_room(all);
     if (filters_.active()) filters_.make_room(all, keep);
     if (rounding_) {
       exact_.grow(all * width, u64(keep) * width);
-      rounded_.grow(all, keep);
     }
     tight_ = !rounding_ && !heap::reach(2 * all * width * sizeof(f64));  // for the first double
   }
@@ -591,16 +653,16 @@ template <int D> class Space {
     u64 all = smaller(u64(max_slots), (boxes_.capacity() - padding) / width);
     all = smaller(all, u64(changes_.room()));
     if (filters_.active()) all = smaller(all, filters_.room());
-    if (rounding_) all = smaller(all, smaller(exact_.capacity() / width, rounded_.capacity()));
+    if (rounding_) all = smaller(all, exact_.capacity() / width);
     return u32(larger(all, u64(ids_.count())));
   }
 
-  /// Whether float32 holds all numbers of these boxes of the ring.
-  NOINLINE static bool are_floats(const f64* entry, u32 count) {
+  /// Whether float32 holds all numbers of these boxes, so many numbers apart.
+  NOINLINE static bool are_floats(const f64* box, u32 count, u32 step) {
     i32x4 rounded = {};
-    for (; count > 0; count--, entry += Ring<D>::step) {
+    for (; count > 0; count--, box += step) {
       for (u32 a = 0; a < D; a++) {
-        f64x2 numbers = load<f64x2>(entry + 1 + 2 * a);
+        f64x2 numbers = load<f64x2>(box + 2 * a);
         rounded |= bits<i32x4>(widen(narrow(numbers)) != numbers);
       }
     }
@@ -641,12 +703,13 @@ template <int D> class Space {
       u32 slot = slots[k];
       f32* to = boxes + u64(slot) * width;
       f32x4 first, last;
-      bool exact = round_outward(box, first, last);
+      if constexpr (rounding) map_.round(box, first, last);
+      else GapMap<D>::narrowed(box, first, last);
       if constexpr (rounding) {
         f64* its = exact_.data() + u64(slot) * width;
         if (notes && differ<width * sizeof(f64)>(its, box)) changed.note(slot);
         __builtin_memcpy(its, box, width * sizeof(f64));
-        rounded_[slot] = !exact;
+        collapsed_ += collapses(box, first, last);
       } else if (notes) {
         i32x4 other = bits<i32x4>(first) ^ load<i32x4>(to);
         if constexpr (D == 3) other |= bits<i32x4>(last) ^ load<i32x4>(to + width - 4);
@@ -654,18 +717,97 @@ template <int D> class Space {
       }
       store(to, first);
       if constexpr (D == 3) store(to + width - 4, last);
+      if (slot < shown_count_) show(slot);
     }
     if (notes) changes_.end(changed);
   }
 
+  /// What was written in place is where the boxes are.
+  void see_shown() {
+    u32 many = smaller(shown_count_, ids_.count());
+    if (many) __builtin_memcpy(boxes_.data(), shown_.data(), u64(many) * width * sizeof(f32));
+  }
+  /// What changed in another way is seen by who writes in place.
+  COLD void show(u32 slot) {
+    if (slot < shown_count_) __builtin_memcpy(shown_.data() + u64(slot) * width, boxes_.data() + u64(slot) * width, width * sizeof(f32));
+  }
+
   /// From now on the doubles are kept too.
   COLD void start_rounding() {
+    see_shown();
     u32 n = ids_.count();
-    exact_.reserve(boxes_.capacity());
-    rounded_.reserve(boxes_.capacity() / width);
+    exact_.reserve(larger(boxes_.capacity(), u64(width)));
     for (u64 k = 0; k < u64(n) * width; k++) exact_[k] = boxes_[k];
-    if (n) __builtin_memset(rounded_.data(), 0, n);
     rounding_ = true;
+    round_all();
+  }
+
+  /// From now on the boxes are float32.
+  COLD void hold_floats() {
+    rounding_ = false;
+    map_.reset();
+    collapsed_ = look_in_ = 0;
+    bearable_ = usual_collapsed;
+  }
+
+  COLD void round_all() {
+    for (u32 s = 0; s < ids_.count(); s++) {
+      round(exact_.data() + u64(s) * width, boxes_.data() + u64(s) * width);
+      show(s);
+    }
+    changes_.note_all();
+  }
+
+  NOINLINE void round(const f64* box, f32* to) const {
+    f32x4 first, last;
+    map_.round(box, first, last);
+    store(to, first);
+    if constexpr (D == 3) store(to + width - 4, last);
+  }
+
+  /// Along which axes a rounded box is a point: a bit each.
+  static u32 points(f32x4 first, f32x4 last) {
+    if constexpr (D == 2) return bitmask(first == __builtin_shufflevector(first, first, 2, 3, 2, 3)) & 3;
+    else return bitmask(first == __builtin_shufflevector(last, last, 1, 2, 3, 3)) & 7;
+  }
+
+  /// Whether rounding has made a point of it along an axis.
+  static bool collapses(const f64* box, f32x4 first, f32x4 last) {
+    u32 axes = points(first, last);
+    bool is = false;
+    for (u32 a = 0; axes != 0 && a < D; a++) is |= (axes >> a & 1) && box[a] < box[D + a];
+    return is;
+  }
+
+  /// Looks whether another map serves better, now and then, and at once where many boxes have become points. Says whether
+  /// there is another.
+  COLD bool look_for_map() {
+    u32 n = ids_.count(), collapsed = collapsed_;
+    collapsed_ = 0;
+    if (ordered_) {  // by what stands in the space alone
+      GapMap<D> other;
+      if (n >= worth_a_look) other.choose(exact_.data(), n, nullptr, 0);
+      if (other == map_) return false;
+      map_ = other;
+      round_all();
+      return true;
+    }
+    if (n < worth_a_look || (collapsed <= bearable_ && look_in_-- > 0)) return false;
+    look_in_ = look_every;
+    u32 some[usual_collapsed], many = 0;
+    if (collapsed > bearable_) {
+      u32 step = collapsed / usual_collapsed + 1, seen = 0;
+      for (u32 s = 0; s < n && many < usual_collapsed; s++) {
+        const f32* box = boxes_.data() + u64(s) * width;
+        if (!collapses(exact_.data() + u64(s) * width, load<f32x4>(box), load<f32x4>(box + width - 4))) continue;
+        if (seen++ % step == 0) some[many++] = s;
+      }
+    }
+    bool better = map_.choose(exact_.data(), n, some, many);
+    if (better) round_all();
+    if (better) bearable_ = usual_collapsed;
+    else if (collapsed > bearable_) bearable_ = 2 * collapsed;
+    return better;
   }
 
   /// The rule of a box, to be changed.
@@ -714,65 +856,67 @@ template <int D> class Space {
     return -1;
   }
 
-  /// A box rounded outward: its first and its last four numbers. Says whether float32 holds it.
-  static bool round_outward(const f64* box, f32x4& first, f32x4& last) {
-    f64x2 numbers[D];
-    f32x4 pairs[D];
-    i32x4 rounded = {};
-    for (u32 a = 0; a < D; a++) {
-      // Read one by one, as they were written: a read of more than one write waits for all writes before it.
-      numbers[a] = f64x2{box[2 * a], box[2 * a + 1]};
-      pairs[a] = narrow(numbers[a]);
-      rounded |= bits<i32x4>(widen(pairs[a]) != numbers[a]);
-    }
-    bool exact = !any(rounded);  // most often of all boxes or of none
-    if (!exact) {
-      for (u32 a = 0; a < D; a++) {
-        pairs[a] = round_down(numbers[a], f64x2{2 * a < D ? 0.0 : -0.0, 2 * a + 1 < D ? 0.0 : -0.0});
-      }
-    }
-    first = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 4, 5);
-    last = __builtin_shufflevector(pairs[D - 2], pairs[D - 1], 0, 1, 4, 5);
-    return exact;
-  }
-
-  /// Rounds the staged doubles outward into the staged float32; says whether any was rounded.
+  /// Rounds the staged doubles into the staged float32; says whether float32 cannot hold all of them. Returns the first
+  /// bad box, or -1.
   i32 round_staged(u32 count, bool& rounded) {
     const f64* from = staged_exact_.data();
     f32* to = staged_.data();
+    i32x4 inexact = {};
+    u32 collapsed = 0;
     for (u32 s = 0; s < count; s++) {
       const f64* box = from + u64(s) * width;
-      bool good = true;
-      for (int a = 0; a < D; a++) good &= box[a] <= box[D + a];
+      bool good = at_most(load<f64x2>(box), load<f64x2>(box + D)) == 3;
+      if constexpr (D == 3) good &= box[2] <= box[5];
       if (!good) return i32(s);
+      for (u32 a = 0; a < D; a++) {
+        f64x2 numbers = load<f64x2>(box + 2 * a);
+        inexact |= bits<i32x4>(widen(narrow(numbers)) != numbers);
+      }
       f32x4 first, last;
-      bool exact = round_outward(box, first, last);
+      map_.round(box, first, last);
       store(to + u64(s) * width, first);
-      store(to + u64(s) * width + width - 4, last);
-      staged_rounded_[s] = !exact;
-      rounded |= !exact;
+      if constexpr (D == 3) store(to + u64(s) * width + width - 4, last);
+      collapsed += collapses(box, first, last);
     }
+    rounded = any(inexact);
+    if (!rounded) {
+      for (u64 k = 0; k < u64(count) * width; k++) to[k] = f32(from[k]);
+    }
+    collapsed_ = rounded ? collapsed : 0;
     return -1;
   }
 
-  /// Keeps, of the pairs with a rounded box, those that overlap in the numbers given.
-  void retest() {
-    const f64* exact = exact_.data();
+  /// Keeps, of the pairs in doubt, those that overlap in the numbers given.
+  COLD void retest() {
     u64* list = pairs.list.data();
-    u64 kept = 0;
-    for (u64 p = 0; p < pairs.count; p++) {
-      u64 pair = list[p];
-      u32 a = u32(pair), b = u32(pair >> 32);
-      bool overlap = true;
-      if (rounded_[a] | rounded_[b]) {
-        const f64* first = exact + u64(a) * width;
-        const f64* second = exact + u64(b) * width;
-        for (int k = 0; k < D; k++) overlap &= first[k] <= second[D + k] && second[k] <= first[D + k];
-      }
-      list[kept] = pair;
-      kept += overlap;
+    u64 at = 0, kept = 0;
+    auto keep = [&](u64 until) {
+      if (kept != at && until > at) __builtin_memmove(list + kept, list + at, (until - at) * sizeof(u64));
+      kept += until - at;
+      at = until;
+    };
+    bool all = !(watching >> u32(ran_) & 1);
+    for (u32 k = 0; k < (all ? 1 : pairs.doubt_count); k++) {
+      if (!all) keep(pairs.doubts[2 * k]);
+      u64 until = all ? pairs.count : pairs.doubts[2 * k + 1];
+      kept = Pairs::between(list, retest(list + at, list + until, list + kept));
+      at = until;
     }
+    keep(pairs.count);
     pairs.count = kept;
+  }
+  NOINLINE u64* retest(const u64* from, const u64* until, u64* to) const {
+    const f64* exact = exact_.data();
+    for (; from < until; from++) {
+      u64 pair = *from;
+      const f64* first = exact + u64(filters_.slot(u32(pair))) * width;
+      const f64* second = exact + u64(filters_.slot(u32(pair >> 32))) * width;
+      bool overlap = true;
+      for (int k = 0; k < D; k++) overlap &= first[k] <= second[D + k] && second[k] <= first[D + k];
+      *to = pair;
+      to += overlap;
+    }
+    return to;
   }
 
   /// Slots to ids, the smaller first.

@@ -4,10 +4,34 @@
 // one: four items in a row against the four that stand one further, then two, and so on; or one item against four,
 // where one of the four looks much further than the others. Reading past `end` is harmless as long as what stands there
 // cannot overlap.
+// Where boxes are rounded, bounds may be equal that were not: `watch`. Then it is seen how deep items overlap instead of
+// whether they do, at the same cost: what is above 0 on all sides is sure, what is 0 on some side is noted as in doubt.
+// Bounds are such that their difference is a number: see GapMap::round.
 // Cost: one test of four against four for each candidate of the one of four items that has most, about 2 (2D) or 3
 // (3D) ns, pairs included; no branch depends on what is hit, and the loop ends once for four items.
 #pragma once
 #include "pairs.hpp"
+
+/// Which of the items j … j + 3 overlap `one`, or each its own of four.
+template <int D, class One> i32x4 overlaps(const One& one, const LaneView<D>& lanes, u32 j) {
+  i32x4 all = bits<i32x4>(splat(~0u));
+  for (int axis = 0; axis < D; axis++) {
+    all &= load<f32x4>(lanes.lo[axis] + j) <= one.hi[axis];
+    all &= load<f32x4>(lanes.hi[axis] + j) >= one.lo[axis];
+  }
+  return all;
+}
+
+/// The same; adds those of which two bounds are equal to `touching`.
+template <int D, class One> i32x4 overlaps(const One& one, const LaneView<D>& lanes, u32 j, i32x4& touching) {
+  f32x4 depth = min(one.hi[0] - load<f32x4>(lanes.lo[0] + j), load<f32x4>(lanes.hi[0] + j) - one.lo[0]);
+  for (int axis = 1; axis < D; axis++) {
+    f32x4 its = min(one.hi[axis] - load<f32x4>(lanes.lo[axis] + j), load<f32x4>(lanes.hi[axis] + j) - one.lo[axis]);
+    depth = min(its, depth);
+  }
+  touching |= bits<i32x4>(depth == f32x4{});
+  return bits<i32x4>(depth >= f32x4{});
+}
 
 /// One item, ready to be tested against four.
 template <int D> struct Probe {
@@ -33,12 +57,12 @@ template <int D> struct Probe {
 
   /// Which of the items j … j + 3, with these tags, overlap this one and share no exclusion bit with it.
   i32x4 hits(const LaneView<D>& lanes, u32 j, u32x4 tags) const {
-    i32x4 all = bits<i32x4>((tags & excluded) == u32x4{});
-    for (int axis = 0; axis < D; axis++) {
-      all &= load<f32x4>(lanes.lo[axis] + j) <= hi[axis];
-      all &= load<f32x4>(lanes.hi[axis] + j) >= lo[axis];
-    }
-    return all;
+    return overlaps(*this, lanes, j) & bits<i32x4>((tags & excluded) == u32x4{});
+  }
+  /// The same; adds those that touch to `touching`, if it is to `watch`.
+  template <bool watch> i32x4 hits(const LaneView<D>& lanes, u32 j, u32x4 tags, i32x4& touching) const {
+    if constexpr (!watch) return hits(lanes, j, tags);
+    else return overlaps(*this, lanes, j, touching) & bits<i32x4>((tags & excluded) == u32x4{});
   }
 };
 
@@ -54,13 +78,10 @@ template <int D> struct Four {
     }
   }
 
-  i32x4 hits(const LaneView<D>& lanes, u32 j, u32x4 others) const {
-    i32x4 all = bits<i32x4>((tags & others & splat(~slot_mask)) == u32x4{});
-    for (int axis = 0; axis < D; axis++) {
-      all &= load<f32x4>(lanes.lo[axis] + j) <= hi[axis];
-      all &= load<f32x4>(lanes.hi[axis] + j) >= lo[axis];
-    }
-    return all;
+  template <bool watch> i32x4 hits(const LaneView<D>& lanes, u32 j, u32x4 others, i32x4& touching) const {
+    i32x4 meet = bits<i32x4>((tags & others & splat(~slot_mask)) == u32x4{});
+    if constexpr (watch) return overlaps(*this, lanes, j, touching) & meet;
+    else return overlaps(*this, lanes, j) & meet;
   }
 };
 
@@ -69,8 +90,8 @@ inline constexpr u32 together = 6;
 
 /// Tests item i of the `count` items of `from`, which are all, against the items i + 1 … end[i] - 1 and appends the pairs.
 /// `exact_end`: what stands behind `end` may overlap, so lanes past it are masked out. Behind `end` there are four more.
-template <int D, bool exact_end = false>
-NOINLINE void sweep(const Lanes<D>& from, const u32* end, u32 count, Pairs& pairs) {
+template <int D, bool exact_end, bool watch>
+NOINLINE void sweep_as(const Lanes<D>& from, const u32* end, u32 count, Pairs& pairs) {
   const LaneView<D> lanes = from.view();  // on the stack nothing aliases it
   u64* out = pairs.list.data() + pairs.count;
   u64* limit = pairs.list.data() + pairs.list.capacity();
@@ -86,14 +107,17 @@ NOINLINE void sweep(const Lanes<D>& from, const u32* end, u32 count, Pairs& pair
       out = pairs.room(out, hits_at_most);
       limit = pairs.list.data() + pairs.list.capacity();
     }
+    const u64* begin = out;
+    i32x4 touching = {};
     if (most <= sum / 4 + together) {
       Four<D> four(lanes, i);
       for (u32 d = 1; d < most; d++) {
         u32x4 tags = load<u32x4>(lanes.tag + i + d);
-        i32x4 hits = four.hits(lanes, i + d, tags);
+        i32x4 hits = four.template hits<watch>(lanes, i + d, tags, touching);
         if constexpr (exact_end) hits &= bits<i32x4>(splat(d)) < reach;
         out = append_each(out, four.tags & splat(slot_mask), tags & splat(slot_mask), bitmask(hits));
       }
+      if (watch && any(touching)) pairs.doubt(begin, out);
       continue;
     }
     for (u32 k = i; k < smaller(i + 4, count); k++) {
@@ -101,13 +125,20 @@ NOINLINE void sweep(const Lanes<D>& from, const u32* end, u32 count, Pairs& pair
       Probe<D> probe(lanes, k);
       for (u32 j = k + 1; j < until; j += 4) {
         u32x4 tags = load<u32x4>(lanes.tag + j);
-        i32x4 hits = probe.hits(lanes, j, tags);
+        i32x4 hits = probe.template hits<watch>(lanes, j, tags, touching);
         if constexpr (exact_end) hits &= bits<i32x4>(u32x4{0, 1, 2, 3} + splat(j) < splat(until));
         out = append(out, probe.slot, tags & splat(slot_mask), bitmask(hits));
       }
     }
+    if (watch && any(touching)) pairs.doubt(begin, out);
   }
   pairs.count = Pairs::between(pairs.list.data(), out);
+}
+
+template <int D, bool exact_end = false>
+void sweep(const Lanes<D>& from, const u32* end, u32 count, Pairs& pairs) {
+  if (!exact_end && pairs.watch) sweep_as<D, exact_end, !exact_end>(from, end, count, pairs);
+  else sweep_as<D, exact_end, false>(from, end, count, pairs);
 }
 
 /// Items that stand together, to be tested against one that stands elsewhere or before them.

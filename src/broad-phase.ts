@@ -119,8 +119,8 @@ const broken = [
   '',
   'ids and slots do not name each other, at id',
   'a box has a NaN or a minimum above its maximum, id',
-  'a box was rounded inward, id',
-  'a box is wrongly marked as rounded, id',
+  'a box is not what its numbers are rounded to, id',
+  '',
   'a pair is not in order, number',
 ];
 
@@ -195,6 +195,8 @@ export class BroadPhase extends Queries {
   #technique: TechniqueName;
   /** What `boxes()` gave last, while it is in use. */
   #view: Float32Array | undefined;
+  /** Whether it may have been written since the last update: then growing memory must not cut it off unnoticed. */
+  #viewIsOpen = false;
   #watcher: Watcher | undefined;
 
   /**
@@ -453,11 +455,14 @@ export class BroadPhase extends Queries {
 
   /**
    * The fastest way in: an array over the kernel's own memory for the boxes of ids 0 … count - 1, to be written
-   * in place, as float32, before `update()`. Ids from count on are removed; new ones are points at the origin.
+   * in place, as float32, before `update()`. Ids from count on are removed; new ones are points at the origin. This call
+   * makes every box float32, rounded to the nearest: boxes that only nearly touched as doubles may be pairs then.
    *
-   * The array is valid until the next call that can grow memory (`set`, `setAll`, `update`), so ask for it each
-   * time; asking again costs next to nothing and makes no garbage. `update()` checks what was written, and throws
-   * where memory grew in the update before and the array has not been asked for again since.
+   * Ask for the array before each time it is written: it costs next to nothing and makes no garbage. Until `setAll`,
+   * `clear` or `restore` it shows what `set` does at once, and what is written to it afterwards counts instead, in place
+   * of doubles too. A double that `set` has given stays one until its box is written otherwise than it is shown. After
+   * `delete`, and after `update`, ask again: its rows may stand for other boxes then, or memory has grown and cut it
+   * off. `update()` checks what was written, and throws where the array was cut off and not asked for again since.
    *
    * @param count how many boxes, 0 … 2^24
    * @throws RangeError for a bad count
@@ -486,6 +491,7 @@ export class BroadPhase extends Queries {
         view = new Float32Array(buffer, at, length);
         this.#view = view;
       }
+      this.#viewIsOpen = true;
       return view;
     } catch (error) {
       this.recover(error, 'boxes');
@@ -506,7 +512,7 @@ export class BroadPhase extends Queries {
    */
   delete(id: number): boolean {
     if (!isId(id)) badId('delete', id);
-    this.#view = undefined;
+    if (!this.#viewIsOpen) this.#view = undefined;
     try {
       const { kernel } = this;
       this.forget();
@@ -664,6 +670,7 @@ export class BroadPhase extends Queries {
       }
     }
     if (bad >= 0) this.#badInPlace('update', bad);
+    this.#viewIsOpen = false;
     this.#readStats();
     if (this.#watcher !== undefined) this.#show(this.#watcher);
     return this;
@@ -988,7 +995,7 @@ export class BroadPhase extends Queries {
 
   /** A box that cannot wait: it may fail, or a view of the boxes is open that has to show it. */
   #takeNow(): void {
-    this.#view = undefined;
+    if (!this.#viewIsOpen) this.#view = undefined;
     this.flush();
   }
 }

@@ -26,6 +26,8 @@ interface Model {
   /** What questions see: as of the last update, from the first question on. */
   seen: Map<number, Entry> | undefined;
   updated: boolean;
+  /** What `boxes()` gave, while its rows stand for the ids 0, 1, 2, …. */
+  view: Float32Array | undefined;
   saved?: { bytes: Uint8Array; entries: Map<number, Entry>; gone: Set<number>; before: Set<number> };
 }
 
@@ -129,6 +131,7 @@ function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>
   const on = (space: BroadPhase) => space as unknown as Loose;
   const show = (values: readonly unknown[]) => values.map((value) => fc.stringify(value)).join(', ');
   const round = dimensions === 2 ? 'queryCircle' : 'querySphere';
+  const rowOf = (model: Model, id: number) => [...model.view!.subarray(id * 2 * dimensions, (id + 1) * 2 * dimensions)];
 
   /** A call that must throw and change nothing. */
   const bad = (method: string, given: fc.Arbitrary<unknown[]>) =>
@@ -179,15 +182,49 @@ function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>
           const floats = how === 'floats' || how === 'boxes';
           const boxes = floats ? given.map((box) => box.map(Math.fround)) : given;
           const flat = boxes.flat();
-          if (how === 'boxes') space.boxes(boxes.length).set(flat);
-          else
+          model.view = undefined;
+          if (how === 'boxes') {
+            model.view = space.boxes(boxes.length);
+            model.view.set(flat);
+          } else
             space.setAll(how === 'array' ? flat : how === 'floats' ? Float32Array.from(flat) : Float64Array.from(flat));
           replace(model, boxes);
           expect(space.size).toBe(boxes.length);
         }),
       ),
+    fc.nat(30).map((count) =>
+      call(`boxes(${count})`, (model, space) => {
+        const { entries } = model;
+        const nothing = Array<number>(2 * dimensions).fill(0);
+        replace(
+          model,
+          Array.from({ length: count }, (_, id) => (entries.get(id)?.box ?? nothing).map(Math.fround)),
+        );
+        model.view = space.boxes(count);
+        for (let id = 0; id < count; id++) expect(rowOf(model, id)).toEqual(entries.get(id)!.box);
+      }),
+    ),
+    ...[1, 2].map(() =>
+      fc.tuple(fc.nat(30), aBox).map(([id, box]) =>
+        call(`view[${id}] = ${show(box)}`, (model) => {
+          if (!model.view || id >= model.view.length / (2 * dimensions)) return;
+          // A fraction that no other call gives: what is shown already, when it is written again, is no change.
+          const floats = box.map((x) => Math.fround(x + 1 / 1024));
+          const shown = rowOf(model, id);
+          model.view.set(floats, id * 2 * dimensions);
+          const its = model.entries.get(id)!;
+          its.box = its.box.map((x, k) => (floats[k] === shown[k] ? x : floats[k]!));
+          for (let a = 0; a < dimensions; a++) {
+            if (its.box[a]! <= its.box[a + dimensions]!) continue;
+            its.box[a] = floats[a]!;
+            its.box[a + dimensions] = floats[a + dimensions]!;
+          }
+        }),
+      ),
+    ),
     anId.map((id) =>
       call(`delete(${id})`, (model, space) => {
+        model.view = undefined;
         const had = model.entries.delete(id);
         if (had) model.gone.add(id);
         expect(space.delete(id)).toBe(had);
@@ -204,6 +241,7 @@ function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>
       call('clear()', (model, space) => {
         space.clear();
         replace(model, []);
+        model.view = undefined;
       }),
     ),
     fc.tuple(anId, bits, bits).map(([id, layer, mask]) =>
@@ -295,6 +333,7 @@ function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>
         const { saved } = model;
         if (!saved) return;
         expect(space.restore(saved.bytes)).toBe(space);
+        model.view = undefined;
         model.entries = copy(saved.entries);
         model.gone = new Set(saved.gone);
         model.before = saved.before;
@@ -405,6 +444,7 @@ describe(`every method in any order (SEED=${seed})`, () => {
           before: new Set<number>(),
           seen: undefined,
           updated: false,
+          view: undefined,
         } as Model,
         real: new BroadPhase({ dimensions, technique, events: true }),
       });

@@ -237,7 +237,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     expect(resting.update().stats.tests, 'the second update of a world at rest').toBe(0);
   });
 
-  // `boxes()` gives them as float32 holds them, rounded outward: those that only nearly touched as doubles do now.
+  // `boxes()` gives them as float32, rounded to the nearest: those that only nearly touched as doubles do now.
   test.each([1, 3, 400])('doubles are float32 once they are written in place, after %i updates at rest', (updates) => {
     const count = 400;
     const width = 2 * dimensions;

@@ -85,7 +85,7 @@ template <int D> class Model {
   void expose(u32 count) {
     renumber(count);
     for (auto& [id, entry] : entries_) {
-      for (int k = 0; k < 2 * D; k++) entry.box[size_t(k)] = outward(entry.box[size_t(k)], k >= D);
+      for (int k = 0; k < 2 * D; k++) entry.box[size_t(k)] = f32(entry.box[size_t(k)]);
     }
   }
   void exclude(u32 id, u32 bit, bool on) {
