@@ -24,7 +24,7 @@ template <int D> struct Scene {
   const u32* excluded;  // exclusion bits per slot, or null where no slot has any
   const Changes* changes = nullptr;  // what may differ from the last update; null: all
   bool ordered = false;  // no update before this one may show in the order of the pairs
-  bool looked_at = false;  // the technique has told in this update which boxes are not where it expects them
+  bool filtered = false;  // who is excluded may have changed since the last update
 
   const f32* box(u32 slot) const { return boxes + u64(slot) * 2 * D; }
   u32 excluded_of(u32 slot) const { return excluded ? excluded[slot] : 0; }

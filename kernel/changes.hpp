@@ -1,9 +1,8 @@
 // Which boxes have changed since the last update.
 // Idea: a list of slots and a mark for each, so that a slot enters once; or, where memory was written past our eyes,
 // "all may have". What is not in it is what it was, so an update of a world at rest costs nothing.
-// Boxes that come all at once are compared with those of before, or seen where they are expected (expected.hpp).
 // A mark is a byte: bits of neighbours would be read and written one after the other.
-// Cost: about 1 ns for each that is noted, half a nanosecond to compare a box; 5 bytes for each box.
+// Cost: about 1 ns for each that is noted; 5 bytes for each box.
 #pragma once
 #include "heap.hpp"
 
@@ -59,31 +58,6 @@ class Changes {
   }
 
   void note_all() { some_ = false; }
-
-  /// Notes which boxes are not what they were, each given as one or two parts of so many bytes, and copies them there if
-  /// it is to; false where most are not.
-  template <u32 bytes> NOINLINE bool compare(const void* now, void* before, u32 slots, u32 parts, bool copies) {
-    const u8* a = static_cast<const u8*>(now);
-    u8* b = static_cast<u8*>(before);
-    u32 count = slots * parts;
-    u32 sample = smaller(slots, 64u), many = 0;
-    for (u64 k = 0; k < sample; k++) {
-      u64 at = count * k / sample * bytes;
-      many += differ<bytes>(a + at, b + at);
-    }
-    if (many > sample / 2) return false;
-    for (u32 k = 0; k < count; k += 4) {
-      if (k + 4 <= count && !differ<4 * bytes>(a + u64(k) * bytes, b + u64(k) * bytes)) continue;
-      ROLLED
-      for (u32 part = k; part < smaller(k + 4, count); part++) {
-        u64 at = u64(part) * bytes;
-        if (!differ<bytes>(a + at, b + at)) continue;
-        if (copies) __builtin_memcpy(b + at, a + at, bytes);
-        note(part / parts);
-      }
-    }
-    return !most(slots);
-  }
 
   /// From now on nothing has changed.
   void clear(u32 slots) {

@@ -10,7 +10,8 @@ inline u64 pair_of(u32 a, u32 b) { return u64(smaller(a, b)) | u64(larger(a, b))
 struct Pairs {
   Buffer<u64> list;  // in memory: slot a, slot b, slot a, …
   u64 count = 0;
-  u64 kept = 0;  // the first so many stand as the incremental technique left them, for it to leave them again
+  u64 stable = 0;     // nobody has touched the first so many since a technique reported them
+  bool same = false;  // a technique says that they are the pairs of the update before
 
   // Pairs are in doubt of which two bounds are equal in float32: in the numbers given these may be apart.
   bool watch = false;   // whether they are to be noted

@@ -6,6 +6,7 @@
 // double. Boxes that float32 holds pay nothing.
 // Every change allocates before it writes: when memory ends, the space is as it was.
 #pragma once
+#include "auto.hpp"
 #include "events.hpp"
 #include "filters.hpp"
 #include "gap_map.hpp"
@@ -19,9 +20,6 @@
 template <int D> class Space {
   static constexpr u32 width = 2 * D;  // numbers in a box
   static constexpr u64 padding = 4;    // vector loads may read this many floats past the last box
-  // Below this many boxes testing all against all costs less than looking at them first.
-  static constexpr u32 handful = 24;
-
   // More than so many are read beforehand, all that are taken together, when they are set: see Ring.
   static constexpr u32 near_boxes = 20000;
 
@@ -32,9 +30,6 @@ template <int D> class Space {
 
   // Bytes a box, pairs included, that an update takes in ordinary scenes; and that stand once all is kept.
   static constexpr u32 usual_bytes = D == 2 ? 448 : 640, kept_bytes = D == 2 ? 352 : 640;
-
-  // Updates until it is asked again whether a technique that keeps nothing has seen these boxes before.
-  static constexpr u32 unheld = 8;
 
   // Bytes a box that all arrays of boxes may take as they grow.
   static constexpr u32 most_bytes = 2 * (width * (sizeof(f32) + sizeof(f64)) + 24);
@@ -54,10 +49,7 @@ template <int D> class Space {
   bool exposed_ = false;  // `boxes()` has handed out the memory: look at each update for what was written
   Buffer<f32> shown_;     // where that memory is, once the boxes had to move elsewhere
   u32 shown_count_ = 0;   // boxes in it; 0: it is not in use
-  bool unseen_ = false;   // all boxes were given at once: so too, though none is bad
-  Buffer<f32> before_;    // the boxes of the last update, while they are exposed and, though nothing is kept, few change
-  u32 copied_ = 0;        // how many there are in it; 0: it is not in use
-  u32 blind_ = 0, pause_ = 1;  // updates until it is tried again; how many the next pause has
+  bool renamed_ = false;  // since the last update, boxes have come, gone or got other ids
   bool tight_ = false;    // memory may not be had for the first double
   Filters filters_;
   Changes changes_;  // since the last update, for the technique that asks
@@ -140,6 +132,7 @@ template <int D> class Space {
     if (slot == Ids::none) return false;
     if (keeps_events) events.make_room(id);
     ids_.erase(id);
+    renamed_ = true;
     if (keeps_events) events.forget(id);
     u32 last = ids_.count();
     if (filters_.active()) filters_.move(last, slot);
@@ -171,7 +164,7 @@ template <int D> class Space {
     exposed_ = false;
     shown_count_ = 0;
     hold_floats();
-    copied_ = 0;
+    renamed_ = true;
   }
 
   /// Where everything stands, for a recorder and right after an update: the ids (0: slots), the boxes, the doubles they
@@ -198,7 +191,7 @@ template <int D> class Space {
     bool rounded = false;
     i32 bad = doubles ? round_staged(count, rounded) : first_bad(staged_.data(), count);
     if (bad >= 0) return bad;
-    if (!exposed_ && rounding_ == rounded && ids_.same() && ids_.count() == count) note_staged();
+    if (ids_.same() && ids_.count() == count) changes_.note_all();
     else renumber(count);
     take_staged(rounded);
     return -1;
@@ -283,33 +276,33 @@ template <int D> class Space {
     changes_.note_all();
     take_staged(rounded);
     technique = head.technique == SnapshotHeader::automatic ? Technique::automatic : Technique(head.technique);
-    restored_ = ordered_ = true;
+    restored_ = ordered_ = renamed_ = true;
     return SnapshotFault::none;
   }
 
   /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
   COLD i32 update() {
     see_shown();
-    Technique chosen = choose();
+    Technique chosen = auto_choice(technique, ids_.count(), ordered_);
     bool follows = chosen == Technique::incremental;
-    bool looked_at = false;
-    i32 bad = (exposed_ || unseen_) && follows ? see_written(looked_at) : bad_in_place();
+    i32 bad = bad_in_place();
     if (bad >= 0) return bad;
     take_written();
     bool wraps = options_.wrap[0] > 0;
-    if (rounding_ && !exposed_ && !wraps && look_for_map()) looked_at = false;
-    unseen_ = false;
+    if (rounding_ && !exposed_ && !wraps) look_for_map();
+    if (exposed_) changes_.note_all();
     if (follows && chosen == ran_ && changes_.none() && ids_.count() == seen_ && !filters_.changed()) return rest();
-    Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_, looked_at};
+    Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_};
     if (filters_.active()) {
-      bool others = filters_.changed();
+      scene.filtered = filters_.changed();
       scene.boxes = filters_.select(scene.boxes, scene.count, width);
       scene.excluded = filters_.excluded();
-      if (others || scene.boxes != boxes_.data()) scene.changes = nullptr;
+      if (scene.filtered || scene.boxes != boxes_.data()) scene.changes = nullptr;
     }
     if (wraps) {
       const f64* doubles = rounding_ ? exact_.data() : nullptr;
       scene.changes = nullptr;
+      scene.filtered |= scene.excluded != nullptr;  // of the ghosts, too
       scene.boxes = wrap_.unfold(scene.count, scene.excluded, filters_, boxes_.data(), doubles, options_.wrap, D);
     }
     pairs.count = pairs.doubt_count = 0;
@@ -317,17 +310,22 @@ template <int D> class Space {
     stats = Stats{};
     if (chosen != ran_) {
       release_techniques();
-      pairs.kept = 0;
+      pairs.stable = 0;
     }
     ran_ = chosen;
+    pairs.same = false;
     Settings mapped = options_;
     for (u32 n = 0; options_.bounds[0] < options_.bounds[D] && n < width; n++) mapped.bounds[n] = map_.map(options_.bounds[n], n % D);
     techniques_.with(ran_, [&](auto& chosen) { chosen.update(scene, mapped, pairs, stats); });
-    if (filters_.active() || rounding_ || wraps || !ids_.same()) pairs.kept = 0;
+    bool same = pairs.same && !renamed_ && !rounding_;
+    if (filters_.active() || rounding_ || wraps || !ids_.same()) pairs.stable = 0;
     if (follows) changes_.clear(ids_.count());
     else changes_.note_all();
     seen_ = ids_.count();
+    renamed_ = false;
     if (stats.candidates == 0) stats.candidates = f64(pairs.count);
+    stats.pairs = f64(pairs.count);
+    if (same) return rest();
     if (wraps) wrap_.fold(pairs);
     else if (rounding_) retest();
     if (filters_.active()) filters_.finish(pairs);
@@ -408,13 +406,11 @@ template <int D> class Space {
   COLD void recover() {
     release_techniques();
     changes_.note_all();
-    pairs.kept = 0;
+    pairs.stable = 0;
     pairs.list.release();
     pairs.count = events.began.count = events.ended.count = 0;
     table_.made = neighbours_made_ = false;
-    before_.release();
     pairs.doubts.release();
-    copied_ = 0;
     wrap_.release();
     index_.release();
     answers.release();
@@ -463,21 +459,8 @@ template <int D> class Space {
     heap::reach(larger(usual, all - smaller(all, u64(heap::used))) + more);
   }
 
-  /// What `automatic` stands for now.
-  Technique choose() const {
-    if (technique != Technique::automatic) return technique;
-    if (ids_.count() <= handful) return Technique::brute_force;
-    return ordered_ ? Technique::strip_sweep : Technique::incremental;
-  }
-
   /// Says what ran, and where the choice was ours why.
-  void explain() {
-    stats.technique = f64(u32(ran_));
-    if (technique != Technique::automatic) stats.reason = f64(u32(Reason::asked_for));
-    else if (ran_ == Technique::brute_force) stats.reason = f64(u32(Reason::handful));
-    else if (ran_ == Technique::strip_sweep) stats.reason = f64(u32(Reason::ordered));
-    else if (stats.reason != f64(u32(Reason::kept))) stats.technique = f64(u32(Technique::strip_sweep));
-  }
+  void explain() { say_choice(technique, ran_, stats); }
 
   /// An update in which nothing has changed.
   i32 rest() {
@@ -485,7 +468,7 @@ template <int D> class Space {
     updates++;
     stats.tests = 0;
     stats.bytes = f64(heap::used);
-    stats.reason = f64(u32(Reason::kept));
+    if (ran_ == Technique::incremental) stats.reason = f64(u32(Reason::kept));
     explain();
     return -1;
   }
@@ -496,77 +479,6 @@ template <int D> class Space {
     return bad < 0 ? -1 : i32(ids_.id(u32(bad)));  // since it was written, a removal may have moved it
   }
 
-  /// The id of the first bad box among these, or -1.
-  i32 bad_of(const u32* slots, u32 many) const {
-    for (u32 k = 0; k < many; k++) {
-      u32 slot = slots[k];
-      if (slot < ids_.count() && first_bad(boxes_.data() + u64(slot) * width, 1) >= 0) return i32(ids_.id(slot));
-    }
-    return -1;
-  }
-
-  /// Looks at boxes that nobody has noted, notes those that have changed, and gives the id of the first bad one, or -1.
-  COLD i32 see_written(bool& looked_at) {
-    u32 n = ids_.count();
-    bool held = false;
-    const u32* slots = nullptr;
-    u32 many = 0;
-    techniques_.with_incremental(ran_, [&](auto& incremental) {
-      if (!filters_.search_all() || options_.wrap[0] > 0) return;
-      Scene<D> scene{boxes_.data(), n, filters_.active() ? filters_.excluded() : nullptr};
-      if (incremental.keeps()) {
-        slots = incremental.unexpected(scene, many);
-        held = slots && many == 0 && incremental.all_rest() && !rounding_;
-      } else if (copied_ != n && changes_.none() && n == seen_ && compares()) {
-        held = incremental.holds(scene);
-        blind_ = held ? 0 : unheld;
-      }
-    });
-    looked_at = slots;
-    if (!slots && copied_ == n && !changes_.all()) {
-      bool little = changes_.compare<width * sizeof(f32)>(boxes_.data(), before_.data(), n, 1, true);
-      compared(little);
-      // A bad one is copied like any other; until it is mended it stays on the list, which is looked at whole.
-      if (little) return bad_of(changes_.list(), changes_.count());
-    }
-    copied_ = 0;
-    if (!held) changes_.note_all();
-    if (slots) return bad_of(slots, many);
-    if (!held) return bad_in_place();
-    before_.reserve(u64(n) * width);
-    __builtin_memcpy(before_.data(), boxes_.data(), u64(n) * width * sizeof(f32));
-    copied_ = n;
-    return -1;
-  }
-
-  /// Notes which of the boxes that were staged differ from those that stand, or that it is to be found out.
-  void note_staged() {
-    techniques_.with_incremental(ran_, [&](auto& incremental) { unseen_ = incremental.keeps(); });
-    if (unseen_) return;
-    if (changes_.all() || !compares()) return changes_.note_all();
-    const void* now = staged_.data();
-    void* before = boxes_.data();
-    if (rounding_) {
-      now = staged_exact_.data();
-      before = exact_.data();
-    }
-    bool little = changes_.compare<width * sizeof(f32)>(now, before, ids_.count(), rounding_ ? 2 : 1, false);
-    compared(little);
-    if (!little) changes_.note_all();
-  }
-
-  /// Whether boxes are compared with those of before; not for a while where it was of no use.
-  bool compares() {
-    if (blind_ == 0) return true;
-    blind_--;
-    return false;
-  }
-
-  COLD void compared(bool useful) {
-    pause_ = useful ? 1 : smaller(64u, 2 * pause_);
-    blind_ = useful ? 0 : pause_;
-  }
-
   /// What was staged is now what stands in the space; `rounded`: with doubles that float32 cannot hold.
   void take_staged(bool rounded) {
     boxes_.swap(staged_);
@@ -575,7 +487,6 @@ template <int D> class Space {
     rounding_ = rounded;
     exposed_ = false;
     shown_count_ = 0;
-    copied_ = 0;
   }
 
   f64 number(u32 slot, u32 k) const {
@@ -688,6 +599,7 @@ template <int D> class Space {
     if (slot != Ids::none) return slot;
     if (ids_.count() >= room()) make_room(u64(ids_.count()) + 1, ids_.count());
     slot = ids_.insert(id);
+    renamed_ = true;
     if (filters_.active()) filters_.insert(slot);
     changes_.note(slot);
     return slot;
@@ -833,6 +745,7 @@ template <int D> class Space {
   /// The ids become 0 … count - 1; those that were there keep their filters.
   COLD void renumber(u32 count) {
     changes_.note_all();
+    renamed_ = true;
     room_to_forget();
     if (filters_.active()) filters_.renumber(ids_, count);
     forget_from(count);

@@ -3,7 +3,7 @@
 #include "simd.hpp"
 
 /// Why a technique ran, in the order of `reasons` in src/broad-phase.ts.
-enum class Reason : u32 { asked_for, handful, kept, filling, moving, ordered };
+enum class Reason : u32 { asked_for, handful, kept, watching, moving, ordered };
 
 struct Stats {
   f64 tests = 0;       // boxes tested against boxes

@@ -3,12 +3,12 @@
 #pragma once
 #include <type_traits>
 
+#include "coherence/incremental.hpp"
 #include "techniques/aabb_tree.hpp"
 #include "techniques/brute_force.hpp"
 #include "techniques/bsp_tree.hpp"
 #include "techniques/hierarchical_grid.hpp"
 #include "techniques/home_cell_grid.hpp"
-#include "techniques/incremental.hpp"
 #include "techniques/quadtree.hpp"
 #include "techniques/r_tree.hpp"
 #include "techniques/retained_grid.hpp"
@@ -83,11 +83,6 @@ template <int D> class Techniques {
       case Technique::incremental: return call(what, incremental_);
       default: return call(what, strip_sweep_);
     }
-  }
-
-  /// Calls `what` with `incremental`, where it ran last.
-  template <class What> void with_incremental(Technique ran, What what) {
-    if (ran == Technique::incremental) call(what, incremental_);
   }
 };
 

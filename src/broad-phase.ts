@@ -84,8 +84,8 @@ const reasons = [
   'asked for',
   'a handful of boxes',
   'what was found is kept: boxes rest or move little',
-  'what is found will be kept: boxes rest or move little',
-  'all is found anew: boxes move, or there are few',
+  'all is found anew: how boxes move is being watched',
+  'all is found anew: boxes move too far, or there are few',
   'all is found anew: after a snapshot, no update before may show in the order of pairs',
 ] as const;
 

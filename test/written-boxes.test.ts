@@ -208,7 +208,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     }
   });
 
-  // Before anything is kept the boxes are not copied: what rests is known by what strip-sweep has found them in.
+  // Before the first list, what rests is known by what strip-sweep has found them in.
   test.each([300, 3000])('one of %i boxes written in place that moves at once is seen, and that none does', (count) => {
     const random = createRandom(count);
     const width = 2 * dimensions;
@@ -232,9 +232,11 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     }
     const resting = new BroadPhase({ dimensions });
     resting.boxes(count).fill(1);
-    resting.update();
-    resting.boxes(count);
-    expect(resting.update().stats.tests, 'the second update of a world at rest').toBe(0);
+    for (let frame = 0; frame < 4; frame++) {
+      resting.boxes(count);
+      resting.update();
+    }
+    expect(resting.stats.tests, 'the fourth update of a world at rest').toBe(0);
   });
 
   // `boxes()` gives them as float32, rounded to the nearest: those that only nearly touched as doubles do now.

@@ -17,8 +17,6 @@
 template <int D> class StripSweep {
   // What an entry in a strip costs, relative to a tested candidate: sets the width of the strips.
   static constexpr f64 entry_cost = D == 2 ? 24 : 40;
-  // ... and where an update is in parts: strips are swept whole, so narrower ones make parts alike.
-  static constexpr f64 entry_cost_in_parts = entry_cost / 2;
   // Below this many candidates a box, narrower strips save nothing: the first block of four is tested anyway.
   static constexpr f64 free_candidates = 1.5;
   // Strips longer than this leave the cache near the core.
@@ -87,9 +85,8 @@ template <int D> class StripSweep {
   Cut cut_ = {};     // the outermost
   u32 boxes_ = 0;
   u32 entered_ = 0;  // entries of the outermost cut
-  bool in_parts_ = false;
-  u32 begun_ = 0, swept_lists_ = 0;  // entries and strips that are swept, of an update in parts
-  Items<D> blocks_;                  // bounds of each few entries
+  bool searched_ = false;  // `each_near` is going to be asked
+  Items<D> blocks_;        // ... for which these are the bounds of each few entries
   Stats* stats_ = nullptr;
 
  public:
@@ -109,63 +106,55 @@ template <int D> class StripSweep {
     ItemsAt<D> all(entries_, 0);
     for (u32 k = 0; k < scene.count; k++) all.put(k, items[k]);
     stats.entries = scene.count;
-    list(all, scene.count, everywhere(), scene.count, cuts ? deepest : 0, pairs);
+    u64 tests = swept_.order(all, scene.count);
+    list(all, scene.count, tests, everywhere(), scene.count, cuts ? deepest : 0, pairs);
   }
 
-  // An update in parts, which need not all be of one moment: `begin`, `count` all boxes, `add_up`, `enter` all, and
-  // `sweep` until it says that all is done. A part reads only the boxes it is called for. Afterwards `each_near`
-  // answers: the entries stand in the order they were swept in, and of each few the bounds are known.
-
-  /// Chooses the strips, for boxes that will be so many times as large as those of the scene.
-  COLD void begin(const Scene<D>& scene, f64 growth, Stats& stats) {
+  /// The same, and afterwards `each_near` answers: the entries stand in the order they were swept in, and of each few
+  /// the bounds are known.
+  COLD void update_searched(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
+    searched_ = true;
     stats_ = &stats;
     boxes_ = entered_ = scene.count;
-    stats = Stats{};
-    begun_ = swept_lists_ = 0;
-    in_parts_ = true;
-    cut_up(scene, growth);
-    clear(cut_, 0);
-    ranges_.reserve(boxes_);
-    leaves_.reserve(cut_.rows());
+    bool cuts = cut_up(scene);
+    SceneItems<D> items{scene, order_};
+    if (cuts && divide(items, scene.count, cut_, everywhere(), 0, 0, pairs)) return;
+    leave_whole();
+    divide(items, scene.count, cut_, everywhere(), 0, 0, pairs);
   }
-  void count(const Scene<D>& scene, u32 from, u32 until) {
-    count(SceneItems<D>{scene, order_}, from, until, cut_, 0);
-  }
-  /// False where cutting does not pay.
-  COLD bool add_up() {
-    u64 total = 0;
-    if (!add_up(boxes_, cut_, 0, total)) return false;
-    entered_ = u32(total);
-    entries_.grow(total, 0);
-    stats_->entries = f64(total);
-    blocks_.grow(block_of(entered_, cut_.rows()) + 1, 0);
-    return true;
-  }
-  void enter(const Scene<D>& scene, u32 from, u32 until) { enter(SceneItems<D>{scene, order_}, from, until, cut_, 0); }
-  /// Writes to all memory that entries from `from` to `until` stand in: it may be used for the first time.
-  COLD void touch(u32 from, u32 until) const {
+
+  /// Calls `what` with the slot of each box that is as it was in the last update.
+  template <class What> COLD void each_same(const Scene<D>& scene, What what) const {
+    SceneItems<D> items{scene, order_};
     ItemsAt<D> entries(entries_, 0);
-    for (u32 k = from; k < until; k += 4096 / sizeof(Item<D>)) entries.put(k, Item<D>{});
+    for (u32 k = 0; k < entered_; k++) {
+      u32 tag = tag_at(k), slot = tag & slot_mask;
+      if (slot < scene.count && same(entries[k], with_tag(items[slot], tag))) what(slot);
+    }
   }
-  /// Sweeps strips, whole ones, of about so many entries, at least one; gives how many are left.
-  COLD u32 sweep(u32 entries, Pairs& pairs) {
-    u32 until = smaller(entered_, begun_ + entries);
-    begun_ = sweep(cut_, everywhere(), 0, entered_, swept_lists_, begun_, until, pairs);
-    return entered_ - begun_;
+
+  /// The bounds of the lower corners of the last update, along the world's axes.
+  COLD void bounds(f64* low, f64* high) const {
+    for (int a = 0; a < D; a++) {
+      low[order_.axis[a]] = cut_.world.low[a];
+      high[order_.axis[a]] = cut_.world.high[a];
+    }
   }
 
   /// Calls `what` with the slot of each box of the last update that overlaps this one, which may be any; each once.
-  template <class What> void each_near(const f32* box, What what) const {
+  /// Returns how many bounds were looked at.
+  template <class What> u32 each_near(const f32* box, What what) const {
     Item<D> mine = SceneItems<D>{Scene<D>{box, 1, nullptr}, order_}[0];
     Range range = range_of(lanes_of(cut_), mine);
     const u32* ends = offsets_[0].data();
     ItemsAt<D> entries(entries_, 0), bounds(blocks_, 0);
-    u32 first_2 = D == 2 ? 0 : range.first(2), last_2 = D == 2 ? 0 : range.last(2);
+    u32 first_2 = D == 2 ? 0 : range.first(2), last_2 = D == 2 ? 0 : range.last(2), looked = 0;
     for (u32 s = range.first(1); s <= range.last(1); s++) {
       for (u32 t = first_2; t <= last_2; t++) {
         u32 l = s * cut_.across() + t, end = ends[l];
         u32 met = (s > range.first(1) ? u32(continues_1) : 0) | (t > first_2 ? u32(continues_2) : 0);
         u32 begin = l > 0 ? ends[l - 1] : 0, block = block_of(begin, l);
+        looked += (end - begin) / block_items + 1;
         for (; begin < end; begin += block_items, block++) {
           if (!overlap(bounds[block], mine)) continue;
           for (u32 k = begin; k < smaller(begin + block_items, end); k++) {
@@ -174,30 +163,8 @@ template <int D> class StripSweep {
         }
       }
     }
+    return looked;
   }
-
-  /// Cuts the same world into bins, along the axis that is swept.
-  template <class Bins> COLD void cut_alike(Bins& bins) const {
-    bins.divide(order_.axis[0], cut_.world.low[0], cut_.world.high[0]);
-  }
-
-  /// Whether these are the boxes of the last update.
-  COLD bool holds(const Scene<D>& scene) const {
-    if (boxes_ != scene.count || boxes_ < 2) return false;  // one alone was not entered
-    SceneItems<D> items{scene, order_};
-    ItemsAt<D> entries(entries_, 0);
-    // First a few from all over: where much rests, those that do not may stand together.
-    for (u32 step = entered_ / 64 + 1;; step = 1) {
-      for (u32 k = 0; k < entered_; k += step) {
-        u32 tag = tag_at(k);
-        if (!same(entries[k], with_tag(items[tag & slot_mask], tag))) return false;
-      }
-      if (step == 1) return true;
-    }
-  }
-
-  /// Strips of the outermost cut.
-  u32 lists() const { return cut_.lists(); }
 
   /// The strips of the last update, as boxes in the world's axes; unbounded sides are infinite.
   COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
@@ -223,7 +190,7 @@ template <int D> class StripSweep {
  private:
   /// Strip widths that balance entries against candidates: a strip w boxes wide makes 1 / w more entries and
   /// tests w times the neighbours along the sweep axis.
-  COLD static Cut choose(const Statistics<D>& world, u32 count, f64 entry = entry_cost) {
+  COLD static Cut choose(const Statistics<D>& world, u32 count) {
     f64 relative[D];  // mean size as a share of the extent
     for (int a = 0; a < D; a++) {
       f64 extent = world.high[a] - world.low[a];
@@ -232,13 +199,13 @@ template <int D> class StripSweep {
     f64 neighbours = world.crowding * count * relative[0];  // along the sweep axis, in the whole width
     f64 width[D];                                           // as a share of the extent
     auto one_axis = [&](int axis) {
-      f64 balanced = __builtin_sqrt(entry * relative[axis] / neighbours);
+      f64 balanced = __builtin_sqrt(entry_cost * relative[axis] / neighbours);
       return larger(balanced, free_candidates / neighbours);
     };
     if constexpr (D == 2) {
       width[1] = larger(smaller(one_axis(1), cached_items / count), least_items / count);
     } else {
-      f64 boxes = cube_root(entry / (neighbours * relative[1] * relative[2]));
+      f64 boxes = cube_root(entry_cost / (neighbours * relative[1] * relative[2]));
       boxes = larger(boxes, __builtin_sqrt(free_candidates / (neighbours * relative[1] * relative[2])));
       width[1] = boxes * relative[1];
       width[2] = boxes * relative[2];
@@ -275,7 +242,7 @@ template <int D> class StripSweep {
   }
 
   /// Chooses the sweep axis and the outermost cut; false where it would leave all in one strip.
-  COLD bool cut_up(const Scene<D>& scene, f64 growth = 1) {
+  COLD bool cut_up(const Scene<D>& scene) {
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     Statistics<D> world;
     bool one_strip = scene.count < few;
@@ -285,18 +252,22 @@ template <int D> class StripSweep {
       one_strip = scene.count * world.size[a] <= again_factor * (world.high[a] - world.low[a]);
     }
     if (!one_strip) world = measure<D>(plain, scene.count);
-    for (f64& size : world.size) size *= growth;
     order_ = AxisOrder<D>::make(world.longest());
     if (one_strip) {
       cut_.world = world.in(order_);
-      for (int a = 0; a < D; a++) {
-        cut_.strips[a] = 1;
-        cut_.along[a] = Axis::make(0, 0, 1);
-      }
+      leave_whole();
       return false;
     }
-    cut_ = choose(world.in(order_), scene.count, in_parts_ ? entry_cost_in_parts : entry_cost);
+    cut_ = choose(world.in(order_), scene.count);
     return cut_.lists() > 1;
+  }
+
+  /// All in one strip.
+  COLD void leave_whole() {
+    for (int a = 0; a < D; a++) {
+      cut_.strips[a] = 1;
+      cut_.along[a] = Axis::make(0, 0, 1);
+    }
   }
 
   /// Puts items into the strips of a cut, behind the `base` entries of the cuts further out, and sweeps each.
@@ -306,17 +277,17 @@ template <int D> class StripSweep {
   bool divide(Source items, u32 size, const Cut& cut, const Region& region, u32 base, u32 depth, Pairs& pairs) {
     clear(cut, depth);
     ranges_.reserve(size);
-    count(items, 0, size, cut, depth);
+    count(items, size, cut, depth);
     u64 total = base;
     if (!add_up(size, cut, depth, total)) return false;
     if (base == 0) entered_ = u32(total);
     size_t source = place(items);
     entries_.grow(total, base);
     move(items, source);
-    enter(items, 0, size, cut, depth);
+    enter(items, size, cut, depth);
+    if (searched_ && base == 0) blocks_.grow(block_of(entered_, cut.rows()) + 1, 0);
     stats_->entries += f64(total - base);
-    u32 first = 0;
-    sweep(cut, region, depth, u32(total), first, base, u32(total), pairs);
+    sweep(cut, region, depth, u32(total), base, pairs);
     return true;
   }
 
@@ -325,12 +296,12 @@ template <int D> class StripSweep {
   }
 
   /// Counting by differences: +1 where an item's range of strips begins, -1 behind its end, then prefix sums.
-  template <class Source> NOINLINE void count(Source items, u32 from, u32 until, const Cut& cut, u32 depth) {
+  template <class Source> NOINLINE void count(Source items, u32 size, const Cut& cut, u32 depth) {
     u32 across = cut.across();
     u32* offsets = offsets_[depth].data();
     Range* ranges = ranges_.data();
     Axes axes = lanes_of(cut);
-    for (u32 k = from; k < until; k++) {
+    for (u32 k = 0; k < size; k++) {
       Range range = range_of(axes, items[k]);
       ranges[k] = range;
       u32 first = range.first(1), behind = range.last(1) + 1;
@@ -359,15 +330,12 @@ template <int D> class StripSweep {
     for (u32 l = across; l < lists; l++) offsets[l] += offsets[l - across];
     u64 base = total;
     f64 tests = 0;  // relative to those of the uncut items
-    u32 longest = 0;
     for (u32 l = 0; l < lists; l++) {
       u32 here = offsets[l];
-      longest = larger(longest, here);
       offsets[l] = u32(total);
       total += here;
       tests += f64(here) * here;
     }
-    if (in_parts_) swept_.reserve(longest);  // not in the part that comes to it
     // It pays when it saves a third of the tests, or when it copies little: then it closes in on a crowd, for the
     // next cut to spread it.
     bool pays = tests * 3 < 2 * f64(size) * size || (total - base) * 2 < size * 3;
@@ -375,12 +343,12 @@ template <int D> class StripSweep {
   }
 
   /// Puts items into their strips.
-  template <class Source> NOINLINE void enter(Source items, u32 from, u32 until, const Cut& cut, u32 depth) {
+  template <class Source> NOINLINE void enter(Source items, u32 size, const Cut& cut, u32 depth) {
     u32 across = cut.across();
     u32* offsets = offsets_[depth].data();
     const Range* ranges = ranges_.data();
     ItemsAt<D> entries(entries_, 0);
-    for (u32 k = from; k < until; k++) {
+    for (u32 k = 0; k < size; k++) {
       Item<D> item = items[k];
       Range range = ranges[k];
       u32 first = range.first(1), last = range.last(1);
@@ -403,22 +371,21 @@ template <int D> class StripSweep {
     }
   }
 
-  /// Sweeps the strips of a cut from `list_at` on, where the entries from `begin` on stand, until those up to `until`
-  /// are done, and of the last strip more than is not; gives where the next begin. `total`: where deeper cuts may stack
-  /// theirs.
-  COLD u32 sweep(const Cut& cut, const Region& region, u32 depth, u32 total, u32& list_at, u32 begin, u32 until, Pairs& pairs) {
-    u32 across = cut.across(), from = begin;
-    for (; begin < until; list_at++) {
-      u32 end = offsets_[depth][list_at];  // it has moved on from where the strip begins to where it ends
+  /// Sweeps the strips of a cut, whose entries stand from `begin` to `total`, where deeper cuts stack theirs.
+  COLD void sweep(const Cut& cut, const Region& region, u32 depth, u32 total, u32 begin, Pairs& pairs) {
+    u32 across = cut.across();
+    for (u32 l = 0; begin < total; l++) {
+      u32 end = offsets_[depth][l];  // it has moved on from where the strip begins to where it ends
       if (end == begin) continue;
-      if (begin > from && end > until && end - until > until - begin) break;
       Region part = region;
-      narrow(part, 1, cut, list_at / across);
-      if constexpr (D == 3) narrow(part, 2, cut, list_at % across);
-      list(ItemsAt<D>(entries_, begin), end - begin, part, total, depth + 1, pairs);
+      narrow(part, 1, cut, l / across);
+      if constexpr (D == 3) narrow(part, 2, cut, l % across);
+      ItemsAt<D> items(entries_, begin);
+      u64 tests = swept_.order(items, end - begin);
+      if (searched_ && depth == 0) bound(items, end - begin, block_of(begin, l));
+      list(items, end - begin, tests, part, total, depth + 1, pairs);
       begin = end;
     }
-    return begin;
   }
 
   u32 tag_at(u32 k) const {
@@ -442,10 +409,8 @@ template <int D> class StripSweep {
     if (strip < last) region.high[axis] = low + (strip + 0.5) * step;
   }
 
-  /// Orders the items of one strip and sweeps them, or cuts them again where that saves work.
-  void list(const ItemsAt<D>& items, u32 count, const Region& region, u32 base, u32 depth, Pairs& pairs) {
-    u64 tests = swept_.order(items, count);
-    if (in_parts_ && depth == 1) bound(items, count);
+  /// Sweeps the items of one strip, which were just ordered, or cuts them again where that saves work.
+  void list(const ItemsAt<D>& items, u32 count, u64 tests, const Region& region, u32 base, u32 depth, Pairs& pairs) {
     f64 hits = tests > look_factor * count && tests > again_least ? swept_.hits(count) : 1;
     Statistics<D> part;
     if (hits < wasteful) {
@@ -472,8 +437,7 @@ template <int D> class StripSweep {
   static u32 block_of(u32 begin, u32 strip) { return begin / block_items + strip; }
 
   /// Keeps the items of a strip in the order they are swept in, and the bounds of each few.
-  NOINLINE void bound(const ItemsAt<D>& items, u32 count) {
-    u32 block = block_of(u32(place(items)), swept_lists_);
+  NOINLINE void bound(const ItemsAt<D>& items, u32 count, u32 block) {
     ItemsAt<D> bounds(blocks_, 0);
     for (u32 from = 0; from < count; from += block_items, block++) {
       bounds.put(block, swept_.bounds(from, smaller(from + block_items, count), items));

@@ -1,77 +1,63 @@
-// A strip sweep in parts, as generations make it.
+// What a strip sweep answers once it has found the pairs.
 #include "techniques/strip_sweep.hpp"
 
 #include <algorithm>
 #include <set>
 
+#include "box_tests.hpp"
 #include "check.hpp"
 #include "random.hpp"
 
 namespace {
 
-/// Boxes that stand the closer the further along each axis, so that strips have different lengths.
-template <int D> std::vector<f32> crowd(Random& random, u32 count) {
+/// Boxes that stand the closer the further along each axis, so that strips have different lengths; or all in a row.
+template <int D> std::vector<f32> crowd(Random& random, u32 count, bool in_a_row, bool huge = false) {
   std::vector<f32> boxes(count * 2 * D + 4);
   for (u32 k = 0; k < count; k++) {
     for (u32 a = 0; a < D; a++) {
-      f64 at = random.fraction();
-      boxes[k * 2 * D + a] = f32(400 * (1 - at * at));
-      boxes[k * 2 * D + D + a] = boxes[k * 2 * D + a] + f32(3 * random.fraction());
+      f64 at = random.fraction(), size = k % 500 == 0 || huge ? 390 : 3;
+      boxes[k * 2 * D + a] = in_a_row && a > 0 ? 0 : f32(400 * (1 - at * at));
+      boxes[k * 2 * D + D + a] = boxes[k * 2 * D + a] + f32(size * random.fraction());
     }
   }
   return boxes;
 }
 
-template <int D> void check_parts(u32 count) {
+template <int D> void check_near(u32 count, bool in_a_row, bool huge = false) {
   Random random(17);
-  std::vector<f32> boxes = crowd<D>(random, count);
+  std::vector<f32> boxes = crowd<D>(random, count, in_a_row, huge);
   Scene<D> scene{boxes.data(), count, nullptr};
-  StripSweep<D> whole, parts;
+  StripSweep<D> plain, searched;
   Pairs expected, found;
-  Stats stats, stats_of_parts;
-  whole.update(scene, Settings{}, expected, stats);
-  parts.begin(scene, 1, stats_of_parts);
-  parts.count(scene, 0, count);
-  CHECK(parts.add_up());
-  parts.touch(0, u32(stats_of_parts.entries));
-  parts.enter(scene, 0, count / 2);
-  parts.enter(scene, count / 2, count);
-  u32 all = u32(stats_of_parts.entries), left = all, longest = 0;
-  std::vector<u32> lengths;
-  for (u32 before = all; left > 0; before = left) {
-    left = parts.sweep(1, found);  // a strip each time
-    CHECK(left < before);
-    lengths.push_back(before - left);
-    longest = std::max(longest, before - left);
-  }
-  CHECK(lengths.size() > 8);
+  Stats stats, stats_searched;
+  plain.update(scene, Settings{}, expected, stats);
+  searched.update_searched(scene, found, stats_searched);
   auto sorted = [](const Pairs& pairs) {
     return std::set<u64>(pairs.list.data(), pairs.list.data() + pairs.count);
   };
   CHECK(sorted(found) == sorted(expected));
   CHECK(found.count == expected.count);
-
-  // Again, with room in each part for some strips: what is swept is as near to that as whole strips can be.
-  u32 room = 2 * longest, at = 0;
-  Pairs again;
-  parts.begin(scene, 1, stats_of_parts);
-  parts.count(scene, 0, count);
-  CHECK(parts.add_up());
-  parts.enter(scene, 0, count);
-  for (u32 before = all; before > 0; before = left) {
-    left = parts.sweep(room, again);
-    u32 last = 0, sum = 0;
-    while (sum < before - left) sum += last = lengths[at++];
-    CHECK(sum == before - left);
-    CHECK(sum <= room || sum - room <= room - (sum - last));
-    CHECK(left == 0 || sum >= room || room - sum < sum + lengths[at] - room);
+  std::vector<f32> askers = crowd<D>(random, 200, in_a_row);
+  for (u32 k = 0; k < 200; k++) {
+    const f32* box = askers.data() + k * 2 * D;
+    std::vector<u32> near, touching;
+    searched.each_near(box, [&](u32 slot) { near.push_back(slot); });
+    for (u32 slot = 0; slot < count; slot++) {
+      if (boxes_touch<D>(box, scene.box(slot))) touching.push_back(slot);
+    }
+    std::sort(near.begin(), near.end());
+    CHECK(near == touching);
   }
-  CHECK(again.count == expected.count);
 }
 
 }  // namespace
 
-TEST("a strip sweep in parts sweeps whole strips, as many as come nearest to what it may, and finds the same pairs") {
-  check_parts<2>(6000);
-  check_parts<3>(6000);
+TEST("a strip sweep that is searched finds the same pairs, and each box that touches one, once") {
+  for (bool in_a_row : {false, true}) {
+    check_near<2>(6000, in_a_row);
+    check_near<3>(6000, in_a_row);
+    check_near<2>(300, in_a_row);
+  }
+  check_near<2>(2500, false, true);  // so large that cutting them does not pay
+  check_near<3>(2500, false, true);
 }
