@@ -808,7 +808,9 @@ template <int D> class Space {
       kept += until - at;
       at = until;
     };
-    bool all = !(watching >> u32(ran_) & 1);
+    // Where `incremental` keeps nothing, strip sweep has answered and noted its doubts.
+    bool fresh = ran_ == Technique::incremental && !ordered_ && stats.reason != f64(u32(Reason::kept));
+    bool all = !fresh && !(watching >> u32(ran_) & 1);
     for (u32 k = 0; k < (all ? 1 : pairs.doubt_count); k++) {
       if (!all) keep(pairs.doubts[2 * k]);
       u64 until = all ? pairs.count : pairs.doubts[2 * k + 1];
