@@ -151,6 +151,50 @@ const matrix = {
   },
   'a page, modules as they are': { from: 'static', try: (at) => at.page('', every, script) },
   'a page, a plain script': { from: 'script', try: (at) => at.page('', script, script) },
+  'other realms, two copies, hot reload': {
+    from: 'places',
+    try: async (at) => equal(await at.run('node', 'realms.mjs'), 'true\n7,9\n1\n7,9\n7,9'),
+  },
+  'held in the state of frameworks': {
+    from: 'places',
+    async try(at) {
+      at.note(await at.run('node', 'state.mjs'));
+    },
+  },
+  'Jest and Vitest': {
+    from: 'places',
+    async try(at) {
+      for (const [jest, suffix] of [
+        ['jest29', '29'],
+        ['jest', ''],
+      ]) {
+        for (const environment of ['node', `${tools}/jest-environment-jsdom${suffix}`]) {
+          const file = join(tools, jest, 'bin/jest.js');
+          await at.run('node', file, '--rootDir', '.', '--testMatch', '**/*.test.cjs', '--env', environment);
+        }
+      }
+      for (const environment of ['node', 'jsdom', 'happy-dom']) {
+        await at.run('vitest', 'run', '--environment', environment, 'places.test.mjs');
+      }
+    },
+  },
+  'iframes, workers of all kinds, audio worklets': {
+    from: 'places',
+    async try(at) {
+      cpSync(join(at.folder, 'node_modules/broadphase/dist/index.js'), join(at.folder, 'library.js'));
+      cpSync(join(at.folder, 'foreign.cjs'), join(at.folder, 'foreign.js'));
+      const pair = '7,9';
+      const everywhere = {
+        iframe: true,
+        'no TextEncoder': '0,1',
+        'two copies': 0,
+        'shared worker': pair,
+        'audio worklet': `${pair}, no TextEncoder`,
+        'service worker': pair,
+      };
+      await at.page('', JSON.stringify(everywhere), 'none');
+    },
+  },
   'what is not used is left out': {
     from: 'shaking',
     async try(at) {

@@ -17,7 +17,8 @@ import {
 } from './errors.ts';
 import { builtTechniques } from './kernel.ts';
 import { Queries } from './queries.ts';
-import { badSnapshot, bytesOf, headerBytes } from './snapshot.ts';
+import { badSnapshot, headerBytes, snapshotBytes } from './snapshot.ts';
+import { isFloat32Array, isFloat64Array } from './values.ts';
 import { type Watcher, watch } from './watch.ts';
 
 /** Options of {@link BroadPhase}, all optional. */
@@ -427,7 +428,7 @@ export class BroadPhase extends Queries {
   setAll(boxes: Boxes, count?: number): this;
   setAll(boxes: Boxes, count?: number, where = 'setAll'): this {
     const width = this.width;
-    const single = boxes instanceof Float32Array;
+    const single = isFloat32Array(boxes);
     checkBoxes(where, boxes);
     if (count === undefined) count = countBoxes(where, boxes, this.dimensions);
     const { length } = boxes;
@@ -841,7 +842,7 @@ export class BroadPhase extends Queries {
    * space.restore(new Uint8Array(100)); // throws RangeError: restore:
    */
   restore(bytes: Uint8Array | ArrayBuffer): this {
-    const source = bytesOf(bytes);
+    const source = snapshotBytes(bytes);
     const io = this.io();
     // The header first: memory is taken only for what may be a snapshot and is as long as it says.
     const header = new Uint8Array(io.buffer, io.byteOffset, headerBytes);
@@ -1078,7 +1079,7 @@ function checkBounds(bounds: readonly number[], dimensions: 2 | 3): void {
 
 /** Boxes come in one of three kinds of array. */
 export function checkBoxes(where: string, boxes: unknown): void {
-  if (boxes instanceof Float32Array || boxes instanceof Float64Array || Array.isArray(boxes)) return;
+  if (isFloat32Array(boxes) || isFloat64Array(boxes) || Array.isArray(boxes)) return;
   badValue(where, boxes, 'a Float32Array, a Float64Array or an array of numbers', true);
 }
 

@@ -13,6 +13,7 @@ import {
   splitColours,
 } from './broad-phase.ts';
 import { checkOptions } from './errors.ts';
+import { isFloat32Array } from './values.ts';
 
 /** By dimensions. A space is not here while it is in use: a getter in the caller's array may call again. */
 const spares: (BroadPhase | undefined)[] = [];
@@ -94,7 +95,7 @@ export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOp
 /** Both arrays as one, in double precision unless both are float32. */
 function join(red: Boxes, blue: Boxes): Boxes {
   if (Array.isArray(red) || Array.isArray(blue)) return [...red, ...blue];
-  const single = red instanceof Float32Array && blue instanceof Float32Array;
+  const single = isFloat32Array(red) && isFloat32Array(blue);
   const joined = new (single ? Float32Array : Float64Array)(red.length + blue.length);
   joined.set(red);
   joined.set(blue, red.length);

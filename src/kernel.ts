@@ -3,6 +3,7 @@
 // without waiting; `init` is for hosts that forbid that or want to load the bytes themselves. Builds of the library
 // with all techniques take the other text (scripts/every-technique.mjs).
 import * as kernel from './generated/kernel-lean.ts';
+import { bytesOf, isModule } from './values.ts';
 
 /** The exported functions of kernel/abi.cpp. Addresses come as signed numbers: `>>> 0` those that can be beyond 2 GiB. */
 export interface KernelExports {
@@ -76,8 +77,10 @@ let techniques = 0;
  * init('kernel.wasm' as never); // throws TypeError: init: got kernel.wasm, expected a WebAssembly.Module
  */
 export function init(source: WebAssembly.Module | BufferSource): void {
-  if (source instanceof WebAssembly.Module) module = checked(source);
-  else if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) module = checked(compile(source));
+  const bytes = bytesOf(source);
+  if (isModule(source)) module = checked(source);
+  else if (bytes)
+    module = checked(compile(bytes.slice())); // a shared or resizable buffer cannot be compiled
   else throw new TypeError(`init: got ${String(source)}, expected a WebAssembly.Module or the bytes of one`);
   techniques = 0;
 }
@@ -135,11 +138,18 @@ function read({ alphabet, order, text }: typeof kernel): Uint8Array<ArrayBuffer>
     first[code] = k < prefixes ? -(single + k * length) : bytes[k - prefixes]!;
     second[code] = k;
   }
-  const codes = new TextEncoder().encode(text);
+  const codes = new Uint8Array(text.length);
+  encodeInto(text, codes);
   let to = 0;
   for (let from = 0; from < codes.length; from++) {
     const byte = first[codes[from]!]!;
     codes[to++] = byte < 0 ? bytes[second[codes[++from]!]! - byte]! : byte;
   }
   return codes.subarray(0, to);
+}
+
+/** Writes characters of ASCII as bytes. Jest's pages and audio worklets have no TextEncoder, which is much faster. */
+function encodeInto(text: string, bytes: Uint8Array): void {
+  if (typeof TextEncoder !== 'undefined') new TextEncoder().encodeInto(text, bytes);
+  else for (let k = 0; k < text.length; k++) bytes[k] = text.charCodeAt(k);
 }

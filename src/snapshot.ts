@@ -1,16 +1,17 @@
 // Why bytes are not a snapshot that can be restored, in words. What a snapshot holds: kernel/snapshot.hpp.
 import { badValue } from './errors.ts';
+import { bytesOf } from './values.ts';
 
 /** Bytes in front of what stands in the space, and the version of them that this library writes. */
 export const headerBytes = 24;
 const newest = 1;
 
-/** Any view of bytes, or all of a buffer, as bytes. */
-export function bytesOf(value: unknown): Uint8Array {
-  if (value instanceof Uint8Array) return value;
-  if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
-  if (value instanceof ArrayBuffer) return new Uint8Array(value);
-  badValue('restore', value, 'the bytes that snapshot() gave, as a Uint8Array or an ArrayBuffer', true);
+/** What was given to `restore`, as bytes. */
+export function snapshotBytes(value: unknown): Uint8Array {
+  return (
+    bytesOf(value) ??
+    badValue('restore', value, 'the bytes that snapshot() gave, as a Uint8Array or an ArrayBuffer', true)
+  );
 }
 
 /** `fault` is kernel/snapshot.hpp's SnapshotFault. */

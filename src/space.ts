@@ -43,6 +43,11 @@ export abstract class Space {
     this.kernel.open_space(dimensions);
   }
 
+  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  get [Symbol.toStringTag](): string {
+    return 'BroadPhase';
+  }
+
   /**
    * The number of boxes.
    *
@@ -156,7 +161,7 @@ export abstract class Space {
 
   /** After an exception out of the kernel: makes the space usable again and says what was wrong. @internal */
   protected recover(error: unknown, where: string): never {
-    if (!(error instanceof WebAssembly.RuntimeError)) throw error;
+    if ((error as Error | undefined)?.name !== 'RuntimeError') throw error;
     this.kernel.__stack_pointer.value = this.#stackTop;
     if (this.kernel.recover() === 0) throw error;
     throw new RangeError(

@@ -1,5 +1,6 @@
 // Command lines: Node's own parser, and on top of it what each command takes, checked, with help made from the same.
 import { parseArgs } from 'node:util';
+import { counted, list, wrap } from './terminal.ts';
 
 /** Exit codes: what a script can rely on. */
 export const exitCode = {
@@ -30,8 +31,9 @@ export interface Option {
 export interface Terminal {
   out(text: string): void;
   err(text: string): void;
-  /** Whether a person is watching `err`. */
+  /** Whether a person is watching `err`, on a terminal that can rewrite a line. */
   interactive: boolean;
+  /** How wide lines may be. */
   columns: number;
 }
 
@@ -49,6 +51,13 @@ const common: Record<string, Option> = {
   json: { help: 'write the result as JSON' },
   help: { help: 'show this' },
 };
+
+/** What a number may be, both ends included. */
+export interface Range {
+  least: number;
+  most?: number;
+  whole?: boolean;
+}
 
 /** The arguments of a command, as given; each is checked when it is asked for. */
 export class Input {
@@ -69,12 +78,14 @@ export class Input {
     return typeof value === 'string' ? value : undefined;
   }
 
-  number(name: string, least: number, whole = false): number | undefined {
+  number(name: string, { least, most = Infinity, whole = false }: Range): number | undefined {
     const text = this.text(name);
     if (text === undefined) return undefined;
     const value = Number(text);
-    if (text.trim() === '' || !(value >= least && value < Infinity) || (whole && !Number.isInteger(value))) {
-      throw new UsageError(`--${name} is ${text}, expected ${whole ? 'an integer' : 'a number'} from ${least}`);
+    const inRange = value >= least && value <= most && value < Infinity;
+    if (text.trim() === '' || !inRange || (whole && !Number.isInteger(value))) {
+      const upTo = most < Infinity ? ` to ${most}` : '';
+      throw new UsageError(`--${name} is ${text}, expected ${whole ? 'an integer' : 'a number'} from ${least}${upTo}`);
     }
     return value;
   }
@@ -96,40 +107,51 @@ export class Input {
  * @throws UsageError that names what is wrong
  */
 export function parse(command: Command, argv: readonly string[]): Input {
-  const options = { ...common, ...command.options };
+  const options: Record<string, Option> = { ...common, ...command.options };
   const asked = Object.entries(options).map(
-    ([name, { value }]) => [name, { type: value ? 'string' : 'boolean' }] as const,
+    ([name, { value }]) =>
+      [name, { type: value ? 'string' : 'boolean', ...(name === 'help' && { short: 'h' }) }] as const,
   );
-  try {
-    const { values, positionals } = parseArgs({
-      args: [...argv],
-      options: Object.fromEntries(asked) as Record<string, { type: 'string' | 'boolean' }>,
-      allowPositionals: true,
-    });
-    const input = new Input(positionals, values as Record<string, string | boolean | undefined>);
-    if (positionals.length !== command.operands.length && !input.has('help')) {
-      const expected = command.operands.map((name) => `<${name}>`).join(' ');
-      throw new UsageError(`expected ${expected}, got ${positionals.length} arguments`);
-    }
-    return input;
-  } catch (error) {
-    if (error instanceof TypeError && 'code' in error) throw new UsageError(error.message);
-    throw error;
+  const { values, positionals, tokens } = parseArgs({
+    args: [...argv],
+    options: Object.fromEntries(asked) as Record<string, { type: 'string' | 'boolean'; short?: string }>,
+    allowPositionals: true,
+    strict: false, // what is wrong is said below
+    tokens: true,
+  });
+  const input = new Input(positionals, values as Record<string, string | boolean | undefined>);
+  for (const token of tokens) if (token.kind === 'option') checkOption(token.name, token.rawName, token.value, options);
+  if (positionals.length !== command.operands.length && !input.has('help')) {
+    const expected = command.operands.map((name) => `<${name}>`).join(' ');
+    throw new UsageError(`expected ${expected}, got ${counted(positionals.length, 'argument')}`);
   }
+  return input;
 }
 
-/** What `--help` shows of a command. */
-export function helpOf(name: string, command: Command): string {
+function checkOption(name: string, written: string, value: string | undefined, options: Record<string, Option>): void {
+  if (!Object.hasOwn(options, name)) {
+    const known = Object.keys(options).map((each) => `--${each}`);
+    throw new UsageError(`no option ${written}, expected ${known.slice(0, -1).join(', ')} or ${known.at(-1)}`);
+  }
+  const takes = options[name].value;
+  // An option behind this one is not its value; a negative number may be.
+  if (takes && (value === undefined || /^-(?!\d)/.test(value))) {
+    throw new UsageError(`--${name} has no value, expected --${name} <${takes}>`);
+  }
+  if (!takes && value !== undefined) throw new UsageError(`--${name} is ${value}, expected no value: it is a switch`);
+}
+
+/** What `--help` shows of a command, in lines no wider than so many columns. */
+export function helpOf(name: string, command: Command, columns: number): string {
   const options = Object.entries({ ...command.options, ...common }).map(
     ([option, { value, help }]) => [`--${option}${value ? ` <${value}>` : ''}`, help] as const,
   );
-  const column = Math.max(...options.map(([left]) => left.length)) + 2;
   return [
     `broadphase ${[name, ...command.operands.map((operand) => `<${operand}>`)].join(' ')} [options]`,
     '',
-    command.summary,
+    ...wrap(command.summary, columns),
     '',
-    ...options.map(([left, help]) => `  ${left.padEnd(column)}${help}`),
+    list(options, columns),
     '',
   ].join('\n');
 }

@@ -17,7 +17,7 @@ export const compareCommand: Command = {
   },
   async run(input, terminal) {
     const techniques = input.names('techniques', BroadPhase.techniques) ?? BroadPhase.techniques;
-    const passes = input.number('passes', 1, true) ?? 3;
+    const passes = input.number('passes', { least: 1, most: 1000, whole: true }) ?? 3;
     const source = await openSource(input, terminal);
     const progress = progressBar(terminal);
     const settings = readCellSize(input, source.dimensions);

@@ -1,7 +1,7 @@
 // `broadphase convert`: from any layout that can be read to one that can be written.
 import { type Command, exitCode } from './arguments.ts';
-import { openSource, sourceOptions, writeFrames } from './files.ts';
-import { bytes } from './terminal.ts';
+import { checkWritable, openSource, sourceOptions, writeFrames } from './files.ts';
+import { bytes, counted } from './terminal.ts';
 
 export const convertCommand: Command = {
   summary: 'to a raw recording (.bin) or a trace (any other name); .gz after it is gzipped',
@@ -9,11 +9,12 @@ export const convertCommand: Command = {
   options: sourceOptions,
   async run(input, terminal) {
     const source = await openSource(input, terminal);
-    const [, path] = input.operands;
+    const [from, path] = input.operands;
+    await checkWritable('<file>', path, from);
     const size = await writeFrames(path, source);
     const { dimensions, frames } = source;
     if (input.has('json')) terminal.out(`${JSON.stringify({ path, dimensions, frames, bytes: size })}\n`);
-    else terminal.out(`${path}: ${frames} frames, ${bytes(size)}\n`);
+    else terminal.out(`${path}: ${counted(frames, 'frame')}, ${bytes(size)}\n`);
     return exitCode.ok;
   },
 };

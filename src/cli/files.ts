@@ -1,5 +1,5 @@
 // Files in and out: any kind of trace comes in, and out goes what the name asks for.
-import { readFile, writeFile } from 'node:fs/promises';
+import { open, readFile, stat, unlink, writeFile } from 'node:fs/promises';
 import { gzipSync } from 'node:zlib';
 import {
   exportRecording,
@@ -7,10 +7,11 @@ import {
   type FrameSource,
   openAny,
   Trace,
-  type TraceError,
+  TraceError,
   TraceWriter,
 } from 'broadphase/trace';
 import { type Input, type Option, type Terminal, UsageError } from './arguments.ts';
+import { counted } from './terminal.ts';
 
 /** A file that cannot be read or written. */
 export class FileError extends Error {}
@@ -30,9 +31,12 @@ export async function openSource(input: Input, terminal: Terminal): Promise<Fram
   const bytes = await readFile(path).catch((error: Error) => {
     throw new FileError(`cannot read ${path}: ${error.message}`);
   });
-  const source = await openAny(bytes, { salvage: input.has('salvage') });
+  const source = await openAny(bytes, { salvage: input.has('salvage') }).catch((error: unknown) => {
+    if (error instanceof TraceError) error.message = `${path}: ${error.message}`;
+    throw error;
+  });
   const fault: TraceError | undefined = source instanceof Trace ? source.fault : undefined;
-  if (fault) terminal.err(`broadphase: ${source.frames} frames salvaged; ${fault.message}\n`);
+  if (fault) terminal.err(`broadphase: ${path}: ${counted(source.frames, 'frame')} salvaged; ${fault.message}\n`);
   const range = input.text('frames');
   return range === undefined ? source : slice(source, range);
 }
@@ -41,6 +45,23 @@ export async function write(path: string, data: Uint8Array | string): Promise<vo
   await writeFile(path, data).catch((error: Error) => {
     throw new FileError(`cannot write ${path}: ${error.message}`);
   });
+}
+
+/**
+ * Finds out before much work is done whether its result can be written.
+ * @throws FileError where it cannot; UsageError where the file is the one that is read
+ */
+export async function checkWritable(option: string, path: string, read: string): Promise<void> {
+  const [there, source] = await Promise.all([path, read].map((each) => stat(each).catch(() => undefined)));
+  if (there && source && there.dev === source.dev && there.ino === source.ino) {
+    throw new UsageError(`${option} is ${path}, which is the trace itself: expected another file`);
+  }
+  try {
+    await (await open(path, 'a')).close();
+    if (!there) await unlink(path);
+  } catch (error) {
+    throw new FileError(`cannot write ${path}: ${(error as Error).message}`);
+  }
 }
 
 /** Writes frames as the name says: `.bin` is the raw layout, all else a trace; with `.gz` after it, gzipped. */

@@ -3,9 +3,14 @@ import type { Frame, FrameSource } from 'broadphase/trace';
 import { createScene, gameNames, type SceneName, sceneNames } from '../scenes/index.ts';
 import { type Command, exitCode, UsageError } from './arguments.ts';
 import { writeFrames } from './files.ts';
-import { bytes } from './terminal.ts';
+import { bytes, counted, number, progressBar } from './terminal.ts';
 
 const names: readonly SceneName[] = [...sceneNames, ...gameNames];
+
+/** A space has no more. */
+const mostBoxes = 2 ** 24;
+/** In all frames: some 1 GB while it is written. */
+const mostInAll = 2 ** 27;
 
 export const generateCommand: Command = {
   summary: 'a trace of a seeded scene',
@@ -21,11 +26,16 @@ export const generateCommand: Command = {
     if (!names.includes(name as SceneName)) {
       throw new UsageError(`no scene ${name}, expected one of ${names.join(', ')}`);
     }
-    const count = input.number('count', 0, true) ?? 10_000;
-    const frames = input.number('frames', 0, true) ?? 60;
-    const seed = input.number('seed', 0, true) ?? 1;
-    const speed = input.number('speed', 0) ?? 2;
+    const count = input.number('count', { least: 0, most: mostBoxes, whole: true }) ?? 10_000;
+    const frames = input.number('frames', { least: 0, most: mostInAll, whole: true }) ?? 60;
+    const seed = input.number('seed', { least: 0, most: 2 ** 32 - 1, whole: true }) ?? 1;
+    const speed = input.number('speed', { least: 0, most: 1e6 }) ?? 2;
+    if (count * frames > mostInAll) {
+      const asked = `${number(frames)} frames of ${number(count)} boxes are ${number(count * frames)} boxes`;
+      throw new UsageError(`${asked}, expected at most ${number(mostInAll)} in all: they are held in memory`);
+    }
     const dimensions = name.endsWith('3d') ? 3 : 2;
+    const progress = progressBar(terminal);
     const source: FrameSource = {
       dimensions,
       frames,
@@ -33,14 +43,16 @@ export const generateCommand: Command = {
         const scene = createScene(name as SceneName, count, { seed, speed });
         for (let index = 0; index < frames; index++) {
           if (index > 0) scene.step();
+          progress.show('frames', index, frames);
           yield { index, count, ids: undefined, boxes: scene.boxes, changed: count };
         }
       },
     };
     const size = await writeFrames(path, source);
+    progress.end();
     if (input.has('json')) {
       terminal.out(`${JSON.stringify({ path, scene: name, dimensions, count, frames, bytes: size })}\n`);
-    } else terminal.out(`${path}: ${frames} frames of ${count} boxes, ${bytes(size)}\n`);
+    } else terminal.out(`${path}: ${counted(frames, 'frame')} of ${counted(count, 'box')}, ${bytes(size)}\n`);
     return exitCode.ok;
   },
 };

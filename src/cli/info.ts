@@ -2,7 +2,7 @@
 import { type Summary, survey } from 'broadphase/trace';
 import { type Command, exitCode } from './arguments.ts';
 import { openSource, sourceOptions } from './files.ts';
-import { histogram, number, percent, progressBar, table } from './terminal.ts';
+import { counted, histogram, number, percent, progressBar, table } from './terminal.ts';
 
 export const infoCommand: Command = {
   summary: 'what is in it: boxes, sizes, density, motion, pairs',
@@ -23,7 +23,7 @@ export const infoCommand: Command = {
       ...[min, median, mean, p95, max].map(show),
     ];
     const numbers = `${found.doubles ? 'doubles' : 'float32'}${found.ids ? ', with ids of their own' : ''}${found.rules ? ', with filters or static boxes' : ''}${found.wrap ? `, in a world of ${found.wrap.join(' × ')} that wraps around` : ''}`;
-    terminal.out(`${input.operands[0]}: ${dimensions}D, ${number(frames)} frames, ${numbers}\n\n`);
+    terminal.out(`${input.operands[0]}: ${dimensions}D, ${counted(frames, 'frame')}, ${numbers}\n\n`);
     terminal.out(
       table(
         ['', 'min', 'median', 'mean', '95 %', 'max'],

@@ -1,5 +1,6 @@
 // The `broadphase` command: finds the subcommand, runs it, and turns what goes wrong into a message and an exit code.
 import { TraceError } from 'broadphase/trace';
+import { version } from '../../package.json' with { type: 'json' };
 import { type Command, exitCode, helpOf, parse, type Terminal, UsageError } from './arguments.ts';
 import { compareCommand } from './compare.ts';
 import { convertCommand } from './convert.ts';
@@ -7,6 +8,7 @@ import { FileError } from './files.ts';
 import { generateCommand } from './generate.ts';
 import { infoCommand } from './info.ts';
 import { replayCommand } from './replay.ts';
+import { list, wrap } from './terminal.ts';
 import { tuneCommand } from './tune.ts';
 
 const commands: Readonly<Record<string, Command>> = {
@@ -22,15 +24,20 @@ const commands: Readonly<Record<string, Command>> = {
 export async function main(argv: readonly string[], terminal: Terminal): Promise<number> {
   const [name = '', ...rest] = argv;
   try {
-    if (name === '--help' || name === 'help') {
-      terminal.out(overview());
+    if (name === '--version') {
+      terminal.out(`${version}\n`);
       return exitCode.ok;
     }
+    if (['--help', '-h', 'help'].includes(name) && !Object.hasOwn(commands, rest[0] ?? '')) {
+      terminal.out(overview(terminal.columns));
+      return exitCode.ok;
+    }
+    if (name === 'help') return await main([rest[0], '--help'], terminal);
     const command = Object.hasOwn(commands, name) ? commands[name] : undefined;
     if (!command) throw new UsageError(name ? `no command ${name}` : 'expected a command');
     const input = parse(command, rest);
     if (input.has('help')) {
-      terminal.out(helpOf(name, command));
+      terminal.out(helpOf(name, command, terminal.columns));
       return exitCode.ok;
     }
     return await command.run(input, terminal);
@@ -55,21 +62,34 @@ function codeOf(error: unknown): number {
   return exitCode.fault;
 }
 
-function overview(): string {
-  const lines = Object.entries(commands).map(([name, { summary, operands }]) => {
-    const call = [name, ...operands.map((operand) => `<${operand}>`)].join(' ');
-    return `  ${call.padEnd(26)}${summary}`;
-  });
+function overview(columns: number): string {
+  const calls = Object.entries(commands).map(
+    ([name, { summary, operands }]) =>
+      [[name, ...operands.map((operand) => `<${operand}>`)].join(' '), summary] as const,
+  );
+  const codes = [
+    ['0', 'all well'],
+    ['1', 'wrong pairs'],
+    ['2', 'wrong command line'],
+    ['3', 'broken trace'],
+    ['4', 'file trouble'],
+    ['70', 'a fault here'],
+  ] as const;
   return [
     'broadphase <command> [options]',
     '',
-    'Looks into, replays, compares and tunes on traces: recordings of the boxes of a game.',
+    ...wrap('Looks into, replays, compares and tunes on traces: recordings of the boxes of a game.', columns),
     '',
-    ...lines,
+    list(calls, columns),
     '',
-    'Each takes --help and --json. A <trace> is a file of broadphase/trace, or a raw recording; gzipped or not.',
+    ...wrap(
+      'Each takes --help (-h) and --json. A <trace> is a file of broadphase/trace, or a raw recording; gzipped or not. ' +
+        '`broadphase --version` says which version this is.',
+      columns,
+    ),
     '',
-    'Exit codes: 0 all well · 1 wrong pairs · 2 wrong command line · 3 broken trace · 4 file trouble · 70 a fault here',
+    'Exit codes:',
+    list(codes, columns),
     '',
   ].join('\n');
 }

@@ -4,7 +4,7 @@ import { type ReplayedFrame, type ReplayOptions, replay } from 'broadphase/trace
 import { summarize } from '../trace/statistics.ts';
 import { type Command, exitCode, type Input, type Option, UsageError } from './arguments.ts';
 import { openSource, sourceOptions } from './files.ts';
-import { bytes, number, progressBar, table, time } from './terminal.ts';
+import { bytes, counted, number, progressBar, table, time } from './terminal.ts';
 
 export const techniqueHelp = BroadPhase.techniques.join(', ');
 
@@ -67,10 +67,14 @@ export const replayCommand: Command = {
     );
     for (const { index, difference } of wrong) {
       const { missing, extra, pair } = difference!;
-      terminal.err(`frame ${index}: ${missing} pairs missing, ${extra} too many, first [${pair.join(', ')}]\n`);
+      terminal.err(
+        `frame ${index}: ${counted(missing, 'pair')} missing, ${extra} too many, first [${pair.join(', ')}]\n`,
+      );
     }
     if (input.has('verify') && wrong.length === 0)
-      terminal.out(`verified: the pairs of all ${frames.length} frames are exact\n`);
+      terminal.out(
+        `verified: the pairs of ${frames.length === 1 ? 'the frame' : `all ${frames.length} frames`} are exact\n`,
+      );
     return wrong.length > 0 ? exitCode.different : exitCode.ok;
   },
 };

@@ -1,6 +1,7 @@
 // The report of `broadphase tune`: one HTML page that needs nothing else. Plots are SVG made here; the page asks for
 // nothing from anywhere, and says so itself in a policy that forbids it.
 import type { Candidate, Parameter, Tuned } from 'broadphase/trace';
+import { isLean } from '../trace/tune.ts';
 import { barPlot, htmlText, linePlot } from './plots.ts';
 import { number, percent, time } from './terminal.ts';
 
@@ -88,8 +89,25 @@ export const nameOf = ({ technique, cellSize, margin }: Candidate): string =>
   (cellSize === undefined ? '' : `, cells of ${cellSize}`) +
   (margin === undefined ? '' : `, margin of ${margin}`);
 
-/** What is recommended, and what it gains. */
-export function verdictOf({ best, margin }: Pick<Tuned, 'best' | 'margin'>): string {
-  if (best.technique === 'auto') return 'Nothing to tune: `auto` is the best, or within the noise of it.';
-  return `Recommended: ${nameOf(best)}. It takes ${time(best.ms.mean)} ms a frame, ${margin.toFixed(2)} times as fast as \`auto\`.`;
+/** So much larger is 'broadphase/all' than the library alone: kB, gzipped. */
+export const moreOfAll = 27;
+
+/** What is recommended, what it gains, and what it costs to load. */
+export function verdictOf({
+  best,
+  auto,
+  finalists,
+  margin,
+}: Pick<Tuned, 'best' | 'auto' | 'finalists' | 'margin'>): string {
+  const [first] = finalists;
+  const load = `'broadphase/all', ${moreOfAll} kB more to load`;
+  if (best.technique === 'auto') {
+    const saved = auto.ms.mean - first.ms.mean;
+    const close = `Nothing to tune: \`auto\` takes ${time(auto.ms.mean)} ms a frame, and is the best or close to it.`;
+    if (isLean(first.technique) || saved <= 0) return close;
+    return `${close} ${nameOf(first)} would save ${time(saved)} ms of it, but is in ${load}.`;
+  }
+  const saved = time(auto.ms.mean - best.ms.mean);
+  const gain = `It takes ${time(best.ms.mean)} ms a frame, ${saved} less than \`auto\`: ${margin.toFixed(2)} times as fast.`;
+  return `Recommended: ${nameOf(best)}. ${gain}${isLean(best.technique) ? '' : ` It is in ${load}.`}`;
 }

@@ -20,6 +20,35 @@ export function bytes(count: number): string {
   return `${number(count / size)} ${unit}`;
 }
 
+/** A number of things: 1 frame, 2 frames, 2 boxes. */
+export const counted = (count: number, thing: string): string =>
+  `${number(count)} ${thing}${count === 1 ? '' : thing.endsWith('x') ? 'es' : 's'}`;
+
+/** Fewer columns than this are not worth wrapping for. */
+const leastText = 24;
+
+/** Terms and what they mean, side by side, in lines no wider than so many columns. */
+export function list(entries: readonly (readonly [term: string, meaning: string])[], columns: number): string {
+  const column = Math.max(...entries.map(([term]) => term.length)) + 4;
+  const room = Math.max(leastText, columns - column);
+  return entries
+    .map(([term, meaning]) => `  ${term}`.padEnd(column) + wrap(meaning, room).join(`\n${' '.repeat(column)}`))
+    .join('\n');
+}
+
+/** Lines of at most so many columns, broken between words. */
+export function wrap(text: string, columns: number): string[] {
+  const lines: string[] = [];
+  let line = '';
+  for (const word of text.split(' ')) {
+    if (line && line.length + 1 + word.length > columns) {
+      lines.push(line);
+      line = word;
+    } else line = line ? `${line} ${word}` : word;
+  }
+  return [...lines, line];
+}
+
 /** Rows under a head: the first column to the left, the others to the right. */
 export function table(head: readonly string[], rows: readonly (readonly string[])[]): string {
   const widths = head.map((title, k) => Math.max(title.length, ...rows.map((row) => row[k].length)));
@@ -53,6 +82,9 @@ export function histogram(bins: readonly Bin[], columns: number): string {
 /** Draws at most so often. */
 const redrawEvery = 100;
 
+/** Of the progress bar, in columns. */
+const barWidth = { least: 4, most: 30 };
+
 /** A line on `err` that shows how far the work is, and goes when it is done. Nothing where nobody watches. */
 export function progressBar(terminal: Terminal): {
   show(what: string, done: number, total: number): void;
@@ -64,7 +96,11 @@ export function progressBar(terminal: Terminal): {
       if (!terminal.interactive || performance.now() - drawn < redrawEvery) return;
       drawn = performance.now();
       const share = total > 0 ? done / total : 0;
-      terminal.err(`\r\x1b[K${bar(share, 30).padEnd(30, '░')} ${percent(share)} ${what}`);
+      const text = ` ${percent(share)} ${what}`;
+      // A line that is too long would be wrapped, and not be rewritten then.
+      const width = Math.min(barWidth.most, terminal.columns - 1 - text.length);
+      const drawing = width < barWidth.least ? '' : bar(share, width).padEnd(width, '░');
+      terminal.err(`\r\x1b[K${(drawing + text).slice(0, Math.max(0, terminal.columns - 1))}`);
     },
     end() {
       if (drawn > 0) terminal.err('\r\x1b[K');

@@ -1,12 +1,12 @@
 // `broadphase tune`: the technique, cell size and margin that suit a trace best, with a report of how they were found.
 import { basename } from 'node:path';
 import { BroadPhase } from 'broadphase';
-import { tune } from 'broadphase/trace';
-import { type Command, exitCode, UsageError } from './arguments.ts';
-import { openSource, sourceOptions, write } from './files.ts';
+import { type FrameSource, TraceError, tune } from 'broadphase/trace';
+import { type Command, exitCode } from './arguments.ts';
+import { checkWritable, openSource, sourceOptions, write } from './files.ts';
 import { techniqueHelp } from './replay.ts';
 import { nameOf, reportOf, verdictOf } from './report.ts';
-import { progressBar, table, time } from './terminal.ts';
+import { progressBar, table, time, wrap } from './terminal.ts';
 
 export const tuneCommand: Command = {
   summary: 'find the options that suit it best, as code to paste',
@@ -20,9 +20,12 @@ export const tuneCommand: Command = {
   },
   async run(input, terminal) {
     const techniques = input.names('techniques', BroadPhase.techniques) ?? BroadPhase.techniques;
-    const seconds = input.number('seconds', 0) ?? 8;
+    const seconds = input.number('seconds', { least: 0, most: 3600 }) ?? 8;
     const source = await openSource(input, terminal);
-    if (source.frames === 0) throw new UsageError('the trace has no frames to tune on');
+    const [path] = input.operands;
+    if (isEmpty(source)) throw new TraceError(`${path}: there are no boxes in any frame to tune on`, -1, 0);
+    const report = input.text('report');
+    if (report !== undefined) await checkWritable('--report', report, path);
     const progress = progressBar(terminal);
     const tuned = tune(source, {
       techniques,
@@ -31,9 +34,11 @@ export const tuneCommand: Command = {
       progress: (what, done, total) => progress.show(what, done, total),
     });
     progress.end();
-    const report = input.text('report');
-    if (report !== undefined) await write(report, reportOf(basename(input.operands[0]), source.dimensions, tuned));
+    const writeReport = async () => {
+      if (report !== undefined) await write(report, reportOf(basename(path), source.dimensions, tuned));
+    };
     if (input.has('json')) {
+      await writeReport();
       terminal.out(`${JSON.stringify(tuned)}\n`);
       return exitCode.ok;
     }
@@ -43,8 +48,16 @@ export const tuneCommand: Command = {
       `${(ms.mean / tuned.best.ms.mean).toFixed(2)}x`,
     ]);
     terminal.out(table(['finalists', 'mean ms', '95 %', 'worst', 'to recommended'], rows));
-    terminal.out(`\n${verdictOf(tuned)}\n\n${tuned.code.replaceAll(/^(?=.)/gm, '  ')}\n`);
+    terminal.out(
+      `\n${wrap(verdictOf(tuned), terminal.columns).join('\n')}\n\n${tuned.code.replaceAll(/^(?=.)/gm, '  ')}\n`,
+    );
+    await writeReport(); // what was found is shown by then, whatever comes
     if (report !== undefined) terminal.out(`\nreport: ${report}\n`);
     return exitCode.ok;
   },
 };
+
+function isEmpty(source: FrameSource): boolean {
+  for (const { count } of source) if (count > 0) return false;
+  return true;
+}

@@ -56,6 +56,11 @@ export class Entity {
     this.updateAABB();
   }
 
+  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  get [Symbol.toStringTag](): string {
+    return 'Entity';
+  }
+
   /**
    * The box in absolute coordinates, as of the last `updateAABB`. The same object every time: copy it to keep it.
    *

@@ -24,6 +24,11 @@ export class Input {
   readonly keys: ReadonlySet<string>;
   readonly #listening = new AbortController();
 
+  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  get [Symbol.toStringTag](): string {
+    return 'Input';
+  }
+
   /** Listens on the screen's canvas, and lets it take the keyboard focus if it could not before. */
   constructor(screen: Screen) {
     const { canvas } = screen;

@@ -71,7 +71,9 @@ export class World<E extends Entity = Entity> {
   uniq = 0;
   readonly #options: WorldOptions<E>;
   #broadPhase: Technique<E>;
-  #entities: E[] = [];
+  readonly #entities = new Set<E>();
+  /** They as an array, until one comes or goes. */
+  #list: readonly E[] | undefined;
   #running = false;
   #cancelFrame: (() => void) | null = null;
   /** When the last frame was, in milliseconds; null for the first one after `start`. */
@@ -98,9 +100,18 @@ export class World<E extends Entity = Entity> {
     options.init?.call(this);
   }
 
-  /** In the order they were added. Removing makes a new array, so a loop over this one may remove as it goes. */
+  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  get [Symbol.toStringTag](): string {
+    return 'World';
+  }
+
+  /**
+   * In the order they were added. A new array after one was added or removed, so that a loop over this one may do
+   * both as it goes.
+   */
   get entities(): readonly E[] {
-    return this.#entities;
+    this.#list ??= [...this.#entities];
+    return this.#list;
   }
 
   /** The collision technique. Set another, one without entities, and they move over from the one before. */
@@ -113,7 +124,7 @@ export class World<E extends Entity = Entity> {
     if (technique === this.#broadPhase) return;
     expectEmpty(technique);
     for (const entity of this.#entities) technique.addEntity(entity);
-    for (const entity of this.#entities.toReversed()) this.#broadPhase.removeEntity(entity);
+    for (const entity of this.#entities) this.#broadPhase.removeEntity(entity);
     this.#broadPhase = technique;
   }
 
@@ -144,7 +155,8 @@ export class World<E extends Entity = Entity> {
     this.#broadPhase.addEntity(entity);
     this.uniq++;
     entity.world = this;
-    this.#entities.push(entity);
+    this.#entities.add(entity);
+    this.#list = undefined;
   }
 
   /**
@@ -160,7 +172,8 @@ export class World<E extends Entity = Entity> {
     }
     this.#broadPhase.removeEntity(entity);
     entity.world = null;
-    this.#entities = this.#entities.toSpliced(this.#entities.lastIndexOf(entity), 1);
+    this.#entities.delete(entity);
+    this.#list = undefined;
   }
 
   /**
@@ -172,7 +185,7 @@ export class World<E extends Entity = Entity> {
   draw(): void {
     if (!this.screen) return;
     if (this.#options.draw) this.#options.draw.call(this, this.screen.ctx);
-    else for (const entity of this.#entities) entity.draw();
+    else for (const entity of this.entities) entity.draw();
   }
 
   /**
@@ -266,11 +279,7 @@ export class World<E extends Entity = Entity> {
 
   /** Every entity that is in the world when its turn comes; those added meanwhile wait for the next time. */
   #forEachEntity(visit: (entity: E) => void): void {
-    const entities = this.#entities;
-    const count = entities.length;
-    for (let i = 0; i < count; i++) {
-      if (this.#has(entities[i])) visit(entities[i]);
-    }
+    for (const entity of this.entities) if (this.#has(entity)) visit(entity);
   }
 
   #drawStructure(): void {

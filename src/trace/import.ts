@@ -1,6 +1,8 @@
 // Opens whatever holds frames: traces, and recordings of physics engines in the raw and packed layouts of
 // ../scenes/recorded.ts, each gzipped or not.
+
 import { packedMagic, type Recording, rawMagic, readRecording } from '../scenes/recorded.ts';
+import { isFloat64Array } from '../values.ts';
 import { uint32At } from './bytes.ts';
 import { type Frame, type FrameSource, headerBytes, maxBoxes, TraceError } from './format.ts';
 import { type OpenOptions, openTrace } from './reader.ts';
@@ -123,7 +125,7 @@ export function exportRecording(source: FrameSource): Uint8Array<ArrayBuffer> {
     if (frame.count !== count) throw new RangeError(`${where} it has ${frame.count} boxes, the first had ${count}`);
     if (frame.ids) throw new RangeError(`${where} its boxes have ids of their own`);
     if (frame.rules) throw new RangeError(`${where} some of its boxes are static or have filters`);
-    if (frame.boxes instanceof Float64Array) throw new RangeError(`${where} its numbers are doubles`);
+    if (isFloat64Array(frame.boxes)) throw new RangeError(`${where} its numbers are doubles`);
     const { buffer, byteOffset, byteLength } = frame.boxes;
     all.set(new Uint8Array(buffer, byteOffset, byteLength), headerBytes + frame.index * byteLength);
   }

@@ -1,4 +1,5 @@
 // Reads traces: whole ones from bytes, or as a stream while they arrive.
+import { bytesOf } from '../values.ts';
 import { uint32At } from './bytes.ts';
 import { crc32 } from './crc32.ts';
 import { FrameDecoder } from './decoder.ts';
@@ -67,6 +68,11 @@ export class Trace implements FrameSource {
     this.wrap = decoder.wrap;
   }
 
+  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  get [Symbol.toStringTag](): string {
+    return 'Trace';
+  }
+
   /** The frames, one after the other: each is valid until the next. */
   *[Symbol.iterator](): Generator<Frame> {
     const decoder = new FrameDecoder(this.dimensions, this.#version, this.#wraps);
@@ -92,7 +98,7 @@ export class Trace implements FrameSource {
  * for (const { index, boxes } of trace) console.assert(boxes[0] === index);
  */
 export function openTrace(bytes: Uint8Array | ArrayBuffer, options?: OpenOptions): Trace {
-  return new Trace(bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes), options);
+  return new Trace(bytesOf(bytes) ?? new Uint8Array(), options);
 }
 
 /** A frame of a stream, which says how many axes its boxes have. */

@@ -66,6 +66,11 @@ export class Recording {
     }
   }
 
+  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  get [Symbol.toStringTag](): string {
+    return 'Recording';
+  }
+
   /**
    * How many updates have been recorded.
    *

@@ -1,5 +1,7 @@
 // What is in a trace: how many boxes, how large, how dense, how many move, how many pairs.
+
 import { BroadPhase } from 'broadphase';
+import { isFloat64Array } from '../values.ts';
 import { type Frame, type FrameSource, worldOf } from './format.ts';
 import { applyFrame } from './replay.ts';
 import { type Bin, doublingHistogram, type Summary, summarize } from './statistics.ts';
@@ -71,7 +73,7 @@ export function survey(source: FrameSource, progress?: (done: number, total: num
     if (frame.index > 0) moving.push(frame.count === 0 ? 0 : frame.changed / frame.count);
     ids ||= frame.ids !== undefined;
     rules ||= frame.rules !== undefined;
-    doubles ||= frame.boxes instanceof Float64Array;
+    doubles ||= isFloat64Array(frame.boxes);
     if (frame.index === middle) {
       shape = shapeOf(frame, dimensions);
       overlaps = doublingHistogram(overlapsOf(frame, space.pairs));

@@ -1,4 +1,5 @@
 // Writes traces: frames in, bytes out, nothing kept but the last two frames. Where the bytes go is the caller's.
+import { isFloat64Array } from '../values.ts';
 import { ByteWriter } from './bytes.ts';
 import { crc32 } from './crc32.ts';
 import {
@@ -54,6 +55,11 @@ export class TraceWriter {
     this.#state = new TraceState(dimensions);
   }
 
+  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  get [Symbol.toStringTag](): string {
+    return 'TraceWriter';
+  }
+
   /**
    * The start of the file.
    *
@@ -96,7 +102,7 @@ export class TraceWriter {
     if (rules && rules.length !== 3 * count) {
       throw new RangeError(`trace: ${rules.length} numbers of rules, expected 3 for each of ${count} boxes`);
     }
-    const doubles = boxes instanceof Float64Array;
+    const doubles = isFloat64Array(boxes);
     const had = state.count;
     state.resize(count);
     const renamed = this.#findIds(ids);

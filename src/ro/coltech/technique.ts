@@ -45,12 +45,22 @@ export abstract class EntityList<E extends Collidable = Entity> implements Techn
   allocatedCells = 0;
   /** Arrays the last update made, all of them garbage at the next one. */
   arraysCreated = 0;
-  #entities: E[] = [];
   readonly #byId = new Map<number, E>();
+  /** They as an array, until one comes or goes. */
+  #list: readonly E[] | undefined;
 
-  /** In the order they were added. Removing makes a new array, so a loop over this one may remove as it goes. */
+  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  get [Symbol.toStringTag](): string {
+    return 'EntityList';
+  }
+
+  /**
+   * In the order they were added. A new array after one was added or removed, so that a loop over this one may do
+   * both as it goes.
+   */
   get entities(): readonly E[] {
-    return this.#entities;
+    this.#list ??= [...this.#byId.values()];
+    return this.#list;
   }
 
   /**
@@ -69,7 +79,7 @@ export abstract class EntityList<E extends Collidable = Entity> implements Techn
     if (present) throw new Error(`addEntity: another entity has the _roId ${id}, expected each to have its own`);
     checkAABB(entity);
     this.#byId.set(id, entity);
-    this.#entities.push(entity);
+    this.#list = undefined;
   }
 
   /** @throws Error for an entity that is not here; the list stays as it was. */
@@ -78,13 +88,12 @@ export abstract class EntityList<E extends Collidable = Entity> implements Techn
       throw new Error(`removeEntity: entity ${entity._roId} is not here, expected one that was added`);
     }
     this.#byId.delete(entity._roId);
-    // What comes and goes came late, as a rule: look from the end.
-    this.#entities = this.#entities.toSpliced(this.#entities.lastIndexOf(entity), 1);
+    this.#list = undefined;
   }
 
   /** @throws RangeError for the first entity whose box is not one (NaN, or min above max), naming it. */
   update(): void {
-    for (const entity of this.#entities) checkAABB(entity);
+    for (const entity of this.entities) checkAABB(entity);
   }
 
   abstract queryForCollisionPairs(): Pair<E>[];

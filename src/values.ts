@@ -1,0 +1,22 @@
+// What a value is, whichever realm it was made in: an iframe, a vm context or a test runner has globals of its own, so
+// `instanceof` says no to what structuredClone or a message brought from there.
+
+const typedArray = Object.getPrototypeOf(Uint8Array.prototype) as object;
+const typedArrayTag = Object.getOwnPropertyDescriptor(typedArray, Symbol.toStringTag)!.get!;
+
+/** Whether a value is a typed array of this name, such as Float32Array. */
+export const isTypedArray = (value: unknown, name: string): boolean => typedArrayTag.call(value) === name;
+
+export const isFloat32Array = (value: unknown): value is Float32Array => isTypedArray(value, 'Float32Array');
+export const isFloat64Array = (value: unknown): value is Float64Array => isTypedArray(value, 'Float64Array');
+
+export const isModule = (value: unknown): value is WebAssembly.Module => tagOf(value) === 'WebAssembly.Module';
+
+/** Any view of bytes, or all of a buffer, as bytes. Undefined for anything else. */
+export function bytesOf(value: unknown): Uint8Array | undefined {
+  if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
+  if (/^(Shared)?ArrayBuffer$/.test(tagOf(value))) return new Uint8Array(value as ArrayBuffer);
+  return undefined;
+}
+
+const tagOf = (value: unknown): string => Object.prototype.toString.call(value).slice('[object '.length, -1);

@@ -1,0 +1,187 @@
+// What users of the command saw: results lost, recordings overwritten, stack traces, and texts of a parser.
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { gzipSync } from 'node:zlib';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { main } from '../../src/cli/main.ts';
+import { moreOfAll, verdictOf } from '../../src/cli/report.ts';
+import { progressBar } from '../../src/cli/terminal.ts';
+
+const folder = mkdtempSync(join(tmpdir(), 'broadphase-'));
+const file = (name: string) => join(folder, name);
+const small = file('small.trace');
+const commands = ['info', 'replay', 'compare', 'tune', 'convert', 'generate'];
+
+async function run(argv: string[], columns = 80) {
+  let [out, err] = ['', ''];
+  const code = await main(argv, {
+    out: (text) => {
+      out += text;
+    },
+    err: (text) => {
+      err += text;
+    },
+    interactive: false,
+    columns,
+  });
+  return { code, out, err };
+}
+
+beforeAll(async () => {
+  expect(await run(['generate', 'crowd', small, '--count', '40', '--frames', '3'])).toMatchObject({ code: 0 });
+});
+afterAll(() => rmSync(folder, { recursive: true }));
+
+describe('what would be lost is refused before the work', () => {
+  test('a report that cannot be written', async () => {
+    for (const path of [file('no/such/folder.html'), folder]) {
+      const { code, out, err } = await run(['tune', small, '--report', path]);
+      expect({ code, out }).toEqual({ code: 4, out: '' });
+      expect(err).toContain(`cannot write ${path}`);
+    }
+  });
+
+  test('a report or a copy in place of the recording itself, by whatever name', async () => {
+    const before = readFileSync(small);
+    symlinkSync(small, file('link.trace'));
+    for (const path of [small, file('link.trace'), join(folder, '.', 'small.trace')]) {
+      for (const argv of [
+        ['tune', small, '--report', path],
+        ['convert', small, path, '--frames', '0..0'],
+      ]) {
+        expect(await run(argv)).toMatchObject({ code: 2, err: expect.stringContaining('which is the trace itself') });
+      }
+    }
+    expect(readFileSync(small)).toEqual(before);
+  });
+
+  test('a check of what can be written leaves nothing behind', async () => {
+    mkdirSync(file('out'));
+    expect(await run(['convert', small, file('out/a.bin')])).toMatchObject({ code: 0 });
+    expect(await run(['tune', file('nowhere'), '--report', file('out/report.html')])).toMatchObject({ code: 4 });
+    expect(existsSync(file('out/report.html'))).toBe(false);
+  });
+});
+
+describe('what cannot be done is said at once', () => {
+  test.each([
+    [
+      ['generate', 'crowd', file('x'), '--count', '16777217'],
+      '--count is 16777217, expected an integer from 0 to 16777216',
+    ],
+    [['generate', 'crowd', file('x'), '--count', '99999999999'], '--count is 99999999999'],
+    [['generate', 'crowd', file('x'), '--count', '10000000'], '600,000,000 boxes, expected at most 134,217,728 in all'],
+    [['generate', 'crowd', file('x'), '--frames', '1e12'], '--frames is 1e12'],
+    [['generate', 'crowd', file('x'), '--seed', '1e300'], '--seed is 1e300'],
+    [['compare', small, '--passes', '1e9'], '--passes is 1e9, expected an integer from 1 to 1000'],
+    [['tune', small, '--seconds', '1e9'], '--seconds is 1e9, expected a number from 0 to 3600'],
+  ])('%j', async (argv, message) => {
+    const begun = performance.now();
+    const { code, out, err } = await run(argv as string[]);
+    expect({ code, out }).toEqual({ code: 2, out: '' });
+    expect(err).toContain(message);
+    expect(performance.now() - begun).toBeLessThan(2000);
+    expect(existsSync(file('x'))).toBe(false);
+  });
+
+  test('a trace without boxes is not tuned on', async () => {
+    for (const [count, frames] of ['03', '30']) {
+      const path = file(`none-${count}-${frames}`);
+      await run(['generate', 'crowd', path, '--count', count, '--frames', frames]);
+      const { code, out, err } = await run(['tune', path]);
+      expect({ code, out }).toEqual({ code: 3, out: '' });
+      expect(err).toContain(`${path}: there are no boxes in any frame to tune on`);
+    }
+  });
+
+  test('a broken trace is named', async () => {
+    const { code, err } = await run(['info', 'package.json']);
+    expect(code).toBe(3);
+    expect(err).toMatch(/^broadphase: package\.json: /);
+  });
+});
+
+describe('its own words', () => {
+  test.each([
+    [['info', small, '--colour'], 'no option --colour, expected --json, --help, --frames or --salvage'],
+    [['info', small, '-x'], 'no option -x, expected'],
+    [['info', small, '--frames'], '--frames has no value, expected --frames <a..b>'],
+    [['info', small, '--frames', '--json'], '--frames has no value'],
+    [['info', small, '--json=yes'], '--json is yes, expected no value'],
+    [['info', small, small, small], 'expected <trace>, got 3 arguments'],
+    [['convert', small], 'expected <trace> <file>, got 1 argument\n'],
+    [['convert'], 'got 0 arguments'],
+  ])('%j', async (argv, message) => {
+    const { code, err } = await run(argv);
+    expect(code).toBe(2);
+    expect(err).toContain(message);
+    expect(err).not.toMatch(/positional|argument is missing|place it at the end/);
+  });
+
+  test('one frame is one frame', async () => {
+    const { out } = await run(['generate', 'crowd', file('one'), '--count', '1', '--frames', '1']);
+    expect(out).toContain('1 frame of 1 box,');
+    expect((await run(['info', file('one')])).out).toContain('2D, 1 frame,');
+    expect((await run(['convert', file('one'), file('one.bin')])).out).toContain('1 frame,');
+    expect((await run(['replay', file('one'), '--verify'])).out).toContain('the pairs of the frame are exact');
+  });
+
+  test('the version, and help by any of its names', async () => {
+    const { version } = JSON.parse(readFileSync('package.json', 'utf8'));
+    expect(await run(['--version'])).toEqual({ code: 0, out: `${version}\n`, err: '' });
+    const { out } = await run(['--help']);
+    for (const argv of [['-h'], ['help']]) expect(await run(argv)).toEqual({ code: 0, out, err: '' });
+    for (const name of commands) {
+      const help = await run([name, '--help']);
+      expect(await run([name, '-h'])).toEqual(help);
+      expect(await run(['help', name])).toEqual(help);
+      expect(help.code).toBe(0);
+    }
+  });
+
+  test.each([80, 60, 132])('help fits %i columns', async (columns) => {
+    for (const argv of [['--help'], ...commands.map((name) => [name, '--help'])]) {
+      const { out } = await run(argv, columns);
+      for (const line of out.split('\n')) expect(line.length, line).toBeLessThanOrEqual(columns);
+    }
+  });
+
+  test.each([10, 24, 40, 80])('the progress bar fits %i columns', (columns) => {
+    const drawn: string[] = [];
+    const terminal = { out: () => {}, err: (text: string) => void drawn.push(text), interactive: true, columns };
+    progressBar(terminal).show('hierarchical-grid', 1, 3);
+    expect(drawn.join('').replace('\r\x1b[K', '').length).toBeLessThan(columns);
+  });
+});
+
+describe('what tune recommends', () => {
+  const summary = (mean: number) => ({ min: mean, median: mean, mean, p95: mean, max: mean });
+  const ran = (technique: 'auto' | 'quadtree' | 'strip-sweep', mean: number) => ({
+    technique,
+    times: [mean],
+    ms: summary(mean),
+  });
+  const auto = ran('auto', 0.5);
+
+  test('says what is saved, and what it costs to load', () => {
+    const best = ran('quadtree', 0.25);
+    const text = verdictOf({ best, auto, finalists: [best, auto], margin: 2 });
+    expect(text).toContain('0.2500 less than `auto`: 2.00 times as fast');
+    expect(text).toContain(`'broadphase/all', ${moreOfAll} kB more to load`);
+    const lean = ran('strip-sweep', 0.25);
+    expect(verdictOf({ best: lean, auto, finalists: [lean, auto], margin: 2 })).not.toContain('broadphase/all');
+  });
+
+  test('says so where what is faster is not worth loading', () => {
+    const first = ran('quadtree', 0.4935);
+    const text = verdictOf({ best: auto, auto, finalists: [first, auto], margin: 1 });
+    expect(text).toContain('Nothing to tune');
+    expect(text).toContain(`quadtree would save 0.0065 ms of it, but is in 'broadphase/all'`);
+  });
+
+  test('knows the size of what it asks to load', () => {
+    const size = (name: string) => gzipSync(readFileSync(`build/${name}.wasm`), { level: 9 }).length / 1000;
+    expect(Math.abs(size('kernel') - size('kernel-lean') - moreOfAll)).toBeLessThan(4);
+  });
+});
