@@ -1,7 +1,7 @@
-// Browser tests: the built site, and what `npm start` serves, in the Chromium of this machine (CHROMIUM, or Debian's),
+// Browser tests: the built site, what `npm start` serves, and the examples' pages, in the Chromium of this machine (CHROMIUM, or Debian's),
 // with what it would send home turned off. Start them with `npm run test:browser`, which finds the browser.
 import { defineConfig } from '@playwright/test';
-import { builtPort, startPort } from './test/browser/ports.ts';
+import { builtPort, examplesPort, startPort } from './test/browser/ports.ts';
 
 export default defineConfig({
   testDir: 'test/browser',
@@ -37,6 +37,11 @@ export default defineConfig({
     {
       command: `npm start -- --port ${startPort} --strictPort`,
       url: `http://localhost:${startPort}/`,
+      timeout: 240_000,
+    },
+    {
+      command: `npx vite examples --port ${examplesPort} --strictPort`,
+      url: `http://localhost:${examplesPort}/`,
       timeout: 240_000,
     },
   ],

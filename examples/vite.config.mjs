@@ -1,4 +1,4 @@
-// For the examples that run in a browser: npx vite examples/record-phaser --config examples/vite.config.mjs
+// For the examples that run in a browser: `npx vite examples`, or `npx vite examples --open /bullets-phaser/`.
 // The library comes straight from its source; in a project of your own nothing of this is needed.
 import { fileURLToPath } from 'node:url';
 import { everyTechnique } from '../scripts/every-technique.mjs';
@@ -6,10 +6,14 @@ import { everyTechnique } from '../scripts/every-technique.mjs';
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
 
 export default {
+  root: path('.'), // all of them share page/
   base: './',
+  appType: 'mpa', // an address that is no page is answered with 404
   plugins: [everyTechnique],
   resolve: {
     alias: { 'broadphase/trace': path('../src/trace/index.ts'), broadphase: path('../src/index.ts') },
   },
-  build: { target: 'es2022', chunkSizeWarningLimit: 4000 },
+  // What is found only later makes Vite reload a page.
+  optimizeDeps: { entries: ['*/index.html'] },
+  server: { fs: { allow: [path('..')] } },
 };

@@ -1,4 +1,4 @@
-// npx vite examples/bullets-phaser --config examples/vite.config.mjs: 20,000 bullets against 200 ships. What overlaps
+// npx vite examples --open /bullets-phaser/: 20,000 bullets against 200 ships. What overlaps
 // comes from broadphase; Phaser draws, and reads the pointer and the keys. Runs on Phaser 3 and 4.
 import Phaser from 'phaser';
 import { playButton, stopwatch } from '../page/page.mjs';

@@ -1,4 +1,4 @@
-// npx vite examples/culling-pixi --config examples/vite.config.mjs: 100,000 sprites, of which only those in view are
+// npx vite examples --open /culling-pixi/: 100,000 sprites, of which only those in view are
 // drawn (queryBox), and the one under the pointer is found (queryPoint).
 import { BroadPhase } from 'broadphase';
 import { Application, Container, Graphics, Sprite, Texture } from 'pixi.js';

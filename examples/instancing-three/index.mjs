@@ -1,4 +1,4 @@
-// npx vite examples/instancing-three --config examples/vite.config.mjs: a cloud of 20,000 boxes as one InstancedMesh.
+// npx vite examples --open /instancing-three/: a cloud of 20,000 boxes as one InstancedMesh.
 // broadphase finds which overlap, and those glow. ?boxes=5000 in the address for another number.
 import {
   AmbientLight,

@@ -1,30 +1,26 @@
-// An example with a page, built and opened as its reader would have it. Skipped where the packages of the examples are
+// An example with a page, served by the command that its README names. Skipped where the packages of the examples are
 // not installed.
-import { execFile } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { promisify } from 'node:util';
 import { type Page, test } from '@playwright/test';
+import { examplesPort } from './ports.ts';
 
-const path = (file: string) => fileURLToPath(new URL(`../../${file}`, import.meta.url));
+export const examples = fileURLToPath(new URL('../../examples', import.meta.url));
 
-/** Builds examples/<folder> and opens it; gives the list that errors and failed requests will be in. */
-export async function openExample(page: Page, folder: string, search = ''): Promise<string[]> {
-  const installed = Boolean(process.env.CI) || existsSync(path('examples/node_modules/phaser'));
+/** Skips a test where the packages are missing; in CI they must be there. */
+export function needExamples(): void {
+  const installed = Boolean(process.env.CI) || existsSync(`${examples}/node_modules/phaser`);
   test.skip(!installed, 'npm ci --prefix examples brings what it needs');
+}
+
+/** Opens examples/<folder>; gives the list that errors and failed requests will be in. */
+export async function openExample(page: Page, folder: string, search = ''): Promise<string[]> {
+  needExamples();
   const faults: string[] = [];
   page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
   page.on('pageerror', (error) => faults.push(String(error)));
   page.on('requestfailed', (request) => faults.push(`${request.failure()?.errorText} ${request.url()}`));
-
-  const outDir = path(`build/${folder}`);
-  const vite = path('node_modules/vite/bin/vite.js');
-  const given = ['--config', path('examples/vite.config.mjs'), '--outDir', outDir, '--emptyOutDir'];
-  await promisify(execFile)(process.execPath, [vite, 'build', path(`examples/${folder}`), ...given]);
-  await page.route('http://example.test/**', async (route) => {
-    const { pathname } = new URL(route.request().url());
-    await route.fulfill({ path: outDir + (pathname === '/' ? '/index.html' : pathname) });
-  });
-  await page.goto(`http://example.test/${search}`);
+  page.on('response', (response) => response.status() >= 400 && faults.push(`${response.status()} ${response.url()}`));
+  await page.goto(`http://localhost:${examplesPort}/${folder}/${search}`, { timeout: 90_000 });
   return faults;
 }

@@ -2,3 +2,5 @@
 export const builtPort = 41873;
 /** Where `npm start` is. */
 export const startPort = 41874;
+/** Where `npx vite examples` is. */
+export const examplesPort = 41875;

@@ -1,0 +1,95 @@
+// The examples as their README says to start them: each runs, and each page has its look.
+import { spawn } from 'node:child_process';
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { expect, test } from '@playwright/test';
+import { examples, needExamples, openExample } from './example.ts';
+import { examplesPort } from './ports.ts';
+
+const readme = readFileSync(`${examples}/README.md`, 'utf8');
+const folders = readdirSync(examples, { withFileTypes: true }).filter((entry) => entry.isDirectory());
+const has = (file: string) =>
+  folders.map(({ name }) => name).filter((name) => existsSync(`${examples}/${name}/${file}`));
+const pages = has('index.html').filter((name) => name !== 'csp'); // which has a server of its own, and a test
+const programs = has('index.mjs').filter((name) => !pages.includes(name));
+
+test('the README tells how to start each', () => {
+  for (const name of [...pages, ...programs]) expect(readme).toContain(`](${name}`);
+  for (const [, file] of readme.matchAll(/node (examples\/[\w./-]+)/g)) expect(existsSync(file), file).toBe(true);
+  for (const told of ['node examples/<folder>/index.mjs', 'npx vite examples`']) expect(readme).toContain(told);
+  for (const name of pages) {
+    const file = ['index.mjs', 'index.jsx'].find((each) => existsSync(`${examples}/${name}/${each}`));
+    const first = readFileSync(`${examples}/${name}/${file}`, 'utf8');
+    expect(first).toContain(`npx vite examples --open /${name}/`);
+  }
+});
+
+for (const name of programs) {
+  test(`node examples/${name}/index.mjs runs`, async () => {
+    needExamples();
+    test.slow();
+    const folder = mkdtempSync(join(tmpdir(), 'broadphase-example-'));
+    const child = spawn(process.execPath, [`${examples}/${name}/index.mjs`], { cwd: folder });
+    let [out, err] = ['', ''];
+    child.stderr.on('data', (text) => {
+      err += text;
+    });
+    // Some measure for minutes: they have begun to say what they found where there are two lines.
+    const code = await new Promise((done) => {
+      child.stdout.on('data', (text) => {
+        out += text;
+        if (out.split('\n').length > 2 && /broadphase$/.test(name)) done(0);
+      });
+      child.on('exit', done);
+    });
+    child.kill();
+    expect({ code, err }).toEqual({ code: 0, err: '' });
+    expect(out).toMatch(/\d/);
+    if (name.startsWith('record-')) expect(readdirSync(folder).join()).toMatch(/^\w+\.trace$/);
+    rmSync(folder, { recursive: true });
+  });
+}
+
+test('the first page of the examples leads to each that has one', async ({ page }) => {
+  const faults = await openExample(page, '.');
+  const links = page.getByRole('listitem').getByRole('link');
+  const hrefs = await links.evaluateAll((all) => (all as HTMLAnchorElement[]).map(({ pathname }) => pathname));
+  expect(hrefs.sort()).toEqual(pages.map((name) => `/${name}/`).sort());
+  await page.screenshot({ path: 'test-results/screens/examples.png' });
+  expect(faults).toEqual([]);
+  const mistyped = await page.request.get(`http://localhost:${examplesPort}/nothing/`, {
+    headers: { Accept: 'text/html' },
+  });
+  expect(mistyped.status()).toBe(404);
+});
+
+for (const name of pages) {
+  for (const [device, width, height] of [
+    ['phone', 390, 844],
+    ['desktop', 1280, 800],
+  ] as const) {
+    test(`${name} has its look on a ${device}`, async ({ page }) => {
+      test.slow();
+      await page.setViewportSize({ width, height });
+      await page.emulateMedia({ reducedMotion: 'reduce', colorScheme: device === 'phone' ? 'dark' : 'light' });
+      // WebGL on a processor is too slow for these pictures at times: what is drawn is tested in examples.spec.ts.
+      if (name.includes('phaser')) {
+        await page.addInitScript(`{
+          const { getContext } = HTMLCanvasElement.prototype;
+          HTMLCanvasElement.prototype.getContext = function (kind, ...options) {
+            return kind.includes('webgl') ? null : getContext.call(this, kind, ...options);
+          };
+        }`);
+      }
+      const faults = await openExample(page, name);
+      // The style sheet came, and is one.
+      const margin = await page.evaluate('getComputedStyle(document.body).margin');
+      expect(margin).toBe('0px');
+      await expect(page.locator('canvas, [role=listbox]').first()).toBeVisible({ timeout: 30_000 });
+      expect(await page.evaluate('document.documentElement.scrollWidth')).toBeLessThanOrEqual(width);
+      await page.screenshot({ path: `test-results/screens/example-${name}-${device}.png`, timeout: 60_000 });
+      expect(faults).toEqual([]);
+    });
+  }
+}
