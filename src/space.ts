@@ -121,10 +121,11 @@ export abstract class Space {
       this.recover(error, 'set');
     }
     if (this.ring.length === 0) this.#openRing();
-    this.dense = this.ring[0]!;
-    this.#room = this.ring[1]!;
+    // As integers: doubles would be garbage.
+    this.dense = this.ring[0]! | 0;
+    this.#room = this.ring[1]! | 0;
     if (this.ring[2]! > 0) {
-      this.#pages = this.ring[2]! / 4;
+      this.#pages = (this.ring[2]! / 4) | 0;
       if (this.#words.length === 0) this.#words = new Uint32Array(own.memory.buffer);
     }
   }
