@@ -20,3 +20,9 @@ template <int D> i32x4 alike(const f32* one, const f32* other) {
   i32x4 same = load<f32x4>(one) == load<f32x4>(other);
   return D == 2 ? same : same & (load<f32x4>(one + 2) == load<f32x4>(other + 2));
 }
+
+/// In which lanes a bound of the one is equal to one of the other that faces it.
+template <int D> i32x4 equal_bounds(const f32* one, const f32* other) {
+  i32x4 equal = (load<f32x4>(one) == load<f32x4>(other + D)) | (load<f32x4>(other) == load<f32x4>(one + D));
+  return equal & (D == 2 ? i32x4{-1, -1, 0, 0} : i32x4{-1, -1, -1, 0});
+}

@@ -317,8 +317,8 @@ template <int D> class Space {
     Settings mapped = options_;
     for (u32 n = 0; options_.bounds[0] < options_.bounds[D] && n < width; n++) mapped.bounds[n] = map_.map(options_.bounds[n], n % D);
     techniques_.with(ran_, [&](auto& chosen) { chosen.update(scene, mapped, pairs, stats); });
-    bool same = pairs.same && !renamed_ && !rounding_;
-    if (filters_.active() || rounding_ || wraps || !ids_.same()) pairs.stable = 0;
+    bool same = pairs.same && !renamed_ && !rounding_;  // doubles may have changed below float32
+    if (filters_.active() || wraps || !ids_.same()) pairs.stable = 0;
     if (follows) changes_.clear(ids_.count());
     else changes_.note_all();
     seen_ = ids_.count();
@@ -808,9 +808,7 @@ template <int D> class Space {
       kept += until - at;
       at = until;
     };
-    // Where `incremental` keeps nothing, strip sweep has answered and noted its doubts.
-    bool fresh = ran_ == Technique::incremental && !ordered_ && stats.reason != f64(u32(Reason::kept));
-    bool all = !fresh && !(watching >> u32(ran_) & 1);
+    bool all = !(watching >> u32(ran_) & 1);
     for (u32 k = 0; k < (all ? 1 : pairs.doubt_count); k++) {
       if (!all) keep(pairs.doubts[2 * k]);
       u64 until = all ? pairs.count : pairs.doubts[2 * k + 1];

@@ -39,7 +39,7 @@ enum class Technique : u32 {
 inline constexpr u32 built = TECHNIQUES & ((2u << u32(Technique::automatic)) - 1);
 
 /// Those that note which of their pairs are in doubt: see Pairs::watch. Of the others all are.
-inline constexpr u32 watching = 1u << u32(Technique::brute_force) | 1u << u32(Technique::strip_sweep);
+inline constexpr u32 watching = 1u << u32(Technique::brute_force) | 1u << u32(Technique::strip_sweep) | 1u << u32(Technique::incremental);
 
 /// Stands in the place of a technique that is not built: nobody asks for it.
 struct LeftOut {

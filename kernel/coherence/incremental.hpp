@@ -42,6 +42,7 @@ template <int D> class Incremental {
   Prospect<D> prospect_ = {};
   u32 count_ = 0;           // boxes that are followed; 0: nothing is kept
   bool ended_ = false;      // a new list is due
+  bool watched_ = false;    // pairs in doubt are to be noted
   bool filtered_ = false;   // some have exclusion bits
   // Per slot:
   Buffer<f32> regions_;
@@ -74,12 +75,16 @@ template <int D> class Incremental {
 
   void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
     pairs.count = 0;
+    if (pairs.watch && !watched_) forget();  // what is settled may be in doubt
+    watched_ = pairs.watch;
     now_++;
     bool kept = find(scene, f32(options.margin), pairs, stats);
     if (!kept) rebuild(scene, options, pairs, stats);
     stats.reason = f64(u32(kept ? Reason::kept : pause_ > 0 || scene.count < tuning.few ? Reason::moving : Reason::watching));
     if (!scene.ordered) return;
     order_.sort(pairs.list.data(), pairs.count, scene.count);
+    pairs.doubt_count = 0;  // they stand elsewhere now
+    if (watched_) pairs.doubt(pairs.list.data(), pairs.list.data() + pairs.count);
     pairs.stable = 0;
     pairs.same = false;
   }
@@ -251,7 +256,7 @@ template <int D> class Incremental {
     built_ = Stats{};
     candidates_.list.reserve(expected(prospect_.growth(margin)) + Pairs::slack);  // copied while it grows it takes longer
     strips_.update_searched(Scene<D>{regions_.data(), n, scene.excluded}, candidates_, built_);
-    if (resting_ > 0) settle();
+    if (resting_ > 0) settle(scene);
     f64 low[D], high[D];
     strips_.bounds(low, high);
     grid_.divide(low, high, n);
@@ -296,14 +301,15 @@ template <int D> class Incremental {
     for (u32 k = 0; k < width; k++) region(slot)[k] = k < D ? -__builtin_inff() : __builtin_inff();
   }
 
-  /// Of the candidates, those of two boxes at rest are settled.
-  NOINLINE void settle() {
+  /// Of the candidates, those of two boxes at rest are settled, but for those that will be in doubt.
+  NOINLINE void settle(const Scene<D>& scene) {
     u64 left = 0;
     u64* list = candidates_.list.data();
     u64* out = settled_.list.reserve(candidates_.count + 1);
     for (u64 k = 0; k < candidates_.count; k++) {
       u64 pair = list[k];
       bool rest = tags_[u32(pair)] & tags_[u32(pair >> 32)] & rests;
+      if (watched_ && rest) rest = !any(equal_bounds<D>(scene.box(u32(pair)), scene.box(u32(pair >> 32))));
       list[left] = *out = pair;
       left += !rest;
       out += rest;
@@ -584,24 +590,38 @@ template <int D> class Incremental {
     pairs.count = head;
     test(scene, candidates_, pairs);
     test(scene, extra_, pairs);
+    u64 sure = pairs.count;
     if (wild_count_ > 0) report_wild(scene, pairs);
+    if (watched_) pairs.doubt(pairs.list.data() + sure, pairs.list.data() + pairs.count);
     pairs.stable = head_ = head;
     stats.tests = f64(candidates_.count + extra_.count);
     stats.cells = built_.cells;
     stats.entries = built_.entries;
   }
 
-  NOINLINE static void test(const Scene<D>& scene, const Pairs& candidates, Pairs& pairs) {
+  static void test(const Scene<D>& scene, const Pairs& candidates, Pairs& pairs) {
+    if (pairs.watch) test_as<true>(scene, candidates, pairs);
+    else test_as<false>(scene, candidates, pairs);
+  }
+  template <bool watch> NOINLINE static void test_as(const Scene<D>& scene, const Pairs& candidates, Pairs& pairs) {
     const u64* list = candidates.list.data();
     const f32* boxes = scene.boxes;
     u64* out = pairs.list.data() + pairs.count;
     for (u64 k = 0; k < candidates.count;) {
       u64 until = smaller(candidates.count, k + 4096);
       out = pairs.room(out, until - k);
-      for (; k < until; k++) {
-        u64 pair = list[k];
-        *out = pair;
-        out += boxes_touch<D>(boxes + u64(u32(pair)) * width, boxes + (pair >> 32) * width);
+      while (k < until) {
+        u64 few = watch ? smaller(until, k + 32) : until;
+        const u64* begin = out;
+        i32x4 touching = {};
+        for (; k < few; k++) {
+          u64 pair = list[k];
+          const f32 *one = boxes + u64(u32(pair)) * width, *other = boxes + (pair >> 32) * width;
+          *out = pair;
+          out += boxes_touch<D>(one, other);
+          if constexpr (watch) touching |= equal_bounds<D>(one, other);
+        }
+        if (watch && any(touching)) pairs.doubt(begin, out);
       }
     }
     pairs.count = Pairs::between(pairs.list.data(), out);
