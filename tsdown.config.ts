@@ -38,7 +38,7 @@ export default defineConfig([
     outputOptions: { entryFileNames: 'broadphase.js' },
     plugins: [folderOfScripts],
   },
-  ...['trace', 'ro'].flatMap((name): UserConfig[] => [
+  ...['trace', 'ro', 'shard'].flatMap((name): UserConfig[] => [
     { ...common, ...beside('./all.js'), dts: false, entry: { [name]: `src/${name}/index.ts` } },
     { ...types, ...beside('./index.js'), entry: { [name]: `src/${name}/index.ts` } },
   ]),

@@ -9,6 +9,7 @@ export default defineConfig({
   resolve: {
     alias: [
       { find: 'broadphase/ro', replacement: path('./src/ro/index.ts') },
+      { find: 'broadphase/shard', replacement: path('./src/shard/index.ts') },
       { find: 'broadphase/trace', replacement: path('./src/trace/index.ts') },
       { find: 'broadphase', replacement: path('./src/index.ts') },
       // What the benchmark has bundled when it runs, tests take from where it comes.

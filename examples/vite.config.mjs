@@ -11,7 +11,11 @@ export default {
   appType: 'mpa', // an address that is no page is answered with 404
   plugins: [everyTechnique],
   resolve: {
-    alias: { 'broadphase/trace': path('../src/trace/index.ts'), broadphase: path('../src/index.ts') },
+    alias: {
+      'broadphase/shard': path('../src/shard/index.ts'),
+      'broadphase/trace': path('../src/trace/index.ts'),
+      broadphase: path('../src/index.ts'),
+    },
   },
   // What is found only later makes Vite reload a page.
   optimizeDeps: { entries: ['*/index.html'] },

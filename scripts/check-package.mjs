@@ -6,6 +6,7 @@ import { fileURLToPath } from 'node:url';
 import * as lean from 'broadphase';
 import * as all from 'broadphase/all';
 import { coltech } from 'broadphase/ro';
+import { Shard, Zones } from 'broadphase/shard';
 import { openTrace, record } from 'broadphase/trace';
 import { lean as leanTechniques, techniqueNames } from './compile.mjs';
 
@@ -41,6 +42,13 @@ const recording = record(space);
 space.setAll(boxes).update();
 await recording.stop();
 equal(openTrace(recording.bytes()).frames, 1);
+
+const zones = new Zones({ borders: { x: [250] } });
+const shards = [0, 1].map((zone) => new Shard(zones, zone, new lean.BroadPhase({ events: true })));
+for (let id = 0; id < boxes.length / 4; id++) shards[0].set(id, ...boxes.subarray(4 * id, 4 * id + 4));
+const deltas = shards.flatMap((shard) => shard.exchange());
+for (const shard of shards) shard.update(deltas.filter(({ to }) => to === shard.zone));
+equal(shards[0].pairs.length + shards[1].pairs.length, 2 * expected.length);
 
 // What a host has loaded itself has every technique, for both.
 lean.init(readFileSync(fileURLToPath(import.meta.resolve('broadphase/kernel.wasm'))));

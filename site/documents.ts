@@ -22,6 +22,7 @@ const guides = [
   'queries',
   'fixed-time-steps',
   'rollback',
+  'shards',
   'performance',
   'troubleshooting',
 ];

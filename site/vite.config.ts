@@ -24,6 +24,7 @@ export default defineConfig({
   resolve: {
     alias: {
       'broadphase/ro': path('../src/ro/index.ts'),
+      'broadphase/shard': path('../src/shard/index.ts'),
       'broadphase/trace': path('../src/trace/index.ts'),
       broadphase: path('../src/index.ts'),
       buffer: path('bench/no-buffer.ts'),

@@ -4,6 +4,7 @@ import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'nod
 import { fileURLToPath } from 'node:url';
 import * as library from 'broadphase';
 import * as ro from 'broadphase/ro';
+import * as shard from 'broadphase/shard';
 import * as trace from 'broadphase/trace';
 import ts from 'typescript';
 import { describe, expect, test } from 'vitest';
@@ -21,12 +22,14 @@ const filesIn = (folder: string, end: string) =>
 const names = {
   broadphase: Object.keys(library),
   'broadphase/ro': Object.keys(ro),
+  'broadphase/shard': Object.keys(shard),
   'broadphase/trace': Object.keys(trace),
 };
 const only = (folder: string) => {
   if (folder === 'ro') return { 'broadphase/ro': names['broadphase/ro'] };
-  return folder === 'trace'
-    ? { broadphase: names.broadphase, 'broadphase/trace': names['broadphase/trace'] }
+  const entry = `broadphase/${folder}`;
+  return entry in names
+    ? { broadphase: names.broadphase, [entry]: names[entry as keyof typeof names] }
     : { broadphase: names.broadphase };
 };
 

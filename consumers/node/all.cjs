@@ -3,6 +3,7 @@ const { readFileSync } = require('node:fs');
 const library = require('broadphase');
 require('broadphase/all');
 require('broadphase/ro');
+require('broadphase/shard');
 require('broadphase/trace');
 
 import('broadphase').then(async (imported) => {

@@ -2,6 +2,7 @@
 import { BroadPhase, findPairs } from 'broadphase';
 import { BroadPhase as FullBroadPhase } from 'broadphase/all';
 import * as ro from 'broadphase/ro';
+import { Shard } from 'broadphase/shard';
 import { record } from 'broadphase/trace';
 
 console.log('nothing of it is used');
