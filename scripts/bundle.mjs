@@ -17,7 +17,9 @@ export async function bundle(entry, output, plugins = [everyTechnique]) {
     logLevel: 'warn',
     publicDir: false,
     plugins,
-    resolve: { alias: { broadphase: `${root}src/index.ts` } },
+    resolve: {
+      alias: { 'broadphase/trace': `${root}src/trace/index.ts`, broadphase: `${root}src/index.ts` },
+    },
     build: {
       ssr: entry,
       target: 'node20',

@@ -100,7 +100,9 @@ function render(file: string, page: string): string {
 
 /** The source of an example, file by file. */
 function source(folder: string): string {
-  const files = readdirSync(repository + folder).sort();
+  const files = readdirSync(repository + folder)
+    .filter((name) => name !== 'package-lock.json')
+    .sort();
   const listings = files.flatMap((name) => {
     const language = name.split('.').pop()!.replace('mjs', 'js');
     if (!highlight.getLanguage(language)) return [];

@@ -10,10 +10,12 @@ export const exitCode = {
   different: 1,
   /** The command line is wrong. */
   usage: 2,
-  /** A file is broken, too new, or no trace. */
+  /** A file is broken, too new, or no trace; or a row of it is no box. */
   badTrace: 3,
   /** A file cannot be read or written. */
   files: 4,
+  /** A package that the command needs is not installed. */
+  missing: 5,
   /** A fault of this program. */
   fault: 70,
 } as const;

@@ -1,19 +1,26 @@
 #!/usr/bin/env node
-// The executable.
+// The executable; also a thread of `broadphase join`.
+import { isMainThread, workerData } from 'node:worker_threads';
+import { serve, workerMark } from './join/worker.ts';
 import { main } from './main.ts';
 
-// A reader that has seen enough, such as `head`, is no error.
-for (const stream of [process.stdout, process.stderr]) {
-  stream.on('error', (error: NodeJS.ErrnoException) => {
-    if (error.code === 'EPIPE') process.exit(0);
-    throw error;
+if (!isMainThread && workerData?.mark === workerMark) serve();
+else await command();
+
+async function command(): Promise<void> {
+  // A reader that has seen enough, such as `head`, is no error.
+  for (const stream of [process.stdout, process.stderr]) {
+    stream.on('error', (error: NodeJS.ErrnoException) => {
+      if (error.code === 'EPIPE') process.exit(0);
+      throw error;
+    });
+  }
+
+  process.exitCode = await main(process.argv.slice(2), {
+    out: (text) => void process.stdout.write(text),
+    err: (text) => void process.stderr.write(text),
+    interactive: Boolean(process.stderr.isTTY) && process.env.TERM !== 'dumb',
+    // A window may say 0; and what is piped is read in lines of 80.
+    columns: process.stdout.columns || process.stderr.columns || 80,
   });
 }
-
-process.exitCode = await main(process.argv.slice(2), {
-  out: (text) => void process.stdout.write(text),
-  err: (text) => void process.stderr.write(text),
-  interactive: Boolean(process.stderr.isTTY) && process.env.TERM !== 'dumb',
-  // A window may say 0; and what is piped is read in lines of 80.
-  columns: process.stdout.columns || process.stderr.columns || 80,
-});

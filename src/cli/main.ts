@@ -7,6 +7,9 @@ import { convertCommand } from './convert.ts';
 import { FileError } from './files.ts';
 import { generateCommand } from './generate.ts';
 import { infoCommand } from './info.ts';
+import { MissingPackage } from './join/duckdb.ts';
+import { DataError } from './join/source.ts';
+import { joinCommand } from './join.ts';
 import { replayCommand } from './replay.ts';
 import { list, wrap } from './terminal.ts';
 import { tuneCommand } from './tune.ts';
@@ -18,6 +21,7 @@ const commands: Readonly<Record<string, Command>> = {
   tune: tuneCommand,
   convert: convertCommand,
   generate: generateCommand,
+  join: joinCommand,
 };
 
 /** Runs a command line, given without the program's own name. Returns the exit code. */
@@ -57,8 +61,9 @@ export async function main(argv: readonly string[], terminal: Terminal): Promise
 
 function codeOf(error: unknown): number {
   if (error instanceof UsageError) return exitCode.usage;
-  if (error instanceof TraceError) return exitCode.badTrace;
+  if (error instanceof TraceError || error instanceof DataError) return exitCode.badTrace;
   if (error instanceof FileError) return exitCode.files;
+  if (error instanceof MissingPackage) return exitCode.missing;
   return exitCode.fault;
 }
 
@@ -71,14 +76,18 @@ function overview(columns: number): string {
     ['0', 'all well'],
     ['1', 'wrong pairs'],
     ['2', 'wrong command line'],
-    ['3', 'broken trace'],
+    ['3', 'broken trace, or a row that is no box'],
     ['4', 'file trouble'],
+    ['5', 'a package missing'],
     ['70', 'a fault here'],
   ] as const;
   return [
     'broadphase <command> [options]',
     '',
-    ...wrap('Looks into, replays, compares and tunes on traces: recordings of the boxes of a game.', columns),
+    ...wrap(
+      'Looks into, replays, compares and tunes on traces: recordings of the boxes of a game. Joins files of boxes.',
+      columns,
+    ),
     '',
     list(calls, columns),
     '',

@@ -1,0 +1,71 @@
+// Every overlapping pair of a Parquet file of boxes, by `broadphase join`:
+//
+//   npm ci --prefix examples/join-duckdb
+//   node examples/join-duckdb/index.mjs --boxes 10000000 --memory 1GB
+//
+// With --spatial <file>, DuckDB's own spatial join runs on the same file, with the same memory, and has to find the same
+// pairs. The file is the spatial extension for the DuckDB that is installed; the wheel of duckdb-extension-spatial on
+// PyPI holds it.
+import { spawnSync } from 'node:child_process';
+import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { parseArgs } from 'node:util';
+
+const { values } = parseArgs({
+  options: {
+    boxes: { type: 'string', default: '1000000' },
+    memory: { type: 'string', default: '1GB' },
+    density: { type: 'string', default: '1' },
+    spatial: { type: 'string' },
+  },
+});
+const path = (file) => fileURLToPath(new URL(file, import.meta.url));
+const command = path('../../dist/cli.js');
+if (!existsSync(path('node_modules/@duckdb/node-api'))) {
+  console.error('DuckDB is not installed: npm ci --prefix examples/join-duckdb');
+  process.exit(1);
+}
+if (!existsSync(command)) {
+  console.error('the library is not built: npm ci && npm run build');
+  process.exit(1);
+}
+
+const { ask, writeBoxes } = await import('./boxes.mjs');
+const folder = mkdtempSync(join(tmpdir(), 'broadphase-join-'));
+const [boxes, ours, theirs] = ['boxes', 'ours', 'theirs'].map((name) => join(folder, `${name}.parquet`));
+const seconds = (since) => `${((performance.now() - since) / 1000).toFixed(1)} s`;
+
+/** Runs a part of this program in a process of its own, so that its memory can be told. */
+function alone(file, ...args) {
+  const { status, stdout, stderr } = spawnSync(process.execPath, [file, ...args], { cwd: path('.'), encoding: 'utf8' });
+  return { status, stdout, stderr };
+}
+
+try {
+  console.log(`${Number(values.boxes).toLocaleString('en')} boxes:`);
+  await writeBoxes(boxes, Number(values.boxes), { density: Number(values.density) });
+  const started = performance.now();
+  const { stdout, stderr, status } = alone(command, 'join', boxes, ours, '--memory', values.memory, '--json');
+  if (status !== 0) throw new Error(stderr);
+  const { pairs, tiles, peak } = JSON.parse(stdout);
+  const facts = `${pairs.toLocaleString('en')} pairs in ${tiles} tiles, at most ${(peak / 1e6).toFixed(0)} MB`;
+  console.log(`  broadphase join: ${seconds(started)}, ${facts}`);
+
+  if (values.spatial) {
+    const began = performance.now();
+    const { status, stdout, stderr } = alone(path('spatial.mjs'), values.spatial, boxes, theirs, values.memory);
+    if (status !== 0) console.log(`  DuckDB's spatial join: failed after ${seconds(began)}: ${stderr.trim()}`);
+    else {
+      console.log(`  DuckDB's spatial join: ${seconds(began)}, at most ${(Number(stdout) / 1e6).toFixed(0)} MB`);
+      const [[missing, extra]] = await ask(
+        `select (select count(*) from (from '${ours}' except from '${theirs}')),
+                (select count(*) from (from '${theirs}' except from '${ours}'))`,
+      );
+      console.log(`  pairs that only the one has: ${missing}, only the other: ${extra}`);
+    }
+  }
+} finally {
+  rmSync(folder, { recursive: true });
+}

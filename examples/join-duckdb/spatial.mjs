@@ -1,0 +1,22 @@
+// The same by DuckDB alone: its SPATIAL_JOIN of the extension spatial. Prints the most memory it had.
+// node spatial.mjs <extension> <boxes> <pairs> <memory>
+import { DuckDBInstance } from '@duckdb/node-api';
+
+const [extension, boxes, pairs, memory] = process.argv.slice(2);
+try {
+  const instance = await DuckDBInstance.create(':memory:', { memory_limit: memory, allow_unsigned_extensions: 'true' });
+  const connection = await instance.connect();
+  await connection.run(`load '${extension}'`);
+  await connection.run(`
+    create table boxes as
+      select file_row_number as row, minX, minY, maxX, maxY, st_makeenvelope(minX, minY, maxX, maxY) as shape
+      from read_parquet('${boxes}', file_row_number=true)`);
+  await connection.run(`
+    copy (select one.row as a, other.row as b
+          from boxes one join boxes other on st_intersects(one.shape, other.shape)
+          where one.row < other.row) to '${pairs}'`);
+  console.log(process.resourceUsage().maxRSS * 1024);
+} catch (error) {
+  console.error(error.message.split('\n')[0]);
+  process.exitCode = 1;
+}

@@ -1,0 +1,202 @@
+// `broadphase join`: every overlapping pair of a file of boxes that may be larger than memory.
+import { once } from 'node:events';
+import { stat } from 'node:fs/promises';
+import { availableParallelism } from 'node:os';
+import { Worker } from 'node:worker_threads';
+import { type Command, exitCode, type Input, UsageError } from './arguments.ts';
+import { FileError } from './files.ts';
+import { loadDuckDB } from './join/duckdb.ts';
+import { DataError, openSource, type Source } from './join/source.ts';
+import { type Hand, type Plan, Work } from './join/work.ts';
+import { type Found, workerMark } from './join/worker.ts';
+import { bytes, number, progressBar } from './terminal.ts';
+
+/** Of the memory allowed, the share of DuckDB; the rest is for Node and the tiles that are searched. */
+const databaseShare = 0.35;
+/** What Node and a thread need without a box. */
+const nodeBytes = 110e6;
+const threadBytes = 25e6;
+/** What a box takes while its tile is searched: as it was read, as it is sent, in the kernel, and its pairs. */
+const boxBytes = 400;
+/** The most boxes in a tile on average. */
+const mostPerTile = 250_000;
+/** How much fuller than on average a tile may be. */
+const fullest = 4;
+
+const units: Record<string, number> = { '': 1, kb: 1e3, mb: 1e6, gb: 1e9, kib: 2 ** 10, mib: 2 ** 20, gib: 2 ** 30 };
+
+function readMemory(input: Input): number {
+  const text = input.text('memory') ?? '1GB';
+  const [, value, unit = ''] = /^([\d.]+)\s*([a-z]*)$/i.exec(text) ?? [];
+  const memory = Number(value) * (units[unit.toLowerCase()] ?? Number.NaN);
+  if (!(memory >= 400e6)) throw new UsageError(`--memory is ${text}, expected a size from 400MB, such as 1GB`);
+  return memory;
+}
+
+function readColumns(input: Input): string[] | undefined {
+  const columns = input.text('columns')?.split(',');
+  if (columns && columns.length !== 4 && columns.length !== 6) {
+    throw new UsageError(`--columns names ${columns.length}, expected 4 or 6 with commas: minima, then maxima`);
+  }
+  return columns;
+}
+
+export const joinCommand: Command = {
+  summary: 'every overlapping pair of a Parquet or CSV file of boxes',
+  operands: ['boxes', 'pairs'],
+  options: {
+    blue: {
+      value: 'file',
+      help: 'pairs of a box of the first file and one of this, instead of pairs within the first',
+    },
+    columns: {
+      value: 'names',
+      help: 'the columns of the corners (minX,minY,maxX,maxY, or minX,minY,minZ,maxX,maxY,maxZ)',
+    },
+    memory: { value: 'size', help: 'how much memory to use, about (1GB)' },
+    threads: { value: 'n', help: 'how many threads search tiles (as many as there are cores)' },
+    tile: { value: 'n', help: 'boxes in a tile, about (250000, or as many as --memory has room for)' },
+    fresh: { help: 'start anew, also where a join that was interrupted could go on' },
+  },
+  async run(input, terminal) {
+    const started = performance.now();
+    const memory = readMemory(input);
+    const columns = readColumns(input);
+    const threads = input.number('threads', 1, true) ?? availableParallelism();
+    const tile = input.number('tile', 1, true) ?? mostPerTile;
+    const [path, result] = input.operands;
+    const paths = [path, ...(input.has('blue') ? [input.text('blue')!] : [])];
+    if (paths.includes(result)) throw new UsageError(`${result} is to be read: expected another file for the pairs`);
+    const fit = Math.floor((memory * (1 - databaseShare) - nodeBytes - threads * threadBytes) / threads / boxBytes);
+    if (fit < 1000)
+      throw new UsageError(`--memory is too little for ${threads} threads: expected more, or fewer threads`);
+    for (const each of paths) await mustExist(each);
+
+    const work = await Work.open(loadDuckDB(), `${result}.join`, memory * databaseShare, threads);
+    const progress = progressBar(terminal);
+    try {
+      const sources = await openSources(work, paths, columns);
+      const perTile = Math.min(tile, fit);
+      const plan = await planOf(work, sources, perTile, input.has('fresh'), (what) => progress.show(what, 0, 1));
+      mustFit(work, plan, perTile);
+      const done = await work.done();
+      let pairs = [...done.values()].reduce((sum, count) => sum + count, 0);
+      let searched = done.size;
+      await searchTiles(work, plan, done, threads, (found) => {
+        pairs += found;
+        progress.show('tiles', ++searched, plan.sizes.length);
+      });
+      progress.show('writes the result', 1, 1);
+      await work.finish(result);
+      progress.end();
+      const seconds = (performance.now() - started) / 1000;
+      const peak = process.resourceUsage().maxRSS * 1024;
+      const [tiles, resumed] = [plan.sizes.length, done.size];
+      const facts = { pairs, boxes: plan.counts, dimensions: plan.dimensions, tiles, resumed, threads, seconds, peak };
+      terminal.out(input.has('json') ? `${JSON.stringify({ path: result, ...facts })}\n` : told(result, facts));
+      return exitCode.ok;
+    } catch (error) {
+      progress.end();
+      work.close();
+      throw error;
+    }
+  },
+};
+
+interface Facts {
+  pairs: number;
+  boxes: readonly number[];
+  dimensions: number;
+  tiles: number;
+  resumed: number;
+  seconds: number;
+  peak: number;
+}
+
+function told(path: string, { pairs, boxes, dimensions, tiles, resumed, seconds, peak }: Facts): string {
+  const went = resumed > 0 ? `, ${resumed} of them done before` : '';
+  return (
+    `${path}: ${number(pairs)} pairs of ${boxes.map(number).join(' and ')} boxes in ${dimensions}D\n` +
+    `${tiles} tiles${went}, ${number(seconds)} s, at most ${bytes(peak)} of memory\n`
+  );
+}
+
+/** What an earlier run of the same join has planned, or else a plan made anew. */
+async function planOf(
+  work: Work,
+  sources: readonly Source[],
+  perTile: number,
+  fresh: boolean,
+  say: (what: string) => void,
+): Promise<Plan> {
+  const job = JSON.stringify([1, sources.map(({ version }) => version), perTile]);
+  return (fresh ? undefined : await work.resume(job)) ?? work.prepare(job, sources, perTile, say);
+}
+
+function mustFit(work: Work, plan: Plan, perTile: number): void {
+  const most = plan.sizes.reduce((a, b) => Math.max(a, b), 0);
+  const limit = fullest * Math.max(perTile, 1000);
+  if (most <= limit) return;
+  work.forget();
+  throw new DataError(
+    `${number(most)} boxes reach into one tile, expected no more than ${number(limit)}: they lie too dense, or are too large, for --memory`,
+  );
+}
+
+/** Searches the tiles that are not done, in so many threads. */
+async function searchTiles(
+  work: Work,
+  plan: Plan,
+  done: ReadonlyMap<number, number>,
+  threads: number,
+  found: (pairs: number) => void,
+): Promise<void> {
+  const left = plan.sizes.flatMap((_, tile) => (done.has(tile) ? [] : tile));
+  const hands = await Promise.all(Array.from({ length: Math.min(threads, left.length) }, () => work.hand(plan)));
+  await Promise.all(hands.map((hand) => searchAll(hand, plan, left, found)));
+}
+
+async function mustExist(path: string): Promise<void> {
+  await stat(path).catch((error: Error) => {
+    throw new FileError(`cannot read ${path}: ${error.message}`);
+  });
+}
+
+async function openSources(work: Work, paths: readonly string[], columns: string[] | undefined): Promise<Source[]> {
+  const sources: Source[] = [];
+  for (const path of paths) sources.push(await openSource(work.db, path, columns));
+  const [red, blue] = sources;
+  if (blue && blue.dimensions !== red.dimensions) {
+    throw new DataError(
+      `${red.path} has boxes in ${red.dimensions}D and ${blue.path} in ${blue.dimensions}D, expected the same`,
+    );
+  }
+  return sources;
+}
+
+/** Searches tiles in a thread until none is left. */
+async function searchAll(hand: Hand, plan: Plan, left: number[], done: (pairs: number) => void): Promise<void> {
+  const worker = new Worker(new URL(import.meta.url), {
+    workerData: { mark: workerMark, dimensions: plan.dimensions },
+  });
+  try {
+    for (let tile = left.shift(); tile !== undefined; tile = left.shift()) {
+      const asked = await hand.read(tile);
+      const answers = messagesOf(worker, asked, [asked.rows.buffer, asked.boxes.buffer]);
+      done(await hand.write(tile, answers));
+    }
+  } finally {
+    await worker.terminate();
+  }
+}
+
+/** What a thread answers, until the last of it; it goes on when it is asked to. An error in the thread is thrown. */
+async function* messagesOf(worker: Worker, ask: object, transfer: ArrayBufferLike[]): AsyncGenerator<Found> {
+  worker.postMessage(ask, transfer as ArrayBuffer[]);
+  for (;;) {
+    const [found] = (await once(worker, 'message')) as [Found];
+    yield found;
+    if (found.last) return;
+    worker.postMessage('more');
+  }
+}
