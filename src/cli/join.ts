@@ -62,8 +62,8 @@ export const joinCommand: Command = {
     const started = performance.now();
     const memory = readMemory(input);
     const columns = readColumns(input);
-    const threads = input.number('threads', 1, true) ?? availableParallelism();
-    const tile = input.number('tile', 1, true) ?? mostPerTile;
+    const threads = input.number('threads', { least: 1, most: 256, whole: true }) ?? availableParallelism();
+    const tile = input.number('tile', { least: 1, most: 2 ** 24, whole: true }) ?? mostPerTile;
     const [path, result] = input.operands;
     const paths = [path, ...(input.has('blue') ? [input.text('blue')!] : [])];
     if (paths.includes(result)) throw new UsageError(`${result} is to be read: expected another file for the pairs`);

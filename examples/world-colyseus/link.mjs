@@ -1,0 +1,324 @@
+// How zones keep in step: each tick a zone tells every other zone what changed for it, and waits for the same from them.
+// So all zones together are at any tick what one process would be. Messages go over the presence of Colyseus.
+//
+// A zone that starts, or starts again, joins: it asks all, is told by each at which tick that is and whom it owns, and
+// names a tick from which on they count with each other. If a zone is silent, the others ask whether its process still
+// listens. If it does not, it has died: they go on, and another process makes its room anew. Else they wait, but not for
+// ever. Entities turn round at the border of a zone that is not there.
+import { connect } from 'node:net';
+import { pack, packDelta, packEntities, unpack, unpackDelta, unpackEntities } from './wire.mjs';
+import { tickTime } from './world.mjs';
+
+const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+
+/** After so many milliseconds without a word it is asked whether the other process still listens. */
+const suspicious = 200;
+/** Who listens and says nothing for so long is left out. */
+const patience = 5000;
+/** How long one that joins waits for answers, and how many ticks ahead it begins. */
+const gathering = 300;
+const ahead = 6;
+/** Ticks between two signs of life. */
+const helloEvery = 10;
+
+export class Link {
+  tick = 0;
+  running = false;
+  /** What it told the others: messages, and in how many bytes how much was new of boxes. */
+  sent = { messages: 0, bytes: 0, records: 0 };
+  /** Milliseconds of work of the last tick, without the waiting. */
+  work = 0;
+  #presence;
+  #isConnected;
+  #simulation;
+  #info;
+  #calls;
+  #epoch = 0;
+  /** Zones that count: what they sent by tick. And those that will from some tick on. */
+  #peers = new Map();
+  #coming = new Map();
+  /** When each zone last said that it runs. */
+  #ran = new Map();
+  #welcomes = new Map();
+  #yieldUntil = 0;
+  #wake = () => {};
+  #last = [];
+  #stopped = false;
+
+  /**
+   * @param info what other zones are to know of this one: its room and its process
+   * @param calls `begin()` gives { tick, entities } to begin with; `ticked(given)` after each tick; `restarted()`;
+   *   `lost(zone, info)` where a zone has to be made anew; `replaced()` where this one was; `log(text)`
+   */
+  constructor({ presence, isConnected, simulation, info, calls }) {
+    this.#presence = presence;
+    this.#isConnected = isConnected;
+    this.#simulation = simulation;
+    this.#info = info;
+    this.#calls = calls;
+  }
+
+  get #zone() {
+    return this.#simulation.zone;
+  }
+
+  isOpen = (zone) => this.#peers.has(zone);
+
+  /** What is known of the room of another zone. */
+  infoOf(zone) {
+    return this.#peers.get(zone)?.info;
+  }
+
+  /** Waits until it runs. */
+  async start() {
+    await this.#presence.subscribe(`zone:${this.#zone}`, (message) => this.#hear(message));
+    await this.#presence.subscribe('zones', (message) => this.#hear(message));
+    await this.#join();
+    this.#run().catch((error) => {
+      this.#calls.log(`stopped: ${error.stack}`);
+      process.exit(1);
+    });
+  }
+
+  async stop() {
+    this.#stopped = true;
+    await this.#presence.unsubscribe(`zone:${this.#zone}`);
+  }
+
+  #send(zone, message) {
+    const full = { ...message, from: this.#zone, epoch: message.epoch ?? this.#epoch };
+    this.sent.messages++;
+    Promise.resolve(this.#presence.publish(zone === undefined ? 'zones' : `zone:${zone}`, full)).catch((error) =>
+      this.#calls.log(`cannot tell ${zone === undefined ? 'the zones' : `zone ${zone}`}: ${error.message}`),
+    );
+    return full;
+  }
+
+  async #run() {
+    let next = performance.now();
+    while (!this.#stopped) {
+      if (!this.running) {
+        await this.#join();
+        next = performance.now();
+      }
+      await sleep(Math.max(0, next - performance.now()));
+      next = Math.max(next + tickTime, performance.now() - tickTime);
+      const begun = performance.now();
+      const given = this.#tell();
+      const told = performance.now();
+      await this.#everyone();
+      if (!this.running || this.#stopped) continue;
+      const resumed = performance.now();
+      const messages = [...this.#peers.values()].map(({ inbox }) => inbox.get(this.tick));
+      const deltas = messages.flatMap(({ delta }) => (delta ? unpackDelta(delta) : []));
+      this.#simulation.finish(
+        deltas,
+        messages.flatMap(({ entities }) => unpackEntities(entities)),
+      );
+      for (const { inbox } of this.#peers.values()) inbox.delete(this.tick);
+      this.#calls.ticked(given);
+      this.work = told - begun + performance.now() - resumed;
+      this.tick++;
+      if (this.tick % helloEvery === 0) this.#sayHello();
+    }
+  }
+
+  /** Moves everybody on, and tells the others. */
+  #tell() {
+    for (const [zone, peer] of this.#coming) {
+      if (peer.start > this.tick) continue;
+      this.#coming.delete(zone);
+      this.#peers.set(zone, peer);
+      this.#simulation.shard.resend(zone);
+      this.#calls.log(`zone ${zone} is here from tick ${this.tick} on`);
+    }
+    const { deltas, given } = this.#simulation.step(this.tick, this.isOpen);
+    this.#last = [...this.#peers.keys()].map((zone) => {
+      const delta = deltas.find(({ to }) => to === zone);
+      const entities = given.filter(({ to }) => to === zone).map(({ entity }) => entity);
+      const message = {
+        type: 'tick',
+        tick: this.tick,
+        delta: delta ? packDelta(delta) : null,
+        entities: packEntities(entities),
+      };
+      this.sent.bytes += JSON.stringify(message).length;
+      this.sent.records += delta?.ids.length ?? 0;
+      return [zone, this.#send(zone, message)];
+    });
+    return given;
+  }
+
+  /** Waits until all others have told the same; leaves out those that do not. */
+  async #everyone() {
+    let since = performance.now();
+    let away = false;
+    while (this.running && !this.#stopped) {
+      const missing = [...this.#peers].filter(([, { inbox }]) => !inbox.has(this.tick)).map(([zone]) => zone);
+      if (missing.length === 0) return;
+      await new Promise((resolve) => {
+        const timer = setTimeout(resolve, 20);
+        this.#wake = () => {
+          clearTimeout(timer);
+          resolve();
+        };
+      });
+      if (!this.#isConnected()) {
+        // Nobody is to blame: the world waits.
+        away = true;
+        since = performance.now();
+      } else if (away) {
+        // What was said meanwhile may have been lost.
+        away = false;
+        await sleep(100);
+        for (const [zone, message] of this.#last) this.#send(zone, message);
+        since = performance.now() + 500;
+      } else if (performance.now() - since > suspicious) {
+        for (const zone of missing) await this.#suspect(zone, performance.now() - since);
+      }
+    }
+  }
+
+  /** Leaves out a zone that has died, or has been silent for too long. */
+  async #suspect(zone, silent) {
+    const { info } = this.#peers.get(zone);
+    const isAlive = await listens(info.address);
+    if (this.#peers.get(zone)?.info !== info || (isAlive && silent < patience)) return;
+    const why = isAlive ? `listens, but has said nothing for ${patience} ms` : `cannot be reached at ${info.address}`;
+    this.#calls.log(`zone ${zone} ${why}: going on without it`);
+    this.#drop(zone);
+    if (isAlive) this.#send(zone, { type: 'dropped' });
+    else this.#replace(zone, info);
+  }
+
+  /** Has a zone made anew that has died; again and again, until it is there. One of those that are left does it. */
+  async #replace(zone, info) {
+    const isBack = this.#peers.has(zone) || this.#coming.has(zone);
+    if (this.#stopped || isBack || [...this.#peers.keys()].some((peer) => peer < this.#zone)) return;
+    if ((await this.#presence.hincrbyex('zones:replaced', String(zone), 1, 3)) === 1) {
+      this.#calls.log(`zone ${zone} is made anew`);
+      await this.#calls.lost(zone, info);
+    }
+    setTimeout(() => this.#replace(zone, info), 4000);
+  }
+
+  #drop(zone) {
+    this.#coming.delete(zone);
+    if (this.#peers.delete(zone)) this.#simulation.shard.forget(zone);
+  }
+
+  #sayHello() {
+    this.#send(undefined, { type: 'hello' });
+  }
+
+  /** Becomes one of those that are running; waits as long as that takes. */
+  async #join() {
+    for (const zone of [...this.#peers.keys()]) this.#drop(zone);
+    this.#coming.clear();
+    const begin = await this.#calls.begin();
+    for (;;) {
+      await sleep(Math.max(0, this.#yieldUntil - performance.now()));
+      this.#epoch = Math.floor(Math.random() * 2 ** 48);
+      this.#welcomes.clear();
+      const asked = performance.now();
+      this.#send(undefined, { type: 'join', since: begin.tick, info: this.#info });
+      const expected = begin.peers ?? [];
+      while (performance.now() - asked < (expected.length > 0 ? 2 * gathering : gathering)) {
+        await sleep(20);
+        if (expected.length > 0 && expected.every((zone) => this.#welcomes.has(zone))) break;
+      }
+      if (this.#stopped) return;
+      if (this.#yieldUntil > performance.now()) continue;
+      const somebodyRuns = [...this.#ran.values()].some((at) => at > asked - 1000);
+      if (somebodyRuns && this.#welcomes.size === 0) continue;
+      this.#begin(begin);
+      return;
+    }
+  }
+
+  #begin({ tick, entities }) {
+    const welcomes = [...this.#welcomes.values()];
+    const ticks = welcomes.map(({ tick, at }) => tick + Math.ceil((performance.now() - at) / tickTime));
+    const start = welcomes.length === 0 ? tick + 1 : Math.max(...ticks) + ahead;
+    const others = new Set(welcomes.flatMap(({ owned }) => [...unpack(owned, Uint32Array)]));
+    const mine = new Map(entities.map((entity) => [entity.id, entity]));
+    for (const { offers } of welcomes) for (const entity of unpackEntities(offers)) mine.set(entity.id, entity);
+    this.#simulation.restart([...mine.values()].filter(({ id }) => !others.has(id)));
+    this.tick = start;
+    this.running = true;
+    for (const { from, epoch, info } of welcomes) {
+      this.#peers.set(from, { inbox: new Map(), epoch, info });
+      this.#send(from, { type: 'start', start, info: this.#info });
+    }
+    this.#sayHello();
+    this.#calls.restarted();
+    this.#calls.log(
+      `begins at tick ${start} with ${this.#simulation.entities.size} entities, beside ${welcomes.length} zones`,
+    );
+  }
+
+  #hear(message) {
+    const { type, from } = message;
+    if (this.#stopped) return;
+    if (from === this.#zone) {
+      // Another room has been made for this zone: this one was thought to be dead.
+      if (type === 'join' && message.info.roomId !== this.#info.roomId) this.#calls.replaced();
+      return;
+    }
+    if (type === 'hello') this.#ran.set(from, performance.now());
+    if (type === 'tick') this.#hearTick(message);
+    else if (type === 'join') this.#welcome(message);
+    else if (type === 'welcome' && message.to === this.#epoch)
+      this.#welcomes.set(from, { ...message, at: performance.now() });
+    else if (type === 'start') this.#admit(message);
+    else if (type === 'late' && this.#peers.has(from)) this.running = false;
+    else if (type === 'dropped' && this.#peers.has(from)) this.running = false;
+    else if (type === 'hello' && this.running && !this.#peers.has(from) && !this.#coming.has(from)) {
+      // Two that run and do not know of each other: the later one joins again.
+      if (from < this.#zone) this.running = false;
+    }
+    this.#wake();
+  }
+
+  #hearTick(message) {
+    const peer = this.#peers.get(message.from) ?? this.#coming.get(message.from);
+    if (peer?.epoch === message.epoch) peer.inbox.set(message.tick, message);
+  }
+
+  #welcome({ from, epoch, since }) {
+    if (!this.running) {
+      if (from < this.#zone) this.#yieldUntil = performance.now() + gathering + 100;
+      return;
+    }
+    this.#drop(from);
+    this.#send(from, {
+      type: 'welcome',
+      to: epoch,
+      tick: this.tick,
+      info: this.#info,
+      owned: pack(Uint32Array.from(this.#simulation.entities.keys())),
+      offers: packEntities(this.#simulation.handedTo(from, since)),
+    });
+  }
+
+  #admit({ from, epoch, start, info }) {
+    if (!this.running) return;
+    if (start <= this.tick) this.#send(from, { type: 'late' });
+    else this.#coming.set(from, { inbox: new Map(), epoch, start, info });
+  }
+}
+
+/** Whether a process accepts connections. */
+function listens(address) {
+  const [host, port] = address.split(':');
+  return new Promise((resolve) => {
+    const socket = connect({ host, port: Number(port), timeout: 1000 });
+    const answer = (is) => {
+      socket.destroy();
+      resolve(is);
+    };
+    socket.on('connect', () => answer(true));
+    socket.on('timeout', () => answer(false));
+    socket.on('error', () => answer(false));
+  });
+}

@@ -1,0 +1,88 @@
+// The entities of one zone, and the shard that finds who sees whom among them and the ghosts of other zones.
+import { BroadPhase } from 'broadphase';
+import { Shard } from 'broadphase/shard';
+import { boxOf, isAvatar, move, sight } from './world.mjs';
+
+/** For so many ticks it is known who was handed over, should the other zone be lost meanwhile. */
+const remembered = 60;
+
+export class Simulation {
+  /** The entities that this zone owns, by id. */
+  entities = new Map();
+  shard;
+  #zones;
+  /** Who was handed over lately: the entity, to which zone, and when. */
+  #handedOver = [];
+
+  constructor(zones, zone) {
+    this.#zones = zones;
+    this.zone = zone;
+    this.#begin();
+  }
+
+  #begin() {
+    // Only pairs with a client's entity in them are of interest.
+    const space = new BroadPhase({ events: true });
+    const entered = (id) => space.setFilter(id, isAvatar(id) ? 1 : 2, isAvatar(id) ? 3 : 1);
+    this.shard = new Shard(this.#zones, this.zone, space, { entered });
+  }
+
+  /** Begins anew with these entities, as after an interruption. */
+  restart(entities) {
+    this.#begin();
+    this.entities = new Map(entities.map((entity) => [entity.id, entity]));
+  }
+
+  /** Moves everybody, and finds out what to tell the other zones. */
+  step(tick, isOpen) {
+    const shut = (x) => {
+      const zone = this.#zones.ownerOf(boxOf({ x, y: 0 }));
+      return zone !== this.zone && !isOpen(zone);
+    };
+    for (const entity of this.entities.values()) {
+      move(entity, shut);
+      this.shard.set(entity.id, ...boxOf(entity));
+    }
+    const deltas = this.shard.exchange();
+    this.#handedOver = this.#handedOver.filter((given) => given.tick > tick - remembered);
+    const given = this.shard.given.map((id) => {
+      const entity = this.entities.get(id);
+      this.entities.delete(id);
+      return { entity, to: this.#zones.ownerOf(boxOf(entity)), tick };
+    });
+    this.#handedOver.push(...given);
+    return { deltas, given };
+  }
+
+  /** Takes what the other zones told: their deltas, and the entities that they handed over. */
+  finish(deltas, arrivals) {
+    for (const entity of arrivals) this.entities.set(entity.id, entity);
+    this.shard.update(deltas);
+  }
+
+  /** Those who went to a zone after a tick. */
+  handedTo(zone, since) {
+    return this.#handedOver.filter(({ to, tick }) => to === zone && tick > since).map(({ entity }) => entity);
+  }
+
+  /** Where something is that this zone sees: its own, or a ghost. */
+  placeOf(id, out) {
+    const own = this.entities.get(id);
+    if (own) {
+      out.x = own.x;
+      out.y = own.y;
+      return true;
+    }
+    const box = this.shard.space.get(id, this.#box);
+    if (!box) return false;
+    out.x = box[0] + sight / 2;
+    out.y = box[1] + sight / 2;
+    return true;
+  }
+  #box = new Float64Array(4);
+
+  /** Whom an entity of this zone sees. */
+  seenBy(id) {
+    return this.shard.space.has(id) ? this.shard.space.collisionsOf(id) : [];
+  }
+}

@@ -1,0 +1,61 @@
+// What all processes and clients know of the world: its size, how it is cut, who is whose.
+import { Zones } from 'broadphase/shard';
+
+export const world = { width: 6000, height: 3000 };
+
+/** How far an entity sees, along each axis. */
+export const sight = 80;
+
+/** Milliseconds from tick to tick. */
+export const tickTime = 50;
+
+/** The furthest an entity moves in a tick. */
+const fastest = 6;
+
+/** Ids below this are those of clients' entities; others wander by themselves. */
+export const avatars = 1000;
+
+export const isAvatar = (id) => id < avatars;
+
+/**
+ * The world, cut along x. Every entity has a box as wide as it sees, so two boxes overlap where one sees the other. The
+ * margin makes a zone see all that those see whose box begins in it.
+ */
+export function cutInto(count) {
+  const x = Array.from({ length: count - 1 }, (_, k) => (world.width * (k + 1)) / count);
+  return new Zones({ borders: { x }, margin: sight });
+}
+
+/** The box of an entity: as wide as it sees, around it. */
+export const boxOf = ({ x, y }) => [x - sight / 2, y - sight / 2, x + sight / 2, y + sight / 2];
+
+/** The zone that an entity at this place is in: that of its box. */
+export const zoneOf = (zones, place) => zones.ownerOf(boxOf(place));
+
+/** All entities as they are when the world begins, the same in every process. */
+export function* beginnings(count) {
+  let state = 20260101;
+  const random = () => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return state / 2 ** 32;
+  };
+  const turn = () => (2 * random() - 1) * fastest;
+  for (let id = 0; id < count; id++) {
+    yield { id, x: random() * world.width, y: random() * world.height, vx: turn(), vy: turn() };
+  }
+}
+
+/** Moves an entity by a tick. `shut(x)` says whether there is nobody to go on with it. */
+export function move(entity, shut) {
+  for (const [place, speed, size] of [
+    ['x', 'vx', world.width],
+    ['y', 'vy', world.height],
+  ]) {
+    let to = entity[place] + entity[speed];
+    if (to < 0 || to > size || (place === 'x' && shut(to))) {
+      entity[speed] = -entity[speed];
+      to = Math.min(size, Math.max(0, entity[place]));
+    }
+    entity[place] = to;
+  }
+}
