@@ -181,7 +181,8 @@ export class Link {
 
   /** Leaves out a zone that has died, or has been silent for too long. */
   async #suspect(zone, silent) {
-    const { info } = this.#peers.get(zone);
+    const info = this.#peers.get(zone)?.info;
+    if (!info) return;
     const isAlive = await listens(info.address);
     if (this.#peers.get(zone)?.info !== info || (isAlive && silent < patience)) return;
     const why = isAlive ? `listens, but has said nothing for ${patience} ms` : `cannot be reached at ${info.address}`;
@@ -312,7 +313,7 @@ export class Link {
 function listens(address) {
   const [host, port] = address.split(':');
   return new Promise((resolve) => {
-    const socket = connect({ host, port: Number(port), timeout: 1000 });
+    const socket = connect({ host, port: Number(port), timeout: patience });
     const answer = (is) => {
       socket.destroy();
       resolve(is);

@@ -68,9 +68,9 @@ for (const [k, run] of runs.entries()) {
     'bytes a ghost': run.zones > 1 ? (grown('bytes') / grown('records')).toFixed(0) : '',
     'handed over': clients.at(-1)?.handedOver ?? 0,
     'patches a second and client': (
-      (clients.at(-1).patches - clients[0].patches) /
+      ((clients.at(-1)?.patches ?? 0) - (clients[0]?.patches ?? 0)) /
       (clients.length - 1) /
-      clients.at(-1).connected
+      (clients.at(-1)?.connected ?? 0)
     ).toFixed(1),
   });
   console.log(JSON.stringify(rows.at(-1)));

@@ -25,11 +25,16 @@ class World {
   /** The newest reports, by zone. */
   reports = new Map();
   clients = {};
+  /** The end of what the processes wrote to standard error. */
+  complaints = '';
 
   constructor(...options) {
     const file = fileURLToPath(new URL('index.mjs', import.meta.url));
     const args = [file, '--json', '--entities', String(entities), '--clients', String(clients), ...options];
-    this.child = spawn(node, args, { stdio: ['ignore', 'pipe', 'ignore'] });
+    this.child = spawn(node, args, { stdio: ['ignore', 'pipe', 'pipe'] });
+    this.child.stderr.on('data', (data) => {
+      this.complaints = `${this.complaints}${data}`.slice(-4000);
+    });
     createInterface({ input: this.child.stdout }).on('line', (line) => {
       const event = JSON.parse(line);
       if (event.report) this.reports.set(event.report.zone, { ...event.report, at: event.at });
@@ -46,7 +51,9 @@ class World {
       await new Promise((resolve) => setTimeout(resolve, 20));
     }
     const said = this.events.map(({ text }) => text).join('\n');
-    throw new Error(`not within ${seconds} s: ${what}\n${said}\n${JSON.stringify([...this.reports.values()])}`);
+    throw new Error(
+      `not within ${seconds} s: ${what}\n${said}\n${JSON.stringify([...this.reports.values()])}\n${this.complaints}`,
+    );
   }
 
   /** Reports of one and the same tick by all zones, with everybody in them once; after some time. */
