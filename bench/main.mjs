@@ -1,41 +1,71 @@
-// The benchmark: what a game does in a frame, in the same frames for all. See README.md.
-//   npm run bench -- --motions [flock,hail] [--set tune|check] [--count 10000] [--dimensions 2] [--by set|boxes]
-//     [--frames 2000] [--playings 3]
+// The benchmark: what a game does in a frame, in the same frames for all. README.md says how, and what all this writes.
+//   npm run bench                           all kinds within half an hour, into results/, docs/figures.md and README.md
+//   npm run bench -- --full                 with more sizes and contenders, for some hours
+//   npm run bench -- --motions flock,hail   rows of a kind alone, printed; --json file writes them down
+//   npm run bench -- --compare before.json after.json      what changed beyond the noise
+//   npm run bench -- --figures              writes the documents anew, from the results that are there
+import { execFileSync } from 'node:child_process';
+import { existsSync, readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { bundle } from '../scripts/bundle.mjs';
-import { machine } from './machine.mjs';
+import { compare } from './report/compare.mjs';
+
+const here = fileURLToPath(new URL('.', import.meta.url));
+/** In the order of a run. */
+const kinds = ['objects', 'cold', 'once', 'movers', 'motions', 'questions', 'scenes'];
 
 const { values: options, positionals } = parseArgs({
   allowPositionals: true,
-  strict: false,
   options: {
-    motions: { type: 'boolean' },
-    set: { type: 'string' },
+    ...Object.fromEntries(kinds.map((kind) => [kind, { type: 'boolean', default: false }])),
+    full: { type: 'boolean', default: false },
     count: { type: 'string' },
     dimensions: { type: 'string' },
+    set: { type: 'string' },
     by: { type: 'string' },
     frames: { type: 'string' },
-    playings: { type: 'string', default: '3' },
+    json: { type: 'string' },
+    compare: { type: 'boolean', default: false },
+    figures: { type: 'boolean', default: false },
   },
 });
 const list = (text) => text?.split(',').filter(Boolean);
 const numbers = (text) => list(text)?.map(Number);
+const read = (file) => JSON.parse(readFileSync(file, 'utf8'));
 
-if (options.motions) {
-  await bundle('bench/library.ts', 'build/bench/library.mjs');
-  const { motionRows, playMotion } = await import('./motions/rows.mjs');
-  const { motionCells, motionTitles } = await import('./report/motions.mjs');
-  const { textLine } = await import('./report/words.mjs');
-  console.log(`Milliseconds of an update. ${machine.cpu}, ${machine.system}, Node ${machine.node}.\n`);
-  const rows = motionRows({
-    names: positionals.length > 0 ? positionals.flatMap(list) : undefined,
-    set: options.set,
-    counts: numbers(options.count),
-    dimensions: numbers(options.dimensions),
-    by: list(options.by),
-    frames: options.frames && Number(options.frames),
+if (options.compare) {
+  if (positionals.length !== 2) {
+    console.error('--compare takes two files of results: before and after.');
+    process.exit(1);
+  }
+  console.log(compare(read(positionals[0]), read(positionals[1])));
+  process.exit();
+}
+
+if (!existsSync(`${here}node_modules`)) {
+  execFileSync('npm', ['ci', '--no-audit', '--no-fund'], { cwd: here, stdio: ['ignore', 'ignore', 'inherit'] });
+}
+await bundle('bench/library.ts', 'build/bench/library.mjs');
+const { run, writeDocuments } = await import('./run.mjs');
+
+const asked = kinds.filter((kind) => options[kind]);
+if (!options.figures) {
+  const everything = asked.length === 0;
+  await run({
+    kinds: everything ? kinds : asked,
+    everything,
+    json: options.json,
+    selection: {
+      names: positionals.length > 0 ? positionals.flatMap(list) : undefined,
+      set: options.set,
+      counts: numbers(options.count),
+      dimensions: numbers(options.dimensions),
+      by: list(options.by),
+      // Rows of a kind that is asked for are all there are; a run of everything makes do with the usual ones.
+      full: options.full || (everything ? false : undefined),
+      frames: options.frames === undefined ? undefined : Number(options.frames),
+    },
   });
-  console.log(textLine(motionTitles, motionTitles));
-  const settings = { budget: 60_000, playings: Number(options.playings) };
-  for (const row of rows) console.log(textLine(motionTitles, motionCells(await playMotion(row, settings))));
-} else await import('./run.mjs');
+}
+if (options.figures || (asked.length === 0 && !options.json)) writeDocuments();

@@ -9,7 +9,7 @@ import { PairList } from './pair-list.mjs';
  */
 export function movingPairs({ dimensions, count, boxes, move, ready = () => {}, search }) {
   const stride = 2 * dimensions;
-  const known = new Float32Array(boxes.length).fill(Number.NaN);
+  const known = new boxes.constructor(boxes.length).fill(Number.NaN);
   const moved = new Uint8Array(count);
   const list = new PairList();
   let box = 0;

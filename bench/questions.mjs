@@ -22,13 +22,13 @@ const clear = 4;
 const cell = 5;
 
 /** Seeded questions about a scene. */
-export function makeQuestions({ kind, question }, scene, seed) {
+export function makeQuestions({ asks, question }, scene, seed) {
   const { dimensions, world } = scene;
   const isClear = question === 'rayCast' ? clearance(scene) : () => true;
   const random = createRandom(seed + 0x9e37);
   const stride = numbers[question](dimensions);
   const list = new Float32Array(stride * asked);
-  const side = kind === 'queryLarge' ? world * share ** (1 / dimensions) : width[dimensions];
+  const side = asks === 'queryLarge' ? world * share ** (1 / dimensions) : width[dimensions];
   for (let at = 0; at < list.length; at += stride) {
     do {
       for (let axis = 0; axis < dimensions; axis++) list[at + axis] = world * random();
@@ -42,7 +42,7 @@ export function makeQuestions({ kind, question }, scene, seed) {
 }
 
 /** Makes a contender of pairs of one that answers questions. `untimed`: it is asked for its answers only. */
-export function asking(asker, item, questions, { dimensions, count }, untimed = false) {
+export function asking(asker, item, questions, { dimensions, count }) {
   const stride = numbers[item.question](dimensions);
   let known = false;
   return {
@@ -50,7 +50,6 @@ export function asking(asker, item, questions, { dimensions, count }, untimed = 
       if (!item.still || !known) asker.update(boxes);
       known = true;
       let answers = 0;
-      if (untimed) return answers;
       for (let at = 0; at < questions.length; at += stride) answers += asker[item.question](questions, at).length;
       return answers;
     },
@@ -60,48 +59,6 @@ export function asking(asker, item, questions, { dimensions, count }, untimed = 
         for (const id of asker[item.question](questions, at)) pairs.push(id, k);
       }
       return pairs;
-    },
-  };
-}
-
-/** Answers by looking at every box, in double precision. */
-export function naive({ dimensions, count }) {
-  let boxes;
-  return {
-    update(frame) {
-      boxes = frame;
-    },
-    queryBox(q, at) {
-      const ids = [];
-      for (let id = 0; id < count; id++) if (overlap(boxes, 2 * dimensions * id, q, at, dimensions)) ids.push(id);
-      return ids;
-    },
-    nearest(q, at) {
-      const best = [];
-      for (let id = 0; id < count; id++) {
-        const limit = best.length === most ? Math.sqrt(best[most - 1].rank) : Infinity;
-        if (isBeyond(boxes, 2 * dimensions * id, q[at], limit, dimensions)) continue;
-        const rank = squaredDistance(boxes, 2 * dimensions * id, q, at, dimensions);
-        if (best.length === most && !(rank < best[most - 1].rank)) continue;
-        if (best.length === most) best.pop();
-        let place = best.length;
-        while (place > 0 && rank < best[place - 1].rank) place--;
-        best.splice(place, 0, { id, rank });
-      }
-      return best.map(({ id }) => id);
-    },
-    rayCast(q, at) {
-      const length = lengthOf(q, at + dimensions, dimensions);
-      let first = [];
-      let limit = reach;
-      for (let id = 0; id < count; id++) {
-        if (isBeyond(boxes, 2 * dimensions * id, q[at], limit, dimensions)) continue;
-        const distance = rayEntry(boxes, 2 * dimensions * id, q, at, dimensions) * length;
-        if (!(distance <= limit)) continue;
-        limit = distance;
-        first = [id];
-      }
-      return first;
     },
   };
 }
@@ -134,12 +91,6 @@ export function rayEntry(boxes, box, q, at, dimensions) {
     leave = Math.min(leave, Math.max(low, high));
   }
   return enter >= 0 && enter <= leave ? enter : Number.NaN;
-}
-
-/** Whether a box is surely further away than that, by its first axis alone: most are, which saves most of the time. */
-function isBeyond(boxes, box, x, limit, dimensions) {
-  const reach = limit * (1 + 1e-9);
-  return boxes[box] - x > reach || x - boxes[box + dimensions] > reach;
 }
 
 export function lengthOf(q, at, dimensions) {

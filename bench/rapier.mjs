@@ -1,6 +1,5 @@
 // What the adapters of rapier2d and rapier3d share. Bodies, kinematic or fixed, each with a sensor, are put in place, and a whole
-// step is taken, for its broad phase cannot be had alone; its events tell which pairs begin and cease to meet. `own` is
-// what its profiler says of the broad phase alone.
+// step is taken, for its broad phase cannot be had alone; its events tell which pairs begin and cease to meet.
 import { Contacts } from './contacts.mjs';
 import { resized } from './resized.mjs';
 
@@ -8,7 +7,6 @@ export async function rapier(RAPIER, { dimensions, count, boxes, fixed = 0 }) {
   await RAPIER.init();
   const origin = { x: 0, y: 0, z: 0 };
   const world = new RAPIER.World(origin);
-  world.profilerEnabled = true;
   const events = new RAPIER.EventQueue(true);
   const stride = 2 * dimensions;
   const sizes = new Float32Array(dimensions * count);
@@ -54,7 +52,7 @@ export async function rapier(RAPIER, { dimensions, count, boxes, fixed = 0 }) {
   });
 
   const contacts = new Contacts();
-  const previous = new Float32Array(boxes);
+  const previous = boxes.slice();
   return {
     update(frame) {
       for (let id = 0, at = 0; id < count; id++, at += stride) {
@@ -73,6 +71,5 @@ export async function rapier(RAPIER, { dimensions, count, boxes, fixed = 0 }) {
       return contacts.find(frame, dimensions);
     },
     pairs: () => contacts.pairs(),
-    own: () => world.timingBroadPhase(),
   };
 }

@@ -2,7 +2,7 @@
 // nothing is the same bytes twice.
 //   npm run bench:snapshot
 import { bundle } from '../scripts/bundle.mjs';
-import { median } from './statistics.mjs';
+import { median } from './harness/statistics.mjs';
 
 const { BroadPhase, createScene } = await import(await bundle('bench/library.ts', 'build/bench/library.mjs'));
 

@@ -2,7 +2,7 @@
 // about as many pairs, in one process and in turns:
 //   npm run bench:worst -- [boxes] [technique]
 import { bundle } from '../scripts/bundle.mjs';
-import { median } from './statistics.mjs';
+import { median } from './harness/statistics.mjs';
 
 const { BroadPhase } = await import(await bundle('bench/library.ts', 'build/bench/library.mjs'));
 const count = Number(process.argv[2] ?? 100_000);

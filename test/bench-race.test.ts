@@ -2,8 +2,8 @@
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { framesFor, partOf, strideFor } from '../bench/harness/frames.mjs';
+import { difference } from '../bench/harness/judge.mjs';
 import { type Contender, Player } from '../bench/harness/player.mjs';
-import { difference } from '../bench/harness/race.mjs';
 import { createMotion, motionNames } from '../bench/motions/index.ts';
 import { createScene } from '../src/scenes/index.ts';
 import { keysOf, referencePairs } from './reference.ts';

@@ -1,4 +1,5 @@
 // The scenes are the ground every figure stands on: seeded, as dense as they say, and steady.
+import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createScene, gameNames, type Scene, type SceneName, sceneNames } from '../src/scenes/index.ts';
 import { referencePairs } from './reference.ts';
@@ -116,4 +117,38 @@ test('a scene may be empty, and an unknown one or a bad count is an error that n
   for (const name of [...sceneNames, ...gameNames]) expect(createScene(name, 0).boxes.length).toBe(0);
   expect(() => createScene('round2d' as SceneName, 1)).toThrow('"round2d"');
   expect(() => createScene('mixed2d', 1.5)).toThrow('1.5');
+});
+
+describe.each([...sceneNames, ...gameNames])('%s keeps its character', (name) => {
+  const frames = 2000;
+
+  test('frame 2,000 has as many pairs as frame 0', () => {
+    const scene = createScene(name, 1000);
+    const space = new BroadPhase({ dimensions: scene.dimensions });
+    const pairs: number[] = [];
+    for (let frame = 0; frame <= frames; frame++) {
+      if (frame % 20 === 0) pairs.push(space.setAll(scene.boxes).update().pairCount);
+      scene.step();
+    }
+    const meanOf = (some: number[]) => some.reduce((sum, count) => sum + count, 0) / some.length;
+    const mean = meanOf(pairs);
+    // Chance alone, among so few boxes. Squads and volleys meet all at once, so games vary more from frame to frame.
+    const chance = 5 * Math.sqrt(mean) + 3;
+    const [steady, single] = gameNames.some((game) => game === name) ? [0.3, 0.8] : [0.1, 0.15];
+    for (const quarter of [0, 1, 2, 3].map((k) => meanOf(pairs.slice(25 * k, 25 * (k + 1))))) {
+      expect(Math.abs(quarter - mean)).toBeLessThan(steady * mean + chance);
+    }
+    expect(Math.min(...pairs)).toBeGreaterThan((1 - single) * mean - chance);
+    expect(Math.max(...pairs)).toBeLessThan((1 + single) * mean + chance);
+  });
+
+  test('in doubles it is the same scene, to what float32 holds', () => {
+    const [single, double] = [createScene(name, 300), createScene(name, 300, { numbers: 'double' })];
+    for (let frame = 0; frame < 5; frame++) for (const scene of [single, double]) scene.step();
+    expect(double.boxes).toBeInstanceOf(Float64Array);
+    expect(double.boxes.some((value) => Math.fround(value) !== value)).toBe(true);
+    let furthest = 0;
+    for (let k = 0; k < 300; k++) furthest = Math.max(furthest, Math.abs(double.boxes[k] - single.boxes[k]));
+    expect(furthest).toBeLessThan(1e-2);
+  });
 });

@@ -1,5 +1,6 @@
 // This library: the frame is copied into the kernel's memory, an update finds the pairs too, and the first question
-// makes the index. Answers go into arrays that are kept.
+// makes the index. Answers go into arrays that are kept. Where boxes move, all pairs are found anew: they move by so little
+// that nothing else is like a game.
 import { BroadPhase } from '../../build/bench/library.mjs';
 import { most, reach } from '../questions.mjs';
 
@@ -7,8 +8,8 @@ export const npm = null;
 export const dimensions = [2, 3];
 export const answers = ['queryBox', 'nearest', 'rayCast'];
 
-export function create({ dimensions, count }) {
-  const space = new BroadPhase({ dimensions });
+export function create({ dimensions, count, still }) {
+  const space = new BroadPhase({ dimensions, technique: still ? 'auto' : 'strip-sweep' });
   const ids = { out: [] };
   const ray = { maxDistance: reach, out: { id: 0, distance: 0, normal: [] } };
   const first = [0];

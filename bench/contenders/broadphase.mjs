@@ -1,15 +1,16 @@
-// This library. How boxes are given is the row's `by`: each by `set`, all in place by `boxes()`, or all by `setAll`.
+// This library. How boxes are given is the row's `by`: each by `set`, only who moved, all in place by `boxes()`, or all by
+// `setAll`.
 // Boxes that the scene knows to rest are told to be static.
 import { BroadPhase } from '../../build/bench/library.mjs';
 
-export function create({ dimensions, count, boxes: first, fixed = 0, variant, row }) {
+export function create({ dimensions, count, boxes: first, fixed = 0, variant, row, scene }) {
   const space = new BroadPhase({ dimensions, technique: variant });
-  if (fixed > 0) {
+  if (fixed > 0 || scene.movers) {
     space.setAll(first);
     for (let id = 0; id < fixed; id++) space.setStatic(id);
   }
   return {
-    give: giving(space, { dimensions, count, fixed, by: row.by }),
+    give: giving(space, { dimensions, count, fixed, by: row.by, movers: scene.movers }),
     update() {
       space.update();
       return space.pairs.length;
@@ -20,9 +21,14 @@ export function create({ dimensions, count, boxes: first, fixed = 0, variant, ro
   };
 }
 
-function giving(space, { dimensions, count, fixed, by }) {
-  if (by === 'boxes') return (boxes) => space.boxes(count).set(boxes);
-  if (by === 'setAll') return (boxes) => space.setAll(boxes);
+function giving(space, { dimensions, count, fixed, by, movers }) {
+  if (by === 'boxes' && fixed === 0) return (boxes) => space.boxes(count).set(boxes);
+  if (by === 'setAll' && fixed === 0) return (boxes) => space.setAll(boxes);
+  if (by === 'movers') {
+    return (boxes) => {
+      for (const id of movers) space.set(id, boxes[4 * id], boxes[4 * id + 1], boxes[4 * id + 2], boxes[4 * id + 3]);
+    };
+  }
   if (dimensions === 2) {
     return (boxes) => {
       for (let id = fixed, k = 4 * fixed; id < count; id++, k += 4) {

@@ -1,2 +1,2 @@
-export const checkedFrames: number;
 export function fingerprint(pairs: ArrayLike<number>): string;
+export function fingerprintOfBoxes(boxes: ArrayLike<number>): string;

@@ -1,9 +1,6 @@
 // Two sets of pairs are the same when their fingerprints are: the count, and two sums of well mixed 32-bit hashes,
 // which neither the order of the pairs nor that within a pair changes, and which a pair found twice does change.
 
-/** How many frames every contender's pairs are checked in, before any is timed. */
-export const checkedFrames = 3;
-
 export function fingerprint(pairs) {
   let first = 0;
   let second = 0;

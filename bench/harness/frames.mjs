@@ -4,7 +4,7 @@
 // between two of its updates as they do for all others.
 
 /** A contender is timed in at least so many frames. */
-export const fewestTimed = 6;
+export const fewestTimed = 5;
 
 /**
  * How many frames warm up and how many are timed, by the number of boxes: enough for the engine to compile what runs, and

@@ -22,4 +22,6 @@ export class Player {
   readonly over: boolean;
   readonly notes: Notes;
   play(frames: number): void;
+  /** Milliseconds of a frame, once some have been played. */
+  probe(frames: number, milliseconds: number): number;
 }

@@ -1,5 +1,5 @@
 // A contender in a process of its own. The parent asks for one thing at a time, and each can be answered by { error }:
-//   { open: { module, variant, scene, plan, by } }  ->  { ms: milliseconds of the first frames, the least }
+//   { open: { module, variant, row, budget } }      ->  { ms: milliseconds of a frame }
 //   { open: { …, stride } }                         ->  begins again at the first frame, to play through
 //   { play: frames }                                ->  { over }
 //   { notes: … }                                    ->  what was noted of the frames that were timed
@@ -7,20 +7,20 @@
 import { Player } from './player.mjs';
 import { openScene } from './scene.mjs';
 
-/** How many of the first frames tell how slow a contender is. */
-const probed = 3;
+/** At most so many of the first frames tell how slow a contender is. */
+const probed = 100;
 
 let player;
 let contender;
 
 const actions = {
-  async open({ module, variant, row, stride }) {
+  async open({ module, variant, row, stride, budget }) {
     contender?.dispose?.();
     const { create } = await import(module);
     const scene = openScene(row);
     contender = await create({ ...scene, scene, variant, row });
     player = new Player(scene, contender, row.plan, stride ?? 1);
-    return { ms: stride === undefined ? player.probe(probed) : 0, count: scene.count };
+    return { ms: stride === undefined ? player.probe(probed, budget / 3) : 0, count: scene.count };
   },
   play(frames) {
     player.play(frames);

@@ -2,14 +2,21 @@
 // is played forth and back. A row says { scene | motion | recording, dimensions, count, numbers, seed }.
 import { readFileSync } from 'node:fs';
 import { gunzipSync } from 'node:zlib';
-import { createMotion, createScene, readRecording } from '../../build/bench/library.mjs';
+import { createJitter, createMotion, createScene, readRecording } from '../../build/bench/library.mjs';
 
-export function openScene({ scene, motion, recording, dimensions, count, seed, speed }) {
+export function openScene(row) {
+  const opened = open(row);
+  return row.objects ? withThings(opened) : opened;
+}
+
+function open({ scene, motion, recording, dimensions, count, seed, speed, numbers, still, movers }) {
   if (motion) return createMotion(motion, dimensions, count, seed);
+  if (movers !== undefined) return createJitter(count, movers, seed);
   if (recording) return play(recording);
-  const made = createScene(scene, count, speed === undefined ? { seed } : { seed, speed });
+  const made = createScene(scene, count, { seed, numbers, ...(speed !== undefined && { speed }) });
   const { boxes, fixed, world } = made;
-  return { dimensions: made.dimensions, count, boxes, fixed, world, step: () => made.step() };
+  const step = still ? () => {} : () => made.step();
+  return { dimensions: made.dimensions, count, boxes, fixed, world, step };
 }
 
 function play(path) {
@@ -26,4 +33,26 @@ function play(path) {
       boxes.set(frame(place < frames ? place : period - place));
     },
   };
+}
+
+/** A scene whose boxes a game holds as objects: `moved` says which did in this frame. */
+function withThings(scene) {
+  const { boxes, count } = scene;
+  const things = Array.from({ length: count }, (_, id) => ({ id, x: 0, y: 0, width: 0, height: 0, moved: true }));
+  const put = () => {
+    for (let id = 0, k = 0; id < count; id++, k += 4) {
+      const thing = things[id];
+      thing.moved = thing.x !== boxes[k] || thing.y !== boxes[k + 1];
+      thing.x = boxes[k];
+      thing.y = boxes[k + 1];
+      thing.width = boxes[k + 2] - boxes[k];
+      thing.height = boxes[k + 3] - boxes[k + 1];
+    }
+  };
+  put();
+  const step = (frame) => {
+    scene.step(frame);
+    put();
+  };
+  return { ...scene, things, step };
 }

@@ -63,10 +63,10 @@ export class Bodies {
     else if (this.at[k] > this.world) this.at[k] -= this.world;
   }
 
-  /** Makes the boxes of the places. */
-  put(): void {
-    const { dimensions, count, at, boxes, sides } = this;
-    for (let id = 0, from = 0, k = 0; id < count; id++, k += dimensions) {
+  /** Makes the boxes of the places, of all or of those from `first` to before `end`. */
+  put(first = 0, end = this.count): void {
+    const { dimensions, at, boxes, sides } = this;
+    for (let id = first, from = dimensions * first, k = 2 * from; id < end; id++, k += dimensions) {
       for (let axis = 0; axis < dimensions; axis++, k++, from++) {
         boxes[k] = at[from];
         boxes[k + dimensions] = at[from] + sides[id];

@@ -9,8 +9,8 @@ const neighbourhood = 40;
 const flock: Motion = (bodies) => {
   const { count, dimensions, world, at, velocity } = bodies;
   const speed = 0.8;
-  const throng = 1.5 * (neighbourhood ** dimensions / (world ** dimensions / count));
   const across = Math.max(1, Math.floor(world / neighbourhood));
+  const throng = (1.5 * count) / across ** dimensions;
   const cells = new Int32Array(count);
   const sums = new Float64Array(across ** dimensions * (2 * dimensions + 1));
   const width = 2 * dimensions + 1;

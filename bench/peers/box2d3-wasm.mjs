@@ -45,7 +45,7 @@ export async function create({ count, boxes, fixed = 0 }) {
     const { shapeIdA, shapeIdB } = event;
     contacts[action](ids.get(shapeIdA.index1), ids.get(shapeIdB.index1));
   };
-  const previous = new Float32Array(boxes);
+  const previous = boxes.slice();
   return {
     update(frame) {
       for (let id = 0, k = 0; id < count; id++, k += 4) {

@@ -8,7 +8,7 @@ export function create({ count }) {
   const list = new PairList();
   return {
     update(boxes) {
-      const index = new Flatbush(count, 16, Float32Array);
+      const index = new Flatbush(count, 16, boxes.constructor);
       for (let k = 0; k < 4 * count; k += 4) index.add(boxes[k], boxes[k + 1], boxes[k + 2], boxes[k + 3]);
       index.finish();
       list.clear();

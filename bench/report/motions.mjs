@@ -27,9 +27,9 @@ export function ratiosOf({ contenders: [sweep, auto] }) {
 }
 
 export function motionCells(row) {
-  const { motion, dimensions, count, by, pairs, contenders } = row;
+  const { name, dimensions, count, by, pairs, contenders } = row;
   const problem = row.error ?? contenders.find(({ error }) => error)?.error;
-  const what = [`${motion} ${dimensions}D`, whole(count), by === 'set' ? 'set' : 'in place'];
+  const what = [`${name} ${dimensions}D`, whole(count), by === 'boxes' ? 'in place' : by];
   if (problem) return [...what, problem, ...Array(motionTitles.length - what.length - 1).fill('')];
   const [sweep, auto] = contenders;
   const wrong = auto.wrong ? ` WRONG in frame ${auto.wrong.frame}` : '';

@@ -28,16 +28,16 @@ export type Chart = (SVGSVGElement | HTMLElement) & Plot.Plot;
 export const times = (ratio: number) => `${ratio < 10 ? ratio.toPrecision(2) : formatCount(ratio)}×`;
 const shortName = (name: string) => (name.length > 19 ? `${name.slice(0, 18)}…` : name);
 
-/** One bar for each contender, the median of its rounds; behind it what it is of ours; a line reaches to its 95th percentile. */
+/** One bar for each contender, its median frame; behind it what it is of ours; a line reaches to its 95th percentile. */
 export function bars(race: Race, width: number): Chart {
   const us = reference(race);
   const rows = timed(race).map((result) => ({
     name: shortName(result.name),
     ours: isOurs(result),
-    ...result.figures,
-    reach: Math.max(result.figures.p95, result.figures.median),
-    note: `${us ? times(result.figures.median / us.figures.median) : ''}${result.wrong ? ' wrong' : ''}`,
-    title: `${result.name}: median ${formatMilliseconds(result.figures.median)} ms, p95 ${formatMilliseconds(result.figures.p95)} ms, worst ${formatMilliseconds(result.figures.worst)} ms${result.wrong ? `; misses ${formatCount(result.wrong.missed)} of ${formatCount(result.wrong.exact)} pairs, adds ${formatCount(result.wrong.extra)}` : ''}`,
+    ...result.total,
+    reach: Math.max(result.total.p95, result.total.median),
+    note: `${us ? times(result.total.median / us.total.median) : ''}${result.wrong ? ' wrong' : ''}`,
+    title: `${result.name}: median ${formatMilliseconds(result.total.median)} ms, p95 ${formatMilliseconds(result.total.p95)} ms, worst ${formatMilliseconds(result.total.worst)} ms${result.wrong ? `; finds ${formatCount(result.wrong.pairs!)} of ${formatCount(result.wrong.exact!)} pairs` : ''}`,
   }));
   const least = Math.min(...rows.map(({ median }) => median));
   const most = Math.max(...rows.map(({ reach }) => reach));
@@ -117,7 +117,7 @@ export function growth(lines: readonly Curve[], width: number): Chart {
         y: 'ms',
         z: 'name',
         stroke: (point) => (point.ours ? ours : others),
-        strokeWidth: (point) => (point.name === 'auto' ? 3 : 1.4),
+        strokeWidth: (point) => (['auto', 'set'].includes(point.name) ? 3 : 1.4),
       }),
       Plot.dot(points, {
         x: 'count',
@@ -151,7 +151,7 @@ function spread<Point extends { ms: number }>(points: readonly Point[], apart: n
 
 /** A row for each race, a column for each technique: how many times as long as the best it took. */
 export function heat(races: readonly Race[], width: number): Chart {
-  const rowOf = ({ scene, count }: Race) => `${scene} ${short(count)}`;
+  const rowOf = ({ name, count }: Race) => `${name} ${short(count)}`;
   const cells = races.flatMap((race) => ratios(race).map(({ name, ratio }) => ({ row: rowOf(race), name, ratio })));
   const names = [...new Set(cells.map(({ name }) => name))];
   const wide = Math.max(width, 130 + 46 * names.length);

@@ -1,86 +1,124 @@
 // The page of the benchmark: what bench/ has measured, drawn, and the same in the reader's own browser.
-import { coherenceCells, coherenceVerdicts, type PlayedRow } from '../../bench/coherence-table.mjs';
-import { formatCount } from '../shared/format.ts';
+import { figuresOf } from '../../bench/report/page.mjs';
+import { formatCount, formatMilliseconds } from '../shared/format.ts';
 import { growth, heat, times } from './charts.ts';
 import { fillMenu, find, make, table } from './elements.ts';
 import { raceFigure } from './race-figure.ts';
-import { advice, curves, type Race, type Results, readResults, timed } from './records.ts';
+import { advice, curves, ofKind, type Race, type Results, readResults, timed } from './records.ts';
 import { setUpRun } from './run.ts';
 
 /** Charts are no narrower, in pixels. */
 const leastWidth = 280;
+/** How many things a game has, unless the reader says otherwise. */
+const usualThings = '1000';
 
 /** The results that are in the repository, by file. */
 const files = import.meta.glob<string>('../../bench/results/*.json', { query: '?url', import: 'default', eager: true });
 
-const [machine, dimensions, count] = ['machine', 'dimensions', 'count'].map((id) => find<HTMLSelectElement>(id));
-const [scene, note] = [find<HTMLSelectElement>('growth-scene'), find('note')];
-/** By the machine's name: against others, and our techniques among themselves. */
-const known = new Map<string, { all?: Results; techniques?: Results }>();
-
-function learn(results: Results, name = nameOf(results)): void {
-  if (results.coherence) {
-    showCoherence(results, results.coherence);
-    return;
-  }
-  const mine = known.get(name) ?? {};
-  mine[results.everyTechnique ? 'techniques' : 'all'] = results;
-  known.set(name, mine);
-  fillMenu(
-    machine,
-    [...known.keys()].map((each) => [each, each]),
-    name,
-  );
-}
+const menus = ['machine', 'things', 'moves', 'dimensions', 'count', 'growth-scene'] as const;
+const [machine, things, moves, dimensions, count, scene] = menus.map((id) => find<HTMLSelectElement>(id));
+const note = find('note');
+/** By the machine's name. */
+const known = new Map<string, Results>();
 
 const nameOf = ({ machine, date }: Results) => `${machine.cpu}, ${date.slice(0, 10)}`;
 
-const commandOf = (race: Race, results: Results) =>
-  `npm run bench -- --scenes ${race.scene}${race.count ? ` --n ${race.count}` : ''}${results.everyTechnique ? ' --techniques all' : ''}`;
+/** The newest is shown first. */
+function learn(results: Results, name = nameOf(results)): void {
+  known.set(name, results);
+  const sorted = [...known].sort(([, a], [, b]) => (a.date < b.date ? 1 : -1));
+  fillMenu(
+    machine,
+    sorted.map(([each]) => [each, each]),
+    sorted[0][0],
+  );
+}
+
+const commandOf = ({ kind, name, count, dimensions }: Race) => {
+  const size = kind === 'motions' ? ` --count ${count} --dimensions ${dimensions}` : count ? ` --count ${count}` : '';
+  return `npm run bench -- --${kind} ${/\s/.test(name) ? `"${name}"` : name}${size}`;
+};
+
+const withTimes = (races: readonly Race[]) => races.filter((race) => timed(race).length > 0);
+
+const numbersOf = (races: readonly Race[]) =>
+  [...new Set(races.map((race) => race.count))]
+    .sort((a, b) => a - b)
+    .map((each) => [`${each}`, formatCount(each)] as const);
 
 /** Those that the menus let through. */
 const filtered = (races: readonly Race[]) =>
-  races.filter(
+  withTimes(races).filter(
     (race) =>
-      timed(race).length > 0 &&
       (dimensions.value === '' || race.dimensions === Number(dimensions.value)) &&
       (count.value === '' || race.count === Number(count.value)),
   );
 
 function show(): void {
-  const mine = known.get(machine.value);
-  const shown = mine?.all ?? mine?.techniques;
-  for (const id of ['growth', 'heat', 'legend']) find(id).hidden = !shown;
-  if (!mine || !shown) return;
-  const counts = [...new Set(shown.races.map((race) => race.count))].sort((a, b) => a - b);
-  const usual = counts.includes(10_000) ? '10000' : '';
-  fillMenu(count, [['', 'any number'], ...counts.map((each) => [`${each}`, formatCount(each)] as const)], usual);
-  showRaces(filtered(shown.races), shown);
-
-  const races = [...(mine.all?.races ?? []), ...(mine.techniques?.races ?? [])];
-  const several = [...new Set(races.map((race) => race.scene))].filter((name) =>
-    curves(races, name).some(({ points }) => points.length > 1),
-  );
+  const results = known.get(machine.value);
+  for (const id of ['growth', 'heat', 'motions', 'legend']) find(id).hidden = !results;
+  if (!results) return;
+  const objects = withTimes(ofKind(results, 'objects'));
+  const scenes = withTimes(ofKind(results, 'scenes'));
+  fillMenu(things, numbersOf(objects), usualThings);
+  fillMenu(count, [['', 'any number'], ...numbersOf(scenes)], '100000');
+  showFrame(objects);
+  showScenes(filtered(scenes));
+  const several = [...seriesOf(results)].filter(([, races]) => races.length > 1).map(([name]) => name);
   find('growth').hidden = several.length === 0;
   fillMenu(
     scene,
     several.map((name) => [name, name]),
-    'uniform2d',
+    several[0] ?? '',
   );
-  showGrowth(shown.races);
-  showHeat(filtered((mine.techniques ?? shown).races));
+  showGrowth(results);
+  showHeat(filtered(scenes));
+  showMotions(results);
 }
 
-function showRaces(races: readonly Race[], results: Results): void {
+/** The question a reader comes with: how long does a frame of my game take? */
+function showFrame(objects: readonly Race[]): void {
+  const race = objects.find(({ name, count }) => name === moves.value && `${count}` === things.value);
+  const place = find('frame-chart');
+  place.replaceChildren();
+  find('frame-answer').textContent = race ? answerOf(race) : 'That was not measured.';
+  if (race) place.append(raceFigure(race, Math.max(leastWidth, place.clientWidth), commandOf(race)));
+}
+
+function answerOf(race: Race): string {
+  const ms = (found: { total: { median: number } }) => `${formatMilliseconds(found.total.median)} ms`;
+  const of = (which: (peer: string) => boolean) => timed(race).find(({ peer, wrong }) => which(peer) && !wrong);
+  const set = timed(race).find(({ name }) => name === 'set');
+  const [hand, pack] = [of((peer) => peer === 'by hand'), of((peer) => !['by hand', 'broadphase'].includes(peer))];
+  const parts = [
+    set && `${ms(set)} with this library, each box given by set`,
+    hand && `${ms(hand)} with the best that one writes oneself, ${hand.name}`,
+    pack && `${ms(pack)} with the fastest package, ${pack.name}`,
+  ];
+  return `${formatCount(race.count)} things: a whole frame takes ${parts.filter(Boolean).join('; ')}.`;
+}
+
+function showScenes(races: readonly Race[]): void {
   const charts = find('charts');
   const columns = Math.max(1, Math.floor((charts.clientWidth + 24) / (480 + 24)));
   const width = Math.max(leastWidth, (charts.clientWidth - 24 * (columns - 1)) / columns);
-  charts.replaceChildren(...races.map((race) => raceFigure(race, width, commandOf(race, results))));
+  charts.replaceChildren(...races.map((race) => raceFigure(race, width, commandOf(race))));
   note.textContent = races.length === 0 ? 'No scene of these results is of that kind.' : '';
 }
 
-function showGrowth(races: readonly Race[]): void {
-  const lines = curves(races, scene.value).filter(({ points }) => points.length > 1);
+/** The rows of one name with different numbers of boxes. */
+function seriesOf(results: Results): Map<string, Race[]> {
+  const found = new Map<string, Race[]>();
+  for (const race of [...withTimes(ofKind(results, 'objects')), ...withTimes(ofKind(results, 'scenes'))]) {
+    const name = race.kind === 'objects' ? `a whole frame, ${race.name}` : race.name;
+    if (race.kind === 'scenes' && race.numbers === 'double') continue;
+    found.set(name, [...(found.get(name) ?? []), race]);
+  }
+  return found;
+}
+
+function showGrowth(results: Results): void {
+  const lines = curves(seriesOf(results).get(scene.value) ?? []).filter(({ points }) => points.length > 1);
   const place = find('growth-chart');
   place.replaceChildren();
   if (lines.length === 0) return;
@@ -104,14 +142,15 @@ function showGrowth(races: readonly Race[]): void {
 }
 
 function showHeat(races: readonly Race[]): void {
-  find('heat').hidden = races.length === 0;
-  if (races.length === 0) return;
+  const several = races.filter((race) => race.numbers === 'float32' && timed(race).length > 4);
+  find('heat').hidden = several.length === 0;
+  if (several.length === 0) return;
   const place = find('heat-chart');
-  const chart = heat(races, Math.min(place.clientWidth, 900));
+  const chart = heat(several, Math.min(place.clientWidth, 900));
   chart.setAttribute('role', 'img');
   chart.setAttribute('aria-label', 'A heat map; the table below says the same in words.');
   place.replaceChildren(chart);
-  const rows = advice(races).map(({ technique, good, races, worst, where, scenes }) => [
+  const rows = advice(several).map(({ technique, good, races, worst, where, scenes }) => [
     technique,
     `${good} of ${races}`,
     times(worst),
@@ -124,21 +163,19 @@ function showHeat(races: readonly Race[]): void {
   );
 }
 
-/** The table and the goals that the command prints. */
-function showCoherence(results: Results, rows: readonly PlayedRow[]): void {
-  find('coherence').hidden = false;
-  find('coherence-machine').textContent = nameOf(results);
-  const { titles, rows: cells } = coherenceCells(rows);
-  const plain = (text: string) => text.replaceAll('`', '');
-  find('coherence-table').replaceChildren(table(titles.map(plain), cells));
-  find('coherence-goals').replaceChildren(table(['goal', 'figure', 'met'], coherenceVerdicts(rows)));
+/** The tables that docs/figures.md has, and the goals. */
+function showMotions(results: Results): void {
+  const { titles, motions, goals } = figuresOf(results);
+  find('motions').hidden = motions.length === 0;
+  find('motions-table').replaceChildren(table(titles, motions));
+  find('goals-table').replaceChildren(table(['goal', 'figure', 'met'], goals));
 }
 
 for (const menu of [machine, dimensions, count]) menu.addEventListener('change', show);
-scene.addEventListener('change', () => {
-  const mine = known.get(machine.value);
-  showGrowth((mine?.all ?? mine?.techniques)?.races ?? []);
-});
+for (const menu of [things, moves]) {
+  menu.addEventListener('change', () => showFrame(withTimes(ofKind(known.get(machine.value)!, 'objects'))));
+}
+scene.addEventListener('change', () => showGrowth(known.get(machine.value)!));
 
 const loaded = Promise.all(
   Object.values(files).map(async (url) => {
@@ -152,8 +189,8 @@ find<HTMLInputElement>('file').addEventListener('change', async ({ target }) => 
   if (!file) return;
   await loaded; // what is said of the file must not be overwritten
   try {
-    learn(readResults(await file.text()), `${file.name}`);
-    if (known.has(file.name)) machine.value = file.name;
+    learn(readResults(await file.text()), file.name);
+    machine.value = file.name;
     show();
   } catch (error) {
     note.textContent = `${file.name} was not read: ${(error as Error).message}`;
@@ -170,4 +207,4 @@ addEventListener('resize', () => {
 setUpRun();
 await loaded;
 show();
-if (known.size === 0) note.textContent = 'No results are in the repository yet: npm run bench -- --full makes them.';
+if (known.size === 0) note.textContent = 'No results are in the repository yet: npm run bench makes them.';

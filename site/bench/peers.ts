@@ -11,7 +11,7 @@ export interface Contender {
 
 export interface Running {
   /** Takes in a frame, finds all pairs, and says how many. */
-  update(boxes: Float32Array): number;
+  update(boxes: Float32Array | Float64Array): number;
   pairs(): ArrayLike<number>;
 }
 

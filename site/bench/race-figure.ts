@@ -10,25 +10,28 @@ export function raceFigure(race: Race, width: number, command: string): HTMLElem
   chart.setAttribute('role', 'img');
   chart.setAttribute(
     'aria-label',
-    `Bars: the time of each contender on ${race.scene} with ${formatCount(race.count)} boxes. The fastest: ${fastest.name}, ${formatMilliseconds(fastest.figures.median)} ms a frame.`,
+    `Bars: the time of each contender on ${race.name} with ${formatCount(race.count)} boxes. The fastest: ${fastest.name}, ${formatMilliseconds(fastest.total.median)} ms a frame.`,
   );
   const us = reference(race);
-  const untimed = race.results
-    .filter(({ figures }) => !figures)
-    .map(({ name, problem, skipped }) => [name, problem ?? skipped ?? '', '', '', '']);
-  const rows = timed(race).map(({ name, figures }) => [
+  const untimed = race.contenders
+    .filter(({ total }) => !total)
+    .map(({ name, error, slow }) => [name, error ?? `over ${formatMilliseconds(slow!)} ms a frame`, '', '', '', '']);
+  const rows = timed(race).map(({ name, total, timed: frames }) => [
     name,
-    ...[figures.median, figures.p95, figures.worst].map(formatMilliseconds),
-    us ? `${(figures.median / us.figures.median).toPrecision(3)}` : '',
+    ...[total.median, total.p95, total.worst].map(formatMilliseconds),
+    us ? `${(total.median / us.total.median).toPrecision(3)}` : '',
+    `${frames}`,
   ]);
+  const { mean, least, most } = race.pairs;
+  const pairs = least === most ? formatCount(mean) : `${formatCount(least)} to ${formatCount(most)}`;
   return make(
     'figure',
     {},
     make(
       'figcaption',
       {},
-      `${race.scene} `,
-      make('span', { className: 'aside' }, `${formatCount(race.count)} boxes, ${formatCount(race.pairs)} pairs`),
+      `${titleOf(race)} `,
+      make('span', { className: 'aside' }, `${formatCount(race.count)} boxes, ${pairs} pairs, ${race.frames} frames`),
     ),
     chart,
     make(
@@ -36,7 +39,10 @@ export function raceFigure(race: Race, width: number, command: string): HTMLElem
       {},
       make('summary', {}, 'Figures, and how to get them yourself'),
       make('pre', { className: 'code' }, make('code', {}, command)),
-      table(['', 'median ms', 'p95 ms', 'worst ms', 'of ours'], [...rows, ...untimed]),
+      table(['', 'median ms', 'p95 ms', 'worst ms', 'of ours', 'frames'], [...rows, ...untimed]),
     ),
   );
 }
+
+const titleOf = ({ name, dimensions, numbers, kind }: Race) =>
+  `${name}${kind === 'motions' ? ` ${dimensions}D` : ''}${numbers === 'double' ? ', in doubles' : ''}`;

@@ -1,71 +1,54 @@
 // Files of results, as bench/run.mjs writes them and as this page's own run does, and what can be read out of them.
-import type { PlayedRow } from '../../bench/coherence-table.mjs';
+import type { Contender, Figures, Judged } from '../../bench/harness/judge.mjs';
 
-export interface Figures {
-  median: number;
-  mean: number;
-  p95: number;
-  worst: number;
-}
+/** Who has taken part in a race: with `total`, the milliseconds of a frame; too slow; or failed. */
+export type Result = Contender;
 
-export interface Result {
+/** A row of results: one scene or motion, with so many boxes, and all who took part. */
+export interface Race extends Judged {
+  kind: string;
   name: string;
-  /** 'broadphase' for our own techniques. */
-  peer: string;
-  figures?: Figures;
-  /** Pairs that are not the exact ones: how many there should be, how many were missed and added. */
-  wrong?: { exact: number; missed: number; extra: number };
-  problem?: string;
-  skipped?: string;
-}
-
-export interface Race {
-  scene: string;
   dimensions: 2 | 3;
-  count: number;
-  pairs: number;
-  results: Result[];
+  numbers?: string;
+  by?: string;
 }
 
 export interface Results {
   date: string;
+  commit?: string;
   machine: { cpu: string; cores: number; system: string; node?: string };
-  /** What an update costs when little changes: such a file has no races. */
-  coherence?: PlayedRow[];
-  /** Our techniques among themselves, on more scenes. */
-  everyTechnique?: boolean;
-  races: Race[];
+  rows: Race[];
 }
 
 export interface Timed extends Result {
-  figures: Figures;
+  total: Figures;
 }
 
 export const isOurs = ({ peer }: Result): boolean => peer === 'broadphase';
-const isTimed = (result: Result): result is Timed => result.figures !== undefined;
+const isTimed = (result: Result): result is Timed => result.total !== undefined;
 
-/** Those with a time, the fastest first; a floor is no contender. */
+/** Those with a time, the fastest first. */
 export const timed = (race: Race): Timed[] =>
-  race.results
-    .filter(isTimed)
-    .filter(({ peer }) => peer !== 'floor')
-    .sort((a, b) => a.figures.median - b.figures.median);
+  race.contenders.filter(isTimed).sort((a, b) => a.total.median - b.total.median);
 
-/** Whom all are compared with: `auto`, or else the best of our techniques. */
+/** Whom all are compared with: `auto`, or `set` where things are objects, or else the best of ours. */
 export function reference(race: Race): Timed | undefined {
   const ours = timed(race).filter(isOurs);
-  return ours.find(({ name }) => name === 'auto') ?? ours[0];
+  return ours.find(({ name }) => name === 'auto' || name === 'set') ?? ours[0];
 }
+
+export const ofKind = ({ rows }: Results, kind: string): Race[] => rows.filter((row) => row.kind === kind);
 
 /** Reads a file of results; says what is wrong with one that is none. */
 export function readResults(text: string): Results {
   const found = JSON.parse(text) as Results;
-  if (found.machine && Array.isArray(found.coherence)) return { ...found, races: [] };
   const good =
-    Array.isArray(found.races) &&
-    found.races.every(({ scene, count, results }) => typeof scene === 'string' && count >= 0 && Array.isArray(results));
+    Array.isArray(found.rows) &&
+    found.rows.every(
+      ({ kind, name, contenders }) =>
+        [kind, name].every((each) => typeof each === 'string') && Array.isArray(contenders),
+    );
   if (!good || !found.machine) throw new Error('these are no results of the benchmark');
-  for (const race of found.races) race.dimensions ??= race.scene.includes('3d') ? 3 : 2;
   return found;
 }
 
@@ -89,9 +72,9 @@ export interface Curve {
 }
 
 /** For each contender of a scene its times against the number of boxes. */
-export function curves(races: readonly Race[], scene: string): Curve[] {
+export function curves(races: readonly Race[]): Curve[] {
   const found = new Map<string, Curve>();
-  for (const race of races.filter((each) => each.scene === scene).sort((a, b) => a.count - b.count)) {
+  for (const race of [...races].sort((a, b) => a.count - b.count)) {
     for (const result of timed(race)) {
       const curve = found.get(result.name) ?? {
         name: result.name,
@@ -99,7 +82,7 @@ export function curves(races: readonly Race[], scene: string): Curve[] {
         points: [],
         exponent: undefined,
       };
-      curve.points.push({ count: race.count, ms: result.figures.median });
+      curve.points.push({ count: race.count, ms: result.total.median });
       found.set(result.name, curve);
     }
   }
@@ -109,8 +92,8 @@ export function curves(races: readonly Race[], scene: string): Curve[] {
 /** What our techniques took in a race, in multiples of the best fixed one. */
 export function ratios(race: Race): { name: string; ratio: number }[] {
   const ours = timed(race).filter(isOurs);
-  const best = ours.find(({ name }) => name !== 'auto');
-  return best ? ours.map(({ name, figures }) => ({ name, ratio: figures.median / best.figures.median })) : [];
+  const [best] = ours.filter(({ name }) => name !== 'auto').sort((a, b) => a.update!.median - b.update!.median);
+  return best ? ours.map(({ name, update }) => ({ name, ratio: update!.median / best.update!.median })) : [];
 }
 
 /** Within this of the best a technique is as good, for advice. */
@@ -137,11 +120,11 @@ export function advice(races: readonly Race[]): Advice[] {
       mine.races++;
       if (ratio <= asGood) {
         mine.good++;
-        if (!mine.scenes.includes(race.scene)) mine.scenes.push(race.scene);
+        if (!mine.scenes.includes(race.name)) mine.scenes.push(race.name);
       }
       if (ratio > mine.worst) {
         mine.worst = ratio;
-        mine.where = `${race.scene}, ${race.count.toLocaleString('en')}`;
+        mine.where = `${race.name}, ${race.count.toLocaleString('en')}`;
       }
       found.set(name, mine);
     }

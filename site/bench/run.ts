@@ -54,7 +54,7 @@ export function setUpRun(): void {
     } else {
       const { race } = answer;
       races.push(race);
-      const command = `npm run bench -- --scenes ${race.scene} --n ${race.count}`;
+      const command = `npm run bench -- --scenes ${race.name} --count ${race.count}`;
       result.replaceChildren(raceFigure(race, Math.min(mostWidth, find('run').clientWidth), command));
       save.hidden = false;
       end('Done. Run other scenes too, and save all together.');
@@ -95,7 +95,7 @@ export function setUpRun(): void {
     const record: Results = {
       date: new Date().toISOString(),
       machine: { cpu: 'a browser', cores: navigator.hardwareConcurrency, system: navigator.userAgent },
-      races,
+      rows: races,
     };
     const link = make('a', {
       href: URL.createObjectURL(new Blob([JSON.stringify(record, undefined, 1)], { type: 'application/json' })),

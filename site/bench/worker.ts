@@ -1,10 +1,11 @@
-// Runs one race in a worker, so that the page stays quick: the pairs of all contenders are compared first, then they are
-// timed in turns, round after round, as bench/ does in Node.
-import { fingerprint } from '../../bench/harness/fingerprint.mjs';
-import { median, summary } from '../../bench/statistics.mjs';
+// Runs one race in a worker, so that the page stays quick: as bench/ does in Node, all contenders play the same frames, in
+// turns, and what they find in them is compared.
+import { framesFor, strideFor } from '../../bench/harness/frames.mjs';
+import { type Entrant, judge } from '../../bench/harness/judge.mjs';
+import { Player } from '../../bench/harness/player.mjs';
 import { createScene, type SceneName } from '../../src/scenes/index.ts';
-import { contenders, type Running } from './peers.ts';
-import type { Race, Result } from './records.ts';
+import { type Contender, contenders } from './peers.ts';
+import type { Race } from './records.ts';
 
 export interface Order {
   scene: SceneName;
@@ -18,78 +19,55 @@ export type Answer =
   | { race: Race }
   | { failed: string };
 
-/** Milliseconds: of warming up, of a round, and of a frame after which a contender is left out. */
-const [warmUp, budget, slowest] = [150, 250, 1500];
-const rounds = 3;
-const mostFrames = 200;
+/** What a contender may take in all, in milliseconds, and how many frames tell how slow it is. */
+const [budget, probed] = [800, 20];
+/** Frames that a contender plays before it is another's turn. */
+const turn = 20;
+
+/** What no mean of frames that are timed so coarsely is below, in milliseconds. */
+const leastMean = 1e-4;
 
 const say = (answer: Answer) => postMessage(answer);
 
 async function run({ scene: name, count, names }: Order): Promise<Race> {
   const { dimensions } = createScene(name, 0);
   const entering = contenders.filter((each) => names.includes(each.name) && each.dimensions.includes(dimensions));
-  const steps = entering.length * (1 + rounds);
-  let step = 0;
-  let pairs = 0;
-  let expected = '';
-  const results: Result[] = [];
-  const running: { result: Result; contender: Running; scene: ReturnType<typeof createScene>; times: number[][] }[] =
-    [];
-
-  for (const { name: who, peer, create } of entering) {
-    say({ progress: step++ / steps, doing: `checking ${who}` });
-    const result: Result = { name: who, peer };
-    results.push(result);
-    // Each has a scene of its own, with the same motion.
-    const scene = createScene(name, count);
+  const plan = framesFor(count);
+  const entrants: (Entrant & { player?: Player })[] = [];
+  for (const [k, contender] of entering.entries()) {
+    const { name: who, peer } = contender;
+    say({ progress: (0.3 * k) / entering.length, doing: `trying ${who}` });
+    const entrant: Entrant & { player?: Player } = { name: who, peer };
+    entrants.push(entrant);
     try {
-      const contender = await create({ dimensions, count: scene.boxes.length / (2 * dimensions), boxes: scene.boxes });
-      const frame = () => {
-        scene.step();
-        const start = performance.now();
-        contender.update(scene.boxes);
-        return performance.now() - start;
-      };
-      const first = frame();
-      const print = fingerprint(contender.pairs());
-      if (!expected) {
-        expected = print;
-        pairs = contender.pairs().length / 2;
-      } else if (print !== expected) {
-        result.problem = `finds other pairs than ${entering[0].name}`;
-        continue;
-      }
-      if (first > 4 * slowest || frame() > slowest) {
-        result.skipped = `over ${slowest / 1000} s a frame`;
-        continue;
-      }
-      const end = performance.now() + warmUp;
-      while (performance.now() < end) frame();
-      running.push({ result, contender, scene, times: [] });
+      const trial = await playerOf(contender, name, count, 1);
+      const ms = trial.probe(probed, budget / 3);
+      const stride = k === 0 ? 1 : strideFor(ms, plan, budget);
+      if (stride) Object.assign(entrant, { stride, count, player: await playerOf(contender, name, count, stride) });
+      else entrant.slow = ms;
     } catch (error) {
-      result.problem = String(error);
+      entrant.error = String(error);
     }
   }
-  for (let round = 0; round < rounds; round++) {
-    for (const { result, contender, scene, times } of running) {
-      say({ progress: step++ / steps, doing: `round ${round + 1} of ${rounds}: ${result.name}` });
-      const mine: number[] = [];
-      const end = performance.now() + budget;
-      while (mine.length === 0 || (mine.length < mostFrames && performance.now() < end)) {
-        scene.step();
-        const start = performance.now();
-        contender.update(scene.boxes);
-        mine.push(performance.now() - start);
-      }
-      times.push(mine);
-    }
+  const running = entrants.filter(({ player }) => player);
+  const frames = plan.warmUp + plan.timed;
+  for (let frame = 0; frame < frames; frame += turn) {
+    say({ progress: 0.3 + (0.7 * frame) / frames, doing: `frame ${frame} of ${frames}` });
+    for (const { player } of running) player!.play(turn);
   }
-  for (const { result, times } of running)
-    result.figures = { ...summary(times), median: Math.max(1e-4, median(times.map(mean))) };
-  return { scene: name, dimensions, count, pairs, results };
+  for (const entrant of running) entrant.notes = [entrant.player!.notes];
+  const race = judge({ kind: 'scenes', name, dimensions, numbers: 'float32', plan }, entrants);
+  // The clock of a page is coarse: of short frames the mean says more than the median does.
+  for (const { total } of race.contenders) if (total) total.median = Math.max(leastMean, total.mean);
+  return race;
 }
 
-const mean = (values: readonly number[]) => values.reduce((sum, value) => sum + value, 0) / values.length;
+/** A contender at the first frame of a scene of its own: all have the same motion. */
+async function playerOf(contender: Contender, name: SceneName, count: number, stride: number): Promise<Player> {
+  const scene = createScene(name, count);
+  const { dimensions, boxes } = scene;
+  return new Player(scene, await contender.create({ dimensions, count, boxes }), framesFor(count), stride);
+}
 
 addEventListener('message', ({ data }: MessageEvent<Order>) => {
   run(data).then(

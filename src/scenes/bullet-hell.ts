@@ -1,7 +1,7 @@
 // Bullet hell: many small fast bullets against few large ships, a hundred to one. Each ship drifts and fires in a
 // spiral; a bullet that leaves the world is fired anew by its ship.
 import { createRandom } from './random.ts';
-import { BoxScene } from './scene.ts';
+import { BoxScene, type NumbersType } from './scene.ts';
 
 const bulletsPerShip = 100;
 const bulletSize = 4;
@@ -20,9 +20,9 @@ export class BulletHell extends BoxScene {
   #fired = 0;
   readonly #bulletSpeed: number;
 
-  constructor(count: number, seed: number, speed: number) {
+  constructor(count: number, seed: number, speed: number, Held: NumbersType) {
     const ships = Math.ceil(count / (bulletsPerShip + 1));
-    super('bullet-hell', 2, count, room * Math.sqrt(ships));
+    super('bullet-hell', 2, count, room * Math.sqrt(ships), Held);
     this.#ships = ships;
     this.#bulletSpeed = bulletHaste * speed;
     this.#sizes = new Float32Array(count).fill(bulletSize);

@@ -1,7 +1,7 @@
 // A crowd as in real-time strategy: squads in formation, each on its way to a place of its own and then to the next,
 // right through one another. Within a squad the units stand close, and jostle.
 import { createRandom, type Random } from './random.ts';
-import { BoxScene } from './scene.ts';
+import { BoxScene, type NumbersType } from './scene.ts';
 
 const unitsPerSquad = 64;
 const ranks = 8;
@@ -21,9 +21,9 @@ export class Crowd extends BoxScene {
   readonly #phases: Float32Array;
   #frame = 0;
 
-  constructor(count: number, seed: number, speed: number) {
+  constructor(count: number, seed: number, speed: number, Held: NumbersType) {
     const squads = Math.ceil(count / unitsPerSquad);
-    super('crowd', 2, count, room * Math.max(1, Math.sqrt(squads)));
+    super('crowd', 2, count, room * Math.max(1, Math.sqrt(squads)), Held);
     const random = createRandom(seed);
     this.#random = random;
     this.#speed = speed;

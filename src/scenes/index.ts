@@ -5,7 +5,7 @@ import { Crowd } from './crowd.ts';
 import { kinds } from './kinds.ts';
 import { MovingBoxes } from './moving-boxes.ts';
 import { Rings } from './rings.ts';
-import type { Scene } from './scene.ts';
+import type { Numbers, Scene } from './scene.ts';
 import { TileMap } from './tile-map.ts';
 
 export type { Scene } from './scene.ts';
@@ -21,6 +21,8 @@ export interface SceneOptions {
   seed?: number;
   /** The furthest a box moves in one frame, in units of the world (2). */
   speed?: number;
+  /** What positions are held in: 'float32', or 'double', as games hold them ('float32'). */
+  numbers?: 'float32' | 'double';
 }
 
 /** Boxes of every kind, in 2D and in 3D. */
@@ -31,7 +33,13 @@ export const sceneNames: readonly KindName[] = ([2, 3] as const).flatMap((dimens
 /** What games do with boxes, in 2D. */
 export const gameNames = Object.keys(games) as readonly GameName[];
 
-export function createScene(name: SceneName, count: number, options: SceneOptions = {}): Scene {
+export function createScene(
+  name: SceneName,
+  count: number,
+  options: SceneOptions & { numbers: 'double' },
+): Scene<Float64Array>;
+export function createScene(name: SceneName, count: number, options?: SceneOptions): Scene;
+export function createScene(name: SceneName, count: number, options: SceneOptions = {}): Scene<Numbers> {
   const names: readonly SceneName[] = [...sceneNames, ...gameNames];
   if (!names.includes(name)) {
     throw new RangeError(`No scene is called ${JSON.stringify(name)}: expected one of ${names.join(', ')}.`);
@@ -39,9 +47,10 @@ export function createScene(name: SceneName, count: number, options: SceneOption
   if (!Number.isInteger(count) || count < 0) {
     throw new RangeError(`A scene of ${count} boxes: expected a whole number, 0 or more.`);
   }
-  const { seed = 1, speed = 2 } = options;
-  if (name in games) return new games[name as GameName](count, seed, speed);
+  const { seed = 1, speed = 2, numbers = 'float32' } = options;
+  const Held = numbers === 'double' ? Float64Array : Float32Array;
+  if (name in games) return new games[name as GameName](count, seed, speed, Held);
   const dimensions = name.endsWith('3d') ? 3 : 2;
   const kind = kinds[name.slice(0, -2) as keyof typeof kinds];
-  return new MovingBoxes(name, kind, dimensions, count, seed, speed);
+  return new MovingBoxes(name, kind, dimensions, count, seed, speed, Held);
 }

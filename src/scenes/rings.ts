@@ -1,6 +1,6 @@
 // The article's scene: rings of resting squares, two sides of ring for each, and on every ring one square that goes round.
 import { createRandom } from './random.ts';
-import { BoxScene } from './scene.ts';
+import { BoxScene, type NumbersType } from './scene.ts';
 
 const side = 10;
 /** Between two rings: wide enough that resting squares of different rings never touch. */
@@ -10,9 +10,9 @@ export class Rings extends BoxScene {
   readonly #movers: { index: number; radius: number; angle: number }[] = [];
   readonly #speed: number;
 
-  constructor(count: number, seed: number, speed: number) {
+  constructor(count: number, seed: number, speed: number, Held: NumbersType) {
     const radii = radiiOf(count);
-    super('rings', 2, count, 2 * (gap * (radii.length + 1) + side));
+    super('rings', 2, count, 2 * (gap * (radii.length + 1) + side), Held);
     this.#speed = speed;
     const random = createRandom(seed);
     let index = 0;

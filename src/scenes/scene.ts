@@ -1,11 +1,17 @@
 // What every scene is: boxes that a step moves by one frame, in place and without allocating.
 
-export interface Scene {
+/** What the numbers of a scene are held in: a step rounds to it. */
+export type Numbers = Float32Array | Float64Array;
+
+/** Makes the array that a scene holds its numbers in. */
+export type NumbersType = Float32ArrayConstructor | Float64ArrayConstructor;
+
+export interface Scene<Held extends Numbers = Float32Array> {
   readonly name: string;
   readonly dimensions: 2 | 3;
   readonly count: number;
   /** Minima then maxima of every box, as `BroadPhase.setAll` takes them. */
-  readonly boxes: Float32Array;
+  readonly boxes: Held;
   /** The side of the world, which reaches from 0 to `world` along every axis. */
   readonly world: number;
   /** Boxes 0 … fixed - 1 never move, and no two of them overlap. Left out: none is known to rest. */
@@ -15,18 +21,18 @@ export interface Scene {
 }
 
 /** Where the scenes keep their boxes. */
-export abstract class BoxScene implements Scene {
+export abstract class BoxScene implements Scene<Numbers> {
   readonly name: string;
   readonly dimensions: 2 | 3;
   readonly count: number;
-  readonly boxes: Float32Array;
+  readonly boxes: Numbers;
   readonly world: number;
 
-  constructor(name: string, dimensions: 2 | 3, count: number, world: number) {
+  constructor(name: string, dimensions: 2 | 3, count: number, world: number, Held: NumbersType) {
     this.name = name;
     this.dimensions = dimensions;
     this.count = count;
-    this.boxes = new Float32Array(2 * dimensions * count);
+    this.boxes = new Held(2 * dimensions * count);
     this.world = world;
   }
 

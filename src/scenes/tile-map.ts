@@ -1,7 +1,7 @@
 // A tile map with walkers: a hundred resting tiles for each walker. The tiles stand a hair apart, so that no two
 // touch: pairs of tiles are of no use to anybody.
 import { createRandom } from './random.ts';
-import { BoxScene } from './scene.ts';
+import { BoxScene, type NumbersType } from './scene.ts';
 
 const tilesPerWalker = 100;
 const tileSize = 16;
@@ -17,11 +17,11 @@ export class TileMap extends BoxScene {
   readonly #speed: number;
   readonly #velocities: Float32Array;
 
-  constructor(count: number, seed: number, speed: number) {
+  constructor(count: number, seed: number, speed: number, Held: NumbersType) {
     const walkers = Math.ceil(count / (tilesPerWalker + 1));
     const tiles = count - walkers;
     const columns = Math.max(1, Math.ceil(Math.sqrt(tiles)));
-    super('tile-map', 2, count, columns * pitch);
+    super('tile-map', 2, count, columns * pitch, Held);
     this.fixed = tiles;
     this.#random = createRandom(seed);
     this.#speed = speed;

@@ -1,12 +1,12 @@
-// The page of the benchmark as a visitor meets it: figures out of a file of results, filters, growth, the heat map and its
-// advice; and a race in the browser itself, whose result can be saved and shown again.
+// The page of the benchmark as a visitor meets it: how long a frame of a game takes, out of a file of results; scenes,
+// growth, the heat map and its advice, motions; and a race in the browser itself, whose result can be saved and shown.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { expect, type Page, test } from '@playwright/test';
 
 const file = fileURLToPath(new URL('../fixtures/bench-results.json', import.meta.url));
-const coherence = fileURLToPath(new URL('../fixtures/bench-coherence.json', import.meta.url));
-const { races } = JSON.parse(readFileSync(file, 'utf8'));
+const { rows } = JSON.parse(readFileSync(file, 'utf8'));
+const scenes = rows.filter(({ kind }: { kind: string }) => kind === 'scenes');
 
 let faults: string[] = [];
 
@@ -38,46 +38,57 @@ test('the front page leads here', async ({ page }) => {
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('The benchmark');
 });
 
-test('each race is a figure with its bars, its numbers and its command', async ({ page }) => {
+test('the page answers how long a frame of a game takes', async ({ page }) => {
   await openResults(page);
-  await expect(charts(page)).toHaveCount(races.length);
+  const part = page.getByRole('region', { name: 'How long does a frame of my game take?' });
+  await expect(page.locator('#things')).toHaveValue('1000');
+  await expect(part.locator('#frame-answer')).toHaveText(
+    /1,000 things: a whole frame takes 0\.0?30? ms with this library.*0\.15 ms.*sort and sweep.*0\.5 ms.*flatbush/,
+  );
+  await expect(part.locator('figure svg rect')).toHaveCount(7);
+  await part.getByText('Figures, and how').click();
+  await expect(part.locator('code')).toHaveText('npm run bench -- --objects "all move" --count 1000');
+  await expect(part.locator('tbody')).toContainText('it fell');
+  await page.locator('#things').selectOption('100');
+  await page.getByLabel('What moves').selectOption('one in twenty');
+  await expect(part.locator('#frame-answer')).toContainText('100 things');
+});
+
+test('each scene is a figure with its bars, its numbers and its command', async ({ page }) => {
+  await openResults(page);
+  await page.locator('#count').selectOption('any number');
+  await expect(charts(page)).toHaveCount(scenes.length);
   await page.getByLabel('Dimensions').selectOption('3D');
-  await expect(charts(page)).toHaveCount(races.filter((race: { dimensions: number }) => race.dimensions === 3).length);
-  await page.locator('#count').selectOption('2,000');
   await expect(charts(page)).toHaveCount(1);
+  await page.locator('#count').selectOption('2,000');
   const figure = charts(page).first();
   await expect(figure.getByRole('img')).toHaveAttribute('aria-label', /uniform3d with 2,000 boxes\. The fastest: \S+/);
-  const timed = races.find(
-    (race: { scene: string; count: number }) => race.scene === 'uniform3d' && race.count === 2000,
-  );
-  const contenders = timed.results.filter(
-    (each: { peer: string; figures?: object }) => each.figures && each.peer !== 'floor',
-  );
+  await expect(figure).toContainText('980 to 1,020 pairs, 100 frames');
+  const { contenders } = scenes.find(({ name }: { name: string }) => name === 'uniform3d');
   await expect(figure.locator('svg rect')).toHaveCount(contenders.length);
   await figure.getByText('Figures, and how').click();
-  await expect(figure.locator('code')).toHaveText('npm run bench -- --scenes uniform3d --n 2000');
-  await expect(figure.locator('tbody tr')).not.toHaveCount(0);
+  await expect(figure.locator('code')).toHaveText('npm run bench -- --scenes uniform3d --count 2000');
+  await expect(figure.locator('tbody tr').filter({ hasText: 'box-intersect' })).toHaveText(/25$/);
 });
 
 test('growth has a line and a power for each contender, the heat map advice', async ({ page }) => {
   await openResults(page);
   await page.locator('#growth-scene').selectOption('mixed2d');
-  const rows = page.locator('#growth tbody tr');
-  await expect(rows.filter({ hasText: 'strip-sweep' })).toHaveText(/strip-sweep0\.\d\d|strip-sweep1\.\d\d/);
+  const powers = page.locator('#growth tbody tr');
+  await expect(powers.filter({ hasText: 'strip-sweep' })).toHaveText(/strip-sweep0\.\d\d|strip-sweep1\.\d\d/);
   await expect(page.locator('#growth svg path')).not.toHaveCount(0);
+  await page.locator('#count').selectOption('any number');
   await expect(page.locator('#advice tbody tr')).toHaveCount(5);
   await expect(page.locator('#advice')).toContainText('best, or within 10 %');
 });
 
-test('what an update costs when little changes is a table, with the goals', async ({ page }) => {
-  await page.goto('/bench/');
-  await page.getByLabel('Results of your own').setInputFiles(coherence);
-  const part = page.getByRole('region', { name: 'When little changes' });
-  await expect(part).toContainText('Measured on A machine, 2026-11-21');
-  const rows = part.getByRole('region', { name: 'Figures, scene by scene' }).locator('tbody tr');
-  await expect(rows).toHaveCount(3);
-  await expect(rows.first()).toContainText('0.320 / 0.384 / 0.448');
-  await expect(part.getByRole('region', { name: 'Goals' })).toContainText('0 of 1; the worst: 0.31xno');
+test('motions are a table, with the goals', async ({ page }) => {
+  await openResults(page);
+  const part = page.getByRole('region', { name: 'As games move' });
+  const motions = part.getByRole('region', { name: 'Figures, motion by motion' }).locator('tbody tr');
+  await expect(motions).toHaveCount(4);
+  await expect(motions.first()).toContainText(/straight 2D10,000set.*0\.28x/);
+  await expect(part.getByRole('region', { name: 'Goals' })).toContainText('1 of 2; the worst: 0.90x (flock 2D');
 });
 
 test('a file that is none is refused in words', async ({ page }) => {
@@ -94,7 +105,7 @@ test('the race runs in the browser: all find the same pairs, and the result can 
   await page.goto('/bench/');
   await page.locator('#run-count').selectOption('1,000');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
-  await expect(page.locator('#run-doing')).toContainText(/checking|round/);
+  await expect(page.locator('#run-doing')).toContainText(/trying|frame/);
   await expect(page.locator('#run-doing')).toContainText('Done', { timeout: 45_000 });
   const figure = page.locator('#run-result figure');
   await expect(figure.locator('svg rect')).toHaveCount(7);
@@ -122,8 +133,7 @@ for (const [name, width, colorScheme] of [
     await page.setViewportSize({ width, height: 900 });
     await page.emulateMedia({ colorScheme });
     await openResults(page);
-    await page.getByLabel('Results of your own').setInputFiles(coherence);
-    await expect(page.locator('#coherence')).toBeVisible();
+    await expect(page.locator('#motions')).toBeVisible();
     const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     expect(overflow).toBeLessThanOrEqual(0);
     await page.screenshot({ path: `test-results/screens/bench-${name}.png`, fullPage: true });

@@ -1,1 +1,0 @@
-export function clocked(work: () => unknown): { wall: number; atWork: number };

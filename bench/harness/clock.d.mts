@@ -1,0 +1,1 @@
+export function clocked(work: () => void): number;

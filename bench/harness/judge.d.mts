@@ -1,0 +1,43 @@
+import type { Plan } from './frames.mts';
+import type { Notes } from './player.mts';
+
+export interface Difference {
+  frame: number;
+  saw?: boolean;
+  pairs?: number;
+  exact?: number;
+}
+export interface Figures {
+  median: number;
+  mean: number;
+  p95: number;
+  worst: number;
+}
+export interface Entrant {
+  name: string;
+  peer: string;
+  error?: string;
+  /** Milliseconds of a frame of one that was too slow to be timed. */
+  slow?: number;
+  stride?: number;
+  count?: number;
+  notes?: Notes[];
+}
+export interface Contender {
+  name: string;
+  peer: string;
+  timed?: number;
+  total?: Figures;
+  update?: Figures;
+  wrong?: Difference;
+  error?: string;
+  slow?: number;
+}
+export interface Judged {
+  pairs: { mean: number; least: number; most: number };
+  frames: number;
+  count: number;
+  contenders: Contender[];
+}
+export function judge<Row extends { plan: Plan }>(row: Row, entrants: readonly Entrant[]): Omit<Row, 'plan'> & Judged;
+export function difference(notes: readonly Notes[], reference: Notes): Difference | undefined;

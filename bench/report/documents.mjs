@@ -1,0 +1,130 @@
+// Documents out of a record of results: docs/figures.md, and the tables at the head of README.md.
+import { goals } from './goals.mjs';
+import { fastest, isPackage, named, ofKind } from './rows.mjs';
+import {
+  coldTable,
+  motionsTable,
+  nativeTable,
+  objectsOthers,
+  objectsTable,
+  onceTable,
+  questionsTable,
+  scenesTable,
+  techniquesTable,
+} from './tables.mjs';
+import { markdownTable, short, times, whole } from './words.mjs';
+
+const joined = (...parts) => parts.filter(Boolean).join('\n\n');
+
+const originOf = ({ machine, date, commit, cut }) =>
+  `Milliseconds, medians, one thread, on ${machine.cpu} (${machine.system}, Node ${machine.node}), ${date.slice(0, 10)}, of commit ${commit}.${cut ? ` ${cut}` : ''}`;
+
+/** The page, of those kinds that there are rows of. */
+export function figuresPage(record) {
+  const has = (kind) => record.rows.some((row) => row.kind === kind);
+  const part = (kind, ...text) => has(kind) && joined(...text);
+  return joined(
+    '# Figures',
+    'What `npm run bench` has measured, from `bench/results/`; the command writes this page. [How it is measured](../bench/README.md): all contenders of a row are timed in the same frames, in turns, and their pairs are compared in each. Read ratios: the machine itself is faster at some hours than at others.',
+    originOf(record),
+    '## Goals',
+    goalTable(goals(record)),
+    part(
+      'objects',
+      '## A whole frame, from objects',
+      'A game holds things with x, y, width and height in doubles. In a frame it gives the boxes, finds all pairs, and looks at both things of each. "Slow" is who cannot be timed in five frames within a second.',
+      objectsTable(record),
+      'All move: how many times the time of `set` each package takes.',
+      objectsOthers(record),
+    ),
+    part(
+      'motions',
+      '## Motions',
+      '`update` of `auto`, in the same frames as `strip-sweep`, which finds all pairs anew. Positions are doubles: given by `set`, or written in place as float32. Of three playings the least time of each frame counts. "Start" is the frames before those that are timed.',
+      motionsTable(record, 'motions'),
+    ),
+    part(
+      'movers',
+      '## Few movers',
+      'So many boxes jitter by up to half their side and are set; all others rest.',
+      motionsTable(record, 'movers'),
+    ),
+    part(
+      'once',
+      '## One-shot',
+      'The first call in a fresh process, and the tenth (the fourth, where a call takes more than 300 ms).',
+      onceTable(record),
+    ),
+    part(
+      'cold',
+      '## Cold',
+      'From the start of the process, or of the page, to the first pair of two boxes; and whole frames of 1,000 things in a fresh process.',
+      coldTable(record),
+    ),
+    part(
+      'scenes',
+      '## Scenes',
+      'All boxes are given at once, as float32 in place, or as doubles by `setAll`; a frame is giving and finding.',
+      scenesTable(record),
+      '### Techniques',
+      '`update` alone; the best in bold.',
+      techniquesTable(record),
+    ),
+    part('questions', '## Questions', '1,000 a frame.', questionsTable(record)),
+    part('native', '## Native libraries, side by side', versionsOf(record), nativeTable(record)),
+  );
+}
+
+const versionsOf = ({ rows }) => [...new Set(rows.flatMap(({ versions = [] }) => versions))].join('; ');
+
+const goalTable = (reached) =>
+  markdownTable(
+    ['goal', 'figure', 'met'],
+    reached.map(({ goal, figure, met }) => [goal, figure, met === undefined ? 'not measured' : met ? 'yes' : 'no']),
+  );
+
+/** Things, and scenes with their boxes, that README.md shows. */
+const headlineThings = [50, 200, 1000, 10_000, 100_000];
+const headlineScenes = [
+  'uniform2d 10000',
+  'uniform2d 100000',
+  'uniform2d 1000000',
+  'mixed2d 100000',
+  'clustered2d 100000',
+  'static2d 100000',
+  'uniform3d 100000',
+  'rain 15505',
+];
+
+export function headlineOf(record) {
+  const scenes = ofKind(record, 'scenes').filter(
+    ({ name, count, numbers }) => numbers === 'float32' && headlineScenes.includes(`${name} ${count}`),
+  );
+  const order = ({ name, count }) => headlineScenes.indexOf(`${name} ${count}`);
+  const cells = scenes
+    .sort((a, b) => order(a) - order(b))
+    .map((row) => {
+      const [auto, peer] = [named(row, 'auto'), fastest(row, isPackage)];
+      const against =
+        peer && auto
+          ? [`${short(peer.total.median)} ${peer.name}`, times(peer.total.median / auto.total.median)]
+          : ['', ''];
+      return [row.name, whole(row.count), whole(row.pairs.mean), auto ? short(auto.total.median) : '', ...against];
+    });
+  return joined(
+    originOf(record),
+    'A whole frame of a game: its things are objects, their boxes are given, all pairs found, and both things of each looked at.',
+    objectsTable(record, headlineThings),
+    'The kernel alone, boxes written in place as float32. `uniform`: all move; `mixed`: sizes from 2 to 2,000; `static`: 5 % move; `rain`: a recorded game of Box2D.',
+    markdownTable(['scene', 'boxes', 'pairs', '`auto`', 'the fastest npm package', 'that is'], cells),
+  );
+}
+
+const [begin, end] = ['<!-- figures: written by npm run bench -->', '<!-- end of figures -->'];
+
+/** README.md with what stands between its two marks replaced. */
+export function putHeadline(readme, headline) {
+  const [from, to] = [readme.indexOf(begin), readme.indexOf(end)];
+  if (from < 0 || to < from) throw new Error('README.md has no marks for the figures.');
+  return `${readme.slice(0, from)}${begin}\n${headline}\n${readme.slice(to)}`;
+}

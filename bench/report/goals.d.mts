@@ -1,0 +1,6 @@
+export interface Goal {
+  goal: string;
+  figure: string;
+  met?: boolean;
+}
+export function goals(record: object): Goal[];

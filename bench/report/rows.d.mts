@@ -1,0 +1,1 @@
+export function autoAgainstBest(row: object): { best: string; ratio: number; within: boolean } | undefined;
