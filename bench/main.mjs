@@ -2,6 +2,7 @@
 //   npm run bench                           all kinds within half an hour, into results/, docs/figures.md and README.md
 //   npm run bench -- --full                 with more sizes and contenders, for some hours
 //   npm run bench -- --motions flock,hail   rows of a kind alone, printed; --json file writes them down
+//   npm run bench -- --native               libraries of C++ and Rust, where they are at hand, into the same results
 //   npm run bench -- --compare before.json after.json      what changed beyond the noise
 //   npm run bench -- --figures              writes the documents anew, from the results that are there
 import { execFileSync } from 'node:child_process';
@@ -13,7 +14,9 @@ import { compare } from './report/compare.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
 /** In the order of a run. */
-const kinds = ['objects', 'cold', 'once', 'movers', 'motions', 'questions', 'scenes'];
+const kinds = ['objects', 'cold', 'once', 'movers', 'motions', 'questions', 'scenes', 'native'];
+/** Runs only when it is asked for: what it needs is not everywhere. */
+const onRequest = ['native'];
 
 const { values: options, positionals } = parseArgs({
   allowPositionals: true,
@@ -53,7 +56,7 @@ const asked = kinds.filter((kind) => options[kind]);
 if (!options.figures) {
   const everything = asked.length === 0;
   await run({
-    kinds: everything ? kinds : asked,
+    kinds: everything ? kinds.filter((kind) => !onRequest.includes(kind)) : asked,
     everything,
     json: options.json,
     selection: {
@@ -68,4 +71,4 @@ if (!options.figures) {
     },
   });
 }
-if (options.figures || (asked.length === 0 && !options.json)) writeDocuments();
+if (options.figures) writeDocuments();

@@ -1,6 +1,6 @@
 // Runs rows, one after another, and writes down what is known after each: a run that is cut off leaves its rows behind.
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
 import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { race } from './harness/race.mjs';
@@ -19,8 +19,10 @@ const mostMinutes = 29;
  *   that is given; without `full` it ends within half an hour
  */
 export async function run({ kinds, everything, json, selection }) {
-  const output = json ?? (everything ? resultsFile : undefined);
-  const record = { date: new Date().toISOString(), commit: commit(), machine, versions: versions(), rows: [] };
+  const added = !everything && isWhole(kinds, selection) && existsSync(resultsFile);
+  const output = json ?? (everything || added ? resultsFile : undefined);
+  const fresh = { date: new Date().toISOString(), commit: commit(), machine, versions: versions(), rows: [] };
+  const record = added ? withoutKinds(read(resultsFile), kinds) : fresh;
   const end = everything && !selection.full ? performance.now() + mostMinutes * 60_000 : Infinity;
   console.log(`${machine.cpu}, ${machine.cores} cores, ${machine.system}, Node ${machine.node}; milliseconds.`);
   for (const kind of kinds) {
@@ -42,7 +44,13 @@ export async function run({ kinds, everything, json, selection }) {
     }
   }
   if (output) console.log(`\nWritten to ${output}`);
+  if (output === resultsFile) writeDocuments();
 }
+
+/** Native libraries are raced apart, where they are at hand, and join the results that are there. */
+const isWhole = (kinds, { names, counts, frames }) => kinds.join() === 'native' && !(names ?? counts ?? frames);
+
+const withoutKinds = (record, kinds) => ({ ...record, rows: record.rows.filter(({ kind }) => !kinds.includes(kind)) });
 
 /** A row that fails is written down with its error, and the others go on. */
 async function played(play, row) {
