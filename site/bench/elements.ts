@@ -32,7 +32,7 @@ export function fillMenu(
   options: readonly (readonly [value: string, text: string])[],
   preferred: string,
 ): void {
-  const before = menu.value || preferred;
+  const before = menu.options.length > 0 ? menu.value : preferred; // the value may be empty, and chosen
   menu.replaceChildren(...options.map(([value, text]) => new Option(text, value)));
   const wanted = [before, preferred].find((value) => options.some(([each]) => each === value));
   menu.value = wanted ?? options[0]?.[0] ?? '';
