@@ -1,11 +1,12 @@
 // The published package: ES modules with their types, and the kernel beside them for hosts that load it themselves.
 // Entries are built apart, so that who imports the library alone gets one file; to each other they are external.
-// There are two of the library, which differ in the kernel: the lean one, and `all`, with every technique. The others
-// use that one. Types are those of the lean one for both, so that a space of either can be passed on.
+// There are four of the library, which differ in the kernel: the lean one, `all`, with every technique, and `2d` and `3d`,
+// of one dimension. The other entries use `all`. The types of all four stand on those of the lean one, so that a space of
+// one can be passed on to another.
 // script/ is the lean one for a plain <script> tag, where it is the global `broadphase`, and for `require` where that
 // cannot load modules. CDNs send .cjs as something browsers do not run, so it is a .js file, in a folder of scripts.
 import { defineConfig, type UserConfig } from 'tsdown';
-import { everyTechnique } from './scripts/every-technique.mjs';
+import { withKernel } from './scripts/every-technique.mjs';
 
 const common: UserConfig = { format: 'esm', platform: 'neutral', target: 'es2022', clean: false };
 const types: UserConfig = { ...common, dts: { emitDtsOnly: true } };
@@ -25,8 +26,16 @@ const folderOfScripts: UserConfig['plugins'] = {
 };
 
 export default defineConfig([
-  { ...common, dts: true, clean: true, entry: { index: 'src/index.ts' }, copy: ['build/kernel.wasm'] },
-  { ...common, dts: false, entry: { all: 'src/index.ts' }, plugins: [everyTechnique] },
+  { ...common, dts: false, clean: true, entry: { index: 'src/index.ts' }, copy: ['build/kernel.wasm'] },
+  { ...types, entry: { index: 'src/index.ts', all: 'src/all.ts', '2d': 'src/2d.ts', '3d': 'src/3d.ts' } },
+  ...Object.entries({ all: 'kernel', '2d': 'kernel-2d', '3d': 'kernel-3d' }).map(
+    ([name, kernel]): UserConfig => ({
+      ...common,
+      dts: false,
+      entry: { [name]: 'src/index.ts' },
+      plugins: [withKernel(kernel)],
+    }),
+  ),
   {
     ...common,
     dts: false,
@@ -40,7 +49,7 @@ export default defineConfig([
   },
   ...['trace', 'ro', 'shard'].flatMap((name): UserConfig[] => [
     { ...common, ...beside('./all.js'), dts: false, entry: { [name]: `src/${name}/index.ts` } },
-    { ...types, ...beside('./index.js'), entry: { [name]: `src/${name}/index.ts` } },
+    { ...types, ...beside('./all.js'), entry: { [name]: `src/${name}/index.ts` } },
   ]),
   {
     ...common,

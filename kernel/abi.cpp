@@ -14,15 +14,29 @@ namespace {
 // constinit: nothing runs when the module is instantiated.
 constinit Ids ids;
 constinit Settings options;
+f64 io[16];
+#if defined(DIMENSIONS)
+constexpr bool is_flat = DIMENSIONS == 2;
+constinit Space<DIMENSIONS> only(ids, options);
+Ring<DIMENSIONS> only_ring;
+
+/// Calls `what` with the space and its ring.
+template <class What> auto with_ring(What what) { return what(only, only_ring); }
+#else
 constinit Space<2> flat(ids, options);
 constinit Space<3> solid(ids, options);
 bool is_flat = true;
-f64 io[16];
 Ring<2> flat_ring;
 Ring<3> solid_ring;
 
+/// Calls `what` with the space in use and its ring.
+template <class What> auto with_ring(What what) { return is_flat ? what(flat, flat_ring) : what(solid, solid_ring); }
+#endif
+
 /// Calls `what` with the space in use.
-template <class What> auto with_space(What what) { return is_flat ? what(flat) : what(solid); }
+template <class What> auto with_space(What what) {
+  return with_ring([&](auto& space, auto&) { return what(space); });
+}
 
 }  // namespace
 
@@ -31,7 +45,11 @@ template <class What> auto with_space(What what) { return is_flat ? what(flat) :
 EXPORT(io_address)() -> f64* { return io; }
 
 /// Once, first; then, where the user says so, the margin, and the cell size, the world and the bounds, from io.
-EXPORT(open_space)(u32 dimensions) -> void { is_flat = dimensions == 2; }
+EXPORT(open_space)([[maybe_unused]] u32 dimensions) -> void {
+#if !defined(DIMENSIONS)
+  is_flat = dimensions == 2;
+#endif
+}
 EXPORT(set_cell_size)() -> void {
   for (int k = 0; k < 3; k++) options.cell_size[k] = io[k];
 }
@@ -46,11 +64,12 @@ EXPORT(set_bounds)() -> void {
 EXPORT(reserve)(u32 count) -> void {
   with_space([&](auto& space) { space.reserve(count); });
 }
-EXPORT(ring_address)() -> f64* { return is_flat ? &flat_ring.dense : &solid_ring.dense; }
+EXPORT(ring_address)() -> f64* {
+  return with_ring([](auto&, auto& ring) { return &ring.dense; });
+}
 /// Adds or moves the boxes of the ring.
 EXPORT(take)(u32 count) -> void {
-  if (is_flat) flat.take(flat_ring, count);
-  else solid.take(solid_ring, count);
+  with_ring([&](auto& space, auto& ring) { space.take(ring, count); });
 }
 EXPORT(remove)(u32 id) -> u32 {
   return with_space([&](auto& space) { return space.remove(id); });

@@ -86,10 +86,15 @@ template <int D> class Techniques {
   }
 };
 
-// Both dimensions of each next to one another in the module, where gzip finds what they share: an eighth less.
+// Both dimensions of each next to one another in the module, where gzip finds what they share: an eighth less. A build
+// may have one alone: DIMENSIONS is 2 or 3 then.
+#if defined(DIMENSIONS)
+#define BOTH(Kind) template class Kind<DIMENSIONS>;
+#else
 #define BOTH(Kind)        \
   template class Kind<2>; \
   template class Kind<3>;
+#endif
 BOTH(Incremental)
 BOTH(StripSweep)
 BOTH(SweptList)

@@ -1,9 +1,11 @@
-// Uses what was built as its users do, by the names in package.json: both builds of the library find the same pairs,
-// each has the techniques it says, and the entries go together.
+// Uses what was built as its users do, by the names in package.json: all builds of the library find the same pairs,
+// each has the techniques and dimensions it says, and the entries go together.
 import { deepEqual, equal, ok, throws } from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import * as lean from 'broadphase';
+import * as flat from 'broadphase/2d';
+import * as solid from 'broadphase/3d';
 import * as all from 'broadphase/all';
 import { coltech } from 'broadphase/ro';
 import { Shard, Zones } from 'broadphase/shard';
@@ -24,7 +26,7 @@ ok(expected.length > 0);
 
 deepEqual(all.BroadPhase.techniques, techniqueNames());
 deepEqual(lean.BroadPhase.techniques, leanTechniques);
-deepEqual(Object.keys(lean), Object.keys(all));
+for (const library of [all, flat, solid]) deepEqual(Object.keys(library), Object.keys(lean));
 for (const library of [lean, all]) {
   for (const technique of library.BroadPhase.techniques) deepEqual(pairsOf(library, technique), expected, technique);
 }
@@ -50,8 +52,30 @@ const deltas = shards.flatMap((shard) => shard.exchange());
 for (const shard of shards) shard.update(deltas.filter(({ to }) => to === shard.zone));
 equal(shards[0].pairs.length + shards[1].pairs.length, 2 * expected.length);
 
+// Those of one dimension find the same pairs, are of theirs without being told, and refuse the other.
+for (const technique of leanTechniques) deepEqual(pairsOf(flat, technique), expected, technique);
+const cubes = Float32Array.from(
+  { length: 6 * 2000 },
+  (_, k) => ((Math.floor(k / 6) * [37, 61, 11][k % 3]) % 90) + (k % 6 > 2 ? 9 : 0),
+);
+const inSpace = lean.findPairs(cubes, { dimensions: 3 });
+ok(inSpace.length > 0);
+deepEqual(solid.findPairs(cubes), inSpace);
+deepEqual(solid.findPairs(cubes, { dimensions: 3 }), inSpace);
+deepEqual(flat.findPairs(boxes), lean.findPairs(boxes));
+equal(new flat.BroadPhase().dimensions, 2);
+equal(new solid.BroadPhase().dimensions, 3);
+const other = (got, has) => ({
+  name: 'RangeError',
+  message: `dimensions: got ${got}, expected ${has}: 'broadphase' has both 2 and 3`,
+});
+throws(() => new flat.BroadPhase({ dimensions: 3 }), other(3, 2));
+throws(() => new solid.BroadPhase({ dimensions: 2 }), other(2, 3));
+throws(() => solid.findPairs([], { dimensions: 2 }), other(2, 3));
+await record(new flat.BroadPhase()).stop();
+
 // What a host has loaded itself has every technique, for both.
 lean.init(readFileSync(fileURLToPath(import.meta.resolve('broadphase/kernel.wasm'))));
 deepEqual(lean.BroadPhase.techniques, techniqueNames());
 deepEqual(pairsOf(lean, 'quadtree'), expected);
-console.log('the package: both builds find the same pairs');
+console.log('the package: all builds find the same pairs');

@@ -1,12 +1,16 @@
-// For bundlers: the library with the kernel that has every technique, in place of the lean one. That is all in which
-// 'broadphase/all' differs from 'broadphase'.
+// For bundlers: the library with another kernel in place of the lean one. That is all in which 'broadphase/all',
+// 'broadphase/2d' and 'broadphase/3d' differ from 'broadphase'.
 import { fileURLToPath } from 'node:url';
 
-const kernel = fileURLToPath(new URL('../src/generated/kernel.ts', import.meta.url));
-
-/** A plugin for Vite and rolldown. */
-export const everyTechnique = {
-  name: 'every-technique',
-  enforce: 'pre',
-  resolveId: (source) => (source.endsWith('/generated/kernel-lean.ts') ? kernel : undefined),
+/** A plugin for Vite and rolldown: the kernel of that name (scripts/kernel.mjs). */
+export const withKernel = (name) => {
+  const kernel = fileURLToPath(new URL(`../src/generated/${name}.ts`, import.meta.url));
+  return {
+    name: `with-${name}`,
+    enforce: 'pre',
+    resolveId: (source) => (source.endsWith('/generated/kernel-lean.ts') ? kernel : undefined),
+  };
 };
+
+/** The kernel that has every technique. */
+export const everyTechnique = withKernel('kernel');

@@ -1,46 +1,64 @@
-// Compiles kernel/ to freestanding wasm, with all techniques and with a few, and inlines both for the library.
+// Compiles kernel/ to freestanding wasm, with all techniques and with a few, and inlines each for the library.
 // Rebuilt only when a source, a flag or the compiler changed: their hash is kept beside the result.
+//
+//   node scripts/kernel.mjs              the two that tests and pages need
+//   node scripts/kernel.mjs --package    and those of one dimension, which only the package has
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { compile, flags, kernelSources, lean, only } from './compile.mjs';
+import { compile, flags, kernelSources, lean, only, techniqueNames } from './compile.mjs';
 import { inline } from './inline.mjs';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
 const kernels = [
-  { name: 'kernel', more: [] },
-  { name: 'kernel-lean', more: [only(lean)] },
-].map((kernel) => ({
-  ...kernel,
-  wasm: join(root, `build/${kernel.name}.wasm`),
-  inlined: join(root, `src/generated/${kernel.name}.ts`),
-}));
-const hashFile = join(root, 'build/kernel.hash');
+  { name: 'kernel', techniques: techniqueNames(), dimensions: [2, 3], more: [] },
+  { name: 'kernel-lean', techniques: lean, dimensions: [2, 3], more: [only(lean)] },
+  ...[2, 3].map((dimension) => ({
+    name: `kernel-${dimension}d`,
+    techniques: lean,
+    dimensions: [dimension],
+    more: [only(lean), `-DDIMENSIONS=${dimension}`],
+    ofPackage: true,
+  })),
+];
 
 const compiler = JSON.parse(readFileSync(join(root, 'node_modules/@yowasp/clang/package.json'), 'utf8'));
-const hash = createHash('sha256').update(JSON.stringify([flags, kernels, compiler.version]));
-for (const file of kernelSources()) hash.update(file).update(readFileSync(join(root, file)));
-hash.update(readFileSync(new URL('./inline.mjs', import.meta.url)));
-const digest = hash.digest('hex');
-const upToDate =
-  kernels.every(({ wasm, inlined }) => existsSync(wasm) && existsSync(inlined)) &&
-  existsSync(hashFile) &&
-  readFileSync(hashFile, 'utf8') === digest;
+const common = createHash('sha256').update(JSON.stringify([flags, compiler.version]));
+for (const file of kernelSources()) common.update(file).update(readFileSync(join(root, file)));
+for (const script of ['inline.mjs', 'kernel.mjs']) common.update(readFileSync(join(root, 'scripts', script)));
+const sources = common.digest('hex');
 
-if (!upToDate) {
-  mkdirSync(join(root, 'build'), { recursive: true });
-  mkdirSync(join(root, 'src/generated'), { recursive: true });
-  for (const { name, more, wasm, inlined } of kernels) {
-    const started = performance.now();
-    const bytes = await compile('kernel/abi.cpp', more).catch((error) => {
-      console.error(`${name}: ${error.message}`);
+mkdirSync(join(root, 'build'), { recursive: true });
+mkdirSync(join(root, 'src/generated'), { recursive: true });
+let decoder;
+for (const kernel of kernels) {
+  if (!kernel.ofPackage || process.argv.includes('--package')) {
+    await make(kernel).catch((error) => {
+      console.error(`${kernel.name}: ${error.message}`);
       process.exit(1);
     });
-    writeFileSync(wasm, bytes);
-    const lines = Object.entries(inline(bytes)).map(([key, value]) => `export const ${key} =\n  '${value}';\n`);
-    writeFileSync(inlined, `// Made by scripts/kernel.mjs from kernel/: do not edit.\n${lines.join('')}`);
-    console.log(`${name}: compiled, ${bytes.length} bytes, ${((performance.now() - started) / 1000).toFixed(1)} s`);
   }
-  writeFileSync(hashFile, digest);
+}
+
+async function make({ name, techniques, dimensions, more }) {
+  const wasm = join(root, `build/${name}.wasm`);
+  const inlined = join(root, `src/generated/${name}.ts`);
+  const hashFile = join(root, `build/${name}.hash`);
+  const made = [wasm, inlined, hashFile].every((file) => existsSync(file));
+  if (made && readFileSync(hashFile, 'utf8') === sources) return;
+  const started = performance.now();
+  decoder ??= Buffer.from(await compile('kernel/decoder.cpp')).toString('hex');
+  const bytes = await compile('kernel/abi.cpp', more);
+  writeFileSync(wasm, bytes);
+  const texts = Object.entries({ ...inline(bytes), decoder });
+  const lines = [
+    '// Made by scripts/kernel.mjs from kernel/: do not edit.',
+    ...texts.map(([key, value]) => `export const ${key} =\n  '${value}';`),
+    `export const dimensions: readonly (2 | 3)[] = [${dimensions.join(', ')}];`,
+    `export type Technique = ${techniques.map((technique) => `'${technique}'`).join(' | ')};`,
+  ];
+  writeFileSync(inlined, `${lines.join('\n')}\n`);
+  writeFileSync(hashFile, sources);
+  console.log(`${name}: compiled, ${bytes.length} bytes, ${((performance.now() - started) / 1000).toFixed(1)} s`);
 }

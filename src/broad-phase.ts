@@ -1,6 +1,7 @@
 // The class BroadPhase: a Map from id to box that knows which of its boxes overlap.
 // All state lives in the kernel's memory (kernel/space.hpp); this file checks what comes in, passes it on, and
 // gives views of what comes out. Nothing here runs once per box or per pair of an update.
+import type { BoxOfId, Dimensions, MovingBoxOfId } from './dimensions.ts';
 import {
   badBox,
   badCount,
@@ -15,18 +16,19 @@ import {
   sweep2,
   sweep3,
 } from './errors.ts';
-import { builtTechniques } from './kernel.ts';
+import type { Technique as LeanTechnique } from './generated/kernel-lean.ts';
+import { builtDimensions, builtTechniques } from './kernel.ts';
 import { Queries } from './queries.ts';
 import { badSnapshot, headerBytes, snapshotBytes } from './snapshot.ts';
 import { isFloat32Array, isFloat64Array } from './values.ts';
 import { type Watcher, watch } from './watch.ts';
 
 /** Options of {@link BroadPhase}, all optional. */
-export interface BroadPhaseOptions {
-  /** 2 or 3. Default 2. */
-  dimensions?: 2 | 3;
+export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends TechniqueName = LeanTechnique> {
+  /** 2 or 3. Default 2; in `broadphase/3d` 3. */
+  dimensions?: D;
   /** One of {@link BroadPhase.techniques}. Default `'auto'`. */
-  technique?: TechniqueName;
+  technique?: Technique;
   /**
    * For grids, which `auto` has none of: the side of a cell, or one number per axis, above 0. One so small that boxes would stand in very many
    * cells is doubled until they do not. Left out: chosen from the boxes.
@@ -41,7 +43,7 @@ export interface BroadPhaseOptions {
    * cannot be asked. Numbers above 0, up to 1e300. Left out: the world has no end.
    */
   wrap?: readonly number[];
-  /** Whether every update finds out which pairs began and ended, for {@link BroadPhase.began}. Default false. */
+  /** Whether every update finds out which pairs began and ended, for `began`. Default false. */
   events?: boolean;
   /** For `aabb-tree`: how far a box may move before the tree changes, above 0. Left out: from the motion seen. */
   margin?: number;
@@ -80,6 +82,11 @@ const techniques = [
 
 /** The name of a technique. */
 export type TechniqueName = (typeof techniques)[number];
+
+/** The arguments of `new BroadPhase`: a space of other than two dimensions has to say so. */
+export type ConstructorOptions<D extends Dimensions, Technique extends TechniqueName = LeanTechnique> = 2 extends D
+  ? [options?: BroadPhaseOptions<D, Technique>]
+  : [options: BroadPhaseOptions<D, Technique> & Required<Pick<BroadPhaseOptions<D>, 'dimensions'>>];
 
 const reasons = [
   'asked for',
@@ -129,19 +136,24 @@ const broken = [
  * For find-pairs.ts: boxes 0 … red - 1 become red, the others blue; only pairs of both colours are reported.
  * @internal
  */
-export let splitColours: (space: BroadPhase, red: number) => void;
+export let splitColours: (space: BroadPhase<Dimensions>, red: number) => void;
 
 /**
  * For find-pairs.ts: `setAll`, by the name of another function in errors.
  * @internal
  */
-export let fill: (space: BroadPhase, boxes: Boxes, count: number | undefined, where: string) => BroadPhase;
+export let fill: <Space extends BroadPhase<Dimensions>>(
+  space: Space,
+  boxes: Boxes,
+  count: number | undefined,
+  where: string,
+) => Space;
 
 /**
  * For find-pairs.ts: makes a space that has its first options as new. Returns how many bytes it has used at most.
  * @internal
  */
-export let beginAnew: (space: BroadPhase) => number;
+export let beginAnew: (space: BroadPhase<Dimensions>) => number;
 
 /**
  * Finds every overlapping pair among boxes that move. Reads like a Map from id to box.
@@ -164,7 +176,7 @@ export let beginAnew: (space: BroadPhase) => number;
  * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
  * space.pairs; // → Uint32Array [7, 9]
  */
-export class BroadPhase extends Queries {
+export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
   /**
    * The names of the techniques there are, in order: with `import 'broadphase'` the few that games need, with
    * `import 'broadphase/all'`, or after `init` with `broadphase/kernel.wasm`, every one.
@@ -210,10 +222,11 @@ export class BroadPhase extends Queries {
    * new BroadPhase({ dimensions: 3, events: true }).dimensions; // → 3
    * new BroadPhase({ capacity: -1 }); // throws RangeError: capacity: got -1, expected an integer from 0 to 16777216
    */
-  constructor(options: BroadPhaseOptions = {}) {
+  constructor(...options: ConstructorOptions<D>);
+  constructor(options: BroadPhaseOptions<D> = {}) {
     checkOptions('new BroadPhase', options, optionNames);
     const {
-      dimensions = 2,
+      dimensions = builtDimensions[0] as D,
       technique = 'auto',
       cellSize,
       bounds,
@@ -222,7 +235,7 @@ export class BroadPhase extends Queries {
       events = false,
       capacity = 0,
     } = options;
-    if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
+    checkDimensions(dimensions);
     checkTechnique(technique);
     if (typeof events !== 'boolean') badValue('events', events, 'true or false', true);
     checkBoxCount('capacity', capacity);
@@ -262,9 +275,8 @@ export class BroadPhase extends Queries {
    * Adds box `id`, or moves it: 2D `set(id, minX, minY, maxX, maxY)`, 3D `set(id, minX, minY, minZ, maxX, maxY, maxZ)`.
    * Chainable.
    *
-   * @param id an integer from 0 to 2^24 - 1; ids near 0 without gaps are best
-   * @param minX the least coordinates, in the units of your world: any numbers but NaN, infinite ones too
-   * @param maxX the largest ones, not below the least
+   * @param box an id, which is an integer from 0 to 2^24 - 1: ids near 0 without gaps are best; the least coordinates, in
+   *   the units of your world: any numbers but NaN, infinite ones too; then the largest ones, not below the least
    * @throws RangeError for a bad id, for NaN, and for a minimum above its maximum; TypeError for other than
    *   numbers and for a wrong number of them. The space is as before.
    *
@@ -273,21 +285,12 @@ export class BroadPhase extends Queries {
    * space.set(7, 0, 0, 10, 10).set(7, 1, 0, 11, 10);
    * space.size; // → 1
    * space.set(7, Number.NaN, 0, 1, 1); // throws RangeError: set: minX of box 7 is NaN, expected a number
-   */
-  set(id: number, minX: number, minY: number, maxX: number, maxY: number): this;
-  /**
-   * Adds box `id`, or moves it, in 3D.
-   *
-   * @param id an integer from 0 to 2^24 - 1
-   * @param minX the least coordinates: any numbers but NaN
-   * @param maxX the largest ones, not below the least
-   * @throws as in 2D
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
    * space.set(7, 0, 0, 0, 1, 1, 1).get(7); // → Float64Array [0, 0, 0, 1, 1, 1]
    */
-  set(id: number, minX: number, minY: number, minZ: number, maxX: number, maxY: number, maxZ: number): this;
+  set(...box: BoxOfId<D>): this;
   set(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
     // Short enough for engines to inline, since a call boxes its doubles, and boxes are garbage.
     const flat = this.width === 4;
@@ -331,9 +334,7 @@ export class BroadPhase extends Queries {
    * that its pairs are all it may meet. Which it does meet, when and on which side, `sweep` with the same numbers tells.
    * 2D `setSwept(id, minX, minY, maxX, maxY, dx, dy)`, 3D `setSwept(id, minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz)`.
    *
-   * @param id an integer from 0 to 2^24 - 1
-   * @param minX where it stands now, as for `set`
-   * @param dx how far it moves along the first axis, and so on: finite numbers
+   * @param box an id; where the box stands now, as for `set`; how far it moves along each axis: finite numbers
    * @throws as `set` does. The space is as before.
    *
    * @example
@@ -343,27 +344,12 @@ export class BroadPhase extends Queries {
    * space.setSwept(bullet, 0, 0, 1, 1, 40, 0).update(); // it moves 40 to the right
    * space.pairs; // → Uint32Array [1, 7]
    * space.sweep(0, 0, 1, 1, 40, 0, { ignore: bullet })?.time; // → 0.5
-   */
-  setSwept(id: number, minX: number, minY: number, maxX: number, maxY: number, dx: number, dy: number): this;
-  /**
-   * Adds or moves box `id` for swept tests, in 3D.
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
    * space.setSwept(1, 0, 0, 0, 1, 1, 1, 0, 0, 40).get(1); // → Float64Array [0, 0, 0, 1, 1, 41]
    */
-  setSwept(
-    id: number,
-    minX: number,
-    minY: number,
-    minZ: number,
-    maxX: number,
-    maxY: number,
-    maxZ: number,
-    dx: number,
-    dy: number,
-    dz: number,
-  ): this;
+  setSwept(...box: MovingBoxOfId<D>): this;
   setSwept(
     id: number,
     a: number,
@@ -766,7 +752,7 @@ export class BroadPhase extends Queries {
     return this.#technique;
   }
   /** Takes effect with the next update. */
-  set technique(name: TechniqueName) {
+  set technique(name: LeanTechnique) {
     checkTechnique(name);
     this.#technique = name;
     this.kernel.set_technique(techniques.indexOf(name));
@@ -1029,6 +1015,12 @@ function noEvents(what: string): never {
 }
 
 const isBuilt = (technique: number): boolean => (builtTechniques() & (1 << technique)) !== 0;
+
+function checkDimensions(dimensions: Dimensions): void {
+  if (builtDimensions.includes(dimensions)) return;
+  const more = builtDimensions.length > 1 ? '' : ": 'broadphase' has both 2 and 3";
+  badValue('dimensions', dimensions, `${builtDimensions.join(' or ')}${more}`);
+}
 
 function checkTechnique(name: unknown): void {
   const technique = techniques.indexOf(name as TechniqueName);

@@ -12,17 +12,19 @@ import {
   optionNames,
   splitColours,
 } from './broad-phase.ts';
+import type { Dimensions } from './dimensions.ts';
 import { checkOptions } from './errors.ts';
+import { builtDimensions } from './kernel.ts';
 import { isFloat32Array } from './values.ts';
 
 /** By dimensions. A space is not here while it is in use: a getter in the caller's array may call again. */
-const spares: (BroadPhase | undefined)[] = [];
+const spares: (BroadPhase<Dimensions> | undefined)[] = [];
 
 /** A spare space may have used this many bytes of memory, but no more: what has been touched stays taken. */
 const mostBytes = 64 * 2 ** 20;
 
 /** The space for a call with these options. */
-function borrow(where: string, options?: BroadPhaseOptions): BroadPhase {
+function borrow(where: string, options?: BroadPhaseOptions<Dimensions>): BroadPhase<Dimensions> {
   checkOptions(where, options, optionNames);
   const dimensions = plain(options);
   const spare = spares[dimensions];
@@ -32,17 +34,17 @@ function borrow(where: string, options?: BroadPhaseOptions): BroadPhase {
 }
 
 /** Keeps the space of a call that went well for the next. Where a call throws, its space goes with it. */
-function giveBack(space: BroadPhase, options?: BroadPhaseOptions): void {
+function giveBack(space: BroadPhase<Dimensions>, options?: BroadPhaseOptions<Dimensions>): void {
   const dimensions = plain(options);
   if (dimensions !== 0 && beginAnew(space) <= mostBytes) spares[dimensions] = space;
 }
 
 /** The dimensions that the options ask for, where they ask for nothing else; 0 where they do. */
-function plain(options?: BroadPhaseOptions): number {
-  if (options === undefined) return 2;
+function plain(options?: BroadPhaseOptions<Dimensions>): number {
+  if (options === undefined) return builtDimensions[0]!;
   for (const name in options) if (name !== 'dimensions') return 0;
   const { dimensions } = options ?? {};
-  return dimensions === 2 || dimensions === 3 ? dimensions : 0;
+  return builtDimensions.includes(dimensions!) ? dimensions! : 0;
 }
 
 /**
@@ -57,7 +59,7 @@ function plain(options?: BroadPhaseOptions): number {
  * @example
  * findPairs([0, 0, 10, 10, 5, 5, 15, 15]); // → Uint32Array [0, 1]
  */
-export function findPairs(boxes: Boxes, options?: BroadPhaseOptions): Uint32Array {
+export function findPairs(boxes: Boxes, options?: BroadPhaseOptions<Dimensions>): Uint32Array {
   const space = borrow('findPairs', options);
   const pairs = fill(space, boxes, undefined, 'findPairs').update().pairs.slice();
   giveBack(space, options);
@@ -78,7 +80,7 @@ export function findPairs(boxes: Boxes, options?: BroadPhaseOptions): Uint32Arra
  * const coins = [5, 5, 15, 15, 20, 20, 30, 30];
  * findPairsBetween(players, coins); // → Uint32Array [0, 0]
  */
-export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOptions): Uint32Array {
+export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOptions<Dimensions>): Uint32Array {
   const space = borrow('findPairsBetween', options);
   checkBoxes('findPairsBetween: red', red);
   checkBoxes('findPairsBetween: blue', blue);

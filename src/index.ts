@@ -8,10 +8,12 @@ export {
   type Boxes,
   BroadPhase,
   type BroadPhaseOptions,
+  type ConstructorOptions,
   type Reason,
   type Stats,
   type TechniqueName,
 } from './broad-phase.ts';
+export type * from './dimensions.ts';
 export { findPairs, findPairsBetween } from './find-pairs.ts';
 export { init } from './kernel.ts';
 export type {

@@ -60,6 +60,16 @@ export interface KernelExports {
   begin_anew(): number;
 }
 
+/** The exported functions of kernel/decoder.cpp. */
+interface DecoderExports {
+  memory: WebAssembly.Memory;
+  given(): number;
+  decode(count: number, prefixes: number, length: number): number;
+}
+
+/** How many axes boxes may have in this build, the default first. */
+export const builtDimensions = kernel.dimensions;
+
 let module: WebAssembly.Module | undefined;
 let techniques = 0;
 
@@ -119,33 +129,36 @@ function compile(bytes: BufferSource): WebAssembly.Module {
 }
 
 /**
- * The bytes that scripts/inline.mjs has written as text. The first characters of the alphabet begin a pair; the others
- * stand for the bytes in `order`, two hexadecimal digits each. In place, since this is the first thing a page waits for.
+ * The bytes that scripts/inline.mjs has written as text: see there. The first characters of the alphabet begin a pair; the
+ * others stand for the bytes in `order`. A small module decodes it (kernel/decoder.cpp): half of what a page waits for.
  */
-function read({ alphabet, order, text }: typeof kernel): Uint8Array<ArrayBuffer> {
-  const single = order.length / 2;
+export function read({
+  alphabet,
+  order,
+  text,
+  decoder,
+}: Record<'alphabet' | 'order' | 'text' | 'decoder', string>): Uint8Array<ArrayBuffer> {
+  const { exports } = new WebAssembly.Instance(compile(digits(decoder)));
+  const { memory, given, decode } = exports as unknown as DecoderExports;
+  const at = given();
+  const tables = 128 + 256;
+  const lacking = at + tables + text.length - memory.buffer.byteLength;
+  if (lacking > 0) memory.grow((lacking + 0xffff) >>> 16);
+  const io = new Uint8Array(memory.buffer, at);
   const { length } = alphabet;
-  const found = new Set<number>();
-  for (let k = 0; k < single; k++) found.add(Number.parseInt(order.slice(2 * k, 2 * k + 2), 16));
-  for (let byte = 0; byte < 256; byte++) found.add(byte);
-  const bytes = Uint8Array.from(found);
-  // By character: its byte, or minus the place of the first byte of which it is half; and its place in the alphabet.
-  const first = new Int16Array(128);
-  const second = new Uint8Array(128);
-  const prefixes = length - single;
-  for (let k = 0; k < length; k++) {
-    const code = alphabet.charCodeAt(k);
-    first[code] = k < prefixes ? -(single + k * length) : bytes[k - prefixes]!;
-    second[code] = k;
-  }
-  const codes = new Uint8Array(text.length);
-  encodeInto(text, codes);
-  let to = 0;
-  for (let from = 0; from < codes.length; from++) {
-    const byte = first[codes[from]!]!;
-    codes[to++] = byte < 0 ? bytes[second[codes[++from]!]! - byte]! : byte;
-  }
-  return codes.subarray(0, to);
+  for (let k = 0; k < length; k++) io[alphabet.charCodeAt(k)] = k;
+  const single = digits(order);
+  // The bytes of pairs follow in ascending order.
+  const bytes = new Set(single);
+  for (let byte = 0; byte < 256; byte++) bytes.add(byte);
+  io.set([...bytes], 128);
+  encodeInto(text, io.subarray(tables));
+  return io.subarray(tables, tables + decode(text.length, length - single.length, length));
+}
+
+/** The bytes that stand as two hexadecimal digits each. */
+function digits(text: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from({ length: text.length / 2 }, (_, k) => Number.parseInt(text.slice(2 * k, 2 * k + 2), 16));
 }
 
 /** Writes characters of ASCII as bytes. Jest's pages and audio worklets have no TextEncoder, which is much faster. */

@@ -2,6 +2,15 @@
 // Everything is answered as of the last update; what the questions need is made at the first after it. The kernel
 // answers (kernel/queries.hpp); this file checks the questions, and copies the answers to where they are wanted. A
 // visitor gets them in parts, so that the search ends where it says so, and may ask questions itself.
+import type {
+  BoxQuestion,
+  Dimensions,
+  NearestQuestion,
+  PointQuestion,
+  RayQuestion,
+  RoundQuestion,
+  SweepQuestion,
+} from './dimensions.ts';
 import {
   badHit,
   badId,
@@ -86,7 +95,7 @@ const isNumber = (value: unknown): value is number => typeof value === 'number';
  * distances, and masks and ids out of range; TypeError for other than numbers, for a wrong number of them, and for
  * options that there are not.
  */
-export abstract class Queries extends Space {
+export abstract class Queries<D extends Dimensions> extends Space<D> {
   #words = new Uint32Array();
   #doubles = new Float64Array();
   readonly #visits: Visit[] = [];
@@ -140,10 +149,11 @@ export abstract class Queries extends Space {
 
   /**
    * The ids of the boxes that overlap or touch a box, which may be infinite: in no particular order, but the same one
-   * for the same boxes. 2D: `queryBox(minX, minY, maxX, maxY, options?)`.
+   * for the same boxes. 2D: `queryBox(minX, minY, maxX, maxY, options?)`, 3D:
+   * `queryBox(minX, minY, minZ, maxX, maxY, maxZ, options?)`.
    *
-   * @param minX the least coordinates, in the units of your world: any numbers but NaN
-   * @param maxX the largest ones, not below the least
+   * @param question the least coordinates, in the units of your world: any numbers but NaN; then the largest ones, not
+   *   below the least; then options, if any
    * @throws as all questions do: see {@link BroadPhase}
    *
    * @example
@@ -155,25 +165,13 @@ export abstract class Queries extends Space {
    * let hurt = 0;
    * space.queryBox(8, 8, 12, 12, { visit: () => hurt++ }); // → []
    * hurt; // → 2
-   */
-  queryBox(minX: number, minY: number, maxX: number, maxY: number, options?: IdsOptions): number[];
-  /**
-   * The ids of the boxes that overlap or touch a box. 3D: `queryBox(minX, minY, minZ, maxX, maxY, maxZ, options?)`.
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
    * space.set(7, 0, 0, 0, 1, 1, 1).update();
    * space.queryBox(1, 1, 1, 2, 2, 2); // → [7]
    */
-  queryBox(
-    minX: number,
-    minY: number,
-    minZ: number,
-    maxX: number,
-    maxY: number,
-    maxZ: number,
-    options?: IdsOptions,
-  ): number[];
+  queryBox(...question: BoxQuestion<D, IdsOptions>): number[];
   queryBox(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: IdsOptions): number[] {
     const io = this.io();
     if (this.width === 4) {
@@ -198,24 +196,22 @@ export abstract class Queries extends Space {
   }
 
   /**
-   * The ids of the boxes that hold a point or touch it: as {@link BroadPhase.queryBox}. 2D: `queryPoint(x, y, options?)`.
-   * @param x where it is: finite, as is y
+   * The ids of the boxes that hold a point or touch it: as {@link BroadPhase.queryBox}. 2D: `queryPoint(x, y, options?)`, 3D:
+   * `queryPoint(x, y, z, options?)`.
+   *
+   * @param question where it is: finite coordinates; then options, if any
    *
    * @example
    * const space = new BroadPhase();
    * space.set(7, 0, 0, 10, 10).update();
    * space.queryPoint(10, 3); // → [7]
-   */
-  queryPoint(x: number, y: number, options?: IdsOptions): number[];
-  /**
-   * The ids of the boxes that hold a point or touch it. 3D: `queryPoint(x, y, z, options?)`.
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
    * space.set(7, 0, 0, 0, 1, 1, 1).update();
    * space.queryPoint(0.5, 0.5, 2); // → []
    */
-  queryPoint(x: number, y: number, z: number, options?: IdsOptions): number[];
+  queryPoint(...question: PointQuestion<D, IdsOptions>): number[];
   queryPoint(x: number, y: number, z?: unknown, options?: IdsOptions): number[] {
     options = this.#point('queryPoint', x, y, z, options);
     this.io()[radiusAt] = -1;
@@ -224,8 +220,7 @@ export abstract class Queries extends Space {
 
   /**
    * 2D: the ids of the boxes that a circle overlaps or touches: as {@link BroadPhase.queryBox}.
-   * @param x its centre: finite, as is y
-   * @param radius at least 0, in the units of your world
+   * @param question its centre: finite coordinates; its radius: at least 0, in the units of your world; then options, if any
    *
    * @example
    * const space = new BroadPhase();
@@ -233,6 +228,7 @@ export abstract class Queries extends Space {
    * space.queryCircle(13, 14, 5); // → [7]
    * space.queryCircle(14, 14, 5); // → []
    */
+  queryCircle(...question: D extends 2 ? RoundQuestion<2, IdsOptions> : never): number[];
   queryCircle(x: number, y: number, radius: number, options?: IdsOptions): number[] {
     if (this.width !== 4) wrongShape('queryCircle', this.dimensions, 'querySphere');
     this.#point('queryCircle', x, y);
@@ -242,14 +238,14 @@ export abstract class Queries extends Space {
 
   /**
    * 3D: the ids of the boxes that a sphere overlaps or touches: as {@link BroadPhase.queryBox}.
-   * @param x its centre: finite, as are y and z
-   * @param radius at least 0, in the units of your world
+   * @param question its centre: finite coordinates; its radius: at least 0, in the units of your world; then options, if any
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
    * space.set(7, 0, 0, 0, 1, 1, 1).update();
    * space.querySphere(2, 0.5, 0.5, 1); // → [7]
    */
+  querySphere(...question: D extends 3 ? RoundQuestion<3, IdsOptions> : never): number[];
   querySphere(x: number, y: number, z: number, radius: number, options?: IdsOptions): number[] {
     if (this.width !== 6) wrongShape('querySphere', this.dimensions, 'queryCircle');
     this.#point('querySphere', x, y, z);
@@ -261,10 +257,10 @@ export abstract class Queries extends Space {
    * The first box that a ray meets, or `undefined`: of several at the same distance as in `sweep`.
    * The direction may have any length; where it has none the ray is a point. A ray that begins at a face meets it
    * where it leads into the box, at distance 0; one that leads along it or away does not. One that begins inside has
-   * distance 0 and no normal. Edges and corners count. 2D: `rayCast(x, y, directionX, directionY, options?)`.
+   * distance 0 and no normal. Edges and corners count. 2D:
+   * `rayCast(x, y, directionX, directionY, options?)`, 3D: `rayCast(x, y, z, directionX, directionY, directionZ, options?)`.
    *
-   * @param x where it begins: finite, as is y
-   * @param directionX where it points: finite, as is directionY
+   * @param question where the ray begins, and where it points: finite numbers; then options, if any
    * @returns the box, the distance to it in the units of your world, and the normal of the side that was hit
    * @throws as all questions do: see {@link BroadPhase}
    *
@@ -274,25 +270,13 @@ export abstract class Queries extends Space {
    * space.set(me, -1, -1, 1, 1).set(7, 10, -5, 20, 5).update();
    * space.rayCast(0, 0, 1, 0, { ignore: me }); // → { id: 7, distance: 10, normal: [-1, 0] }
    * space.rayCast(0, 0, 1, 0, { ignore: me, maxDistance: 9 }); // → undefined
-   */
-  rayCast(x: number, y: number, directionX: number, directionY: number, options?: RayOptions): RayHit | undefined;
-  /**
-   * The first box that a ray meets, or `undefined`. 3D: `rayCast(x, y, z, directionX, directionY, directionZ, options?)`.
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
    * space.set(7, 0, 0, 10, 1, 1, 11).update();
    * space.rayCast(0.5, 0.5, 0, 0, 0, 1)?.distance; // → 10
    */
-  rayCast(
-    x: number,
-    y: number,
-    z: number,
-    directionX: number,
-    directionY: number,
-    directionZ: number,
-    options?: RayOptions,
-  ): RayHit | undefined;
+  rayCast(...question: RayQuestion<D, RayOptions>): RayHit | undefined;
   rayCast(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayOptions) {
     options = this.#ray('rayCast', rayOptions, a, b, c, d, e, f, options);
     if (options?.out !== undefined && !isHit(options.out)) badHit('rayCast: out', options.out, 'distance');
@@ -304,35 +288,22 @@ export abstract class Queries extends Space {
 
   /**
    * All boxes that a ray meets, by distance and then by id: as {@link BroadPhase.rayCast}. 2D: `rayCastAll(x, y,
-   * directionX, directionY, options?)`.
+   * directionX, directionY, options?)`, 3D:
+   * `rayCastAll(x, y, z, directionX, directionY, directionZ, options?)`.
    *
-   * @param x where it begins: finite, as is y
-   * @param directionX where it points: finite, as is directionY
+   * @param question where the ray begins, and where it points: finite numbers; then options, if any
    *
    * @example
    * const space = new BroadPhase();
    * space.set(7, 10, -5, 20, 5).set(9, 30, -5, 40, 5).update();
    * space.rayCastAll(0, 0, 1, 0).map((hit) => hit.id); // → [7, 9]
-   */
-  rayCastAll(x: number, y: number, directionX: number, directionY: number, options?: RayAllOptions): RayHit[];
-  /**
-   * All boxes that a ray meets, by distance and then by id. 3D: `rayCastAll(x, y, z, directionX, directionY,
-   * directionZ, options?)`.
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
    * space.set(7, 0, 0, 10, 1, 1, 11).update();
    * space.rayCastAll(0.5, 0.5, 0, 0, 0, 1, { maxDistance: 5 }); // → []
    */
-  rayCastAll(
-    x: number,
-    y: number,
-    z: number,
-    directionX: number,
-    directionY: number,
-    directionZ: number,
-    options?: RayAllOptions,
-  ): RayHit[];
+  rayCastAll(...question: RayQuestion<D, RayAllOptions>): RayHit[];
   rayCastAll(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayAllOptions): RayHit[] {
     options = this.#ray('rayCastAll', farOptions, a, b, c, d, e, f, options);
     if (options?.visit !== undefined) {
@@ -358,10 +329,10 @@ export abstract class Queries extends Space {
    * overlaps a box from the start the time is 0, and the normal all 0. Of several met at the same time, faces come
    * before corners, then the smallest id. A box that is in the space meets itself: name it in `ignore`. Who stops at
    * `x + dx * time` touches, up to rounding, and never ends inside: see the guide to queries. 2D: `sweep(minX, minY,
-   * maxX, maxY, dx, dy, options?)`.
+   * maxX, maxY, dx, dy, options?)`, 3D: `sweep(minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz, options?)`.
    *
-   * @param minX where it stands now: any numbers but NaN
-   * @param dx how far it moves along the first axis, and so on: finite
+   * @param question where the box stands now: any numbers but NaN; how far it moves along each axis: finite numbers; then
+   *   options, if any
    * @returns the box, the share of the way until they touch, and the normal of the side that was hit
    * @throws as all questions do: see {@link BroadPhase}
    *
@@ -370,37 +341,13 @@ export abstract class Queries extends Space {
    * const bullet = 1;
    * space.set(bullet, 0, 0, 1, 1).set(7, 21, -5, 22, 5).update();
    * const hit = space.sweep(0, 0, 1, 1, 40, 0, { ignore: bullet }); // → { id: 7, time: 0.5, normal: [-1, 0] }
-   */
-  sweep(
-    minX: number,
-    minY: number,
-    maxX: number,
-    maxY: number,
-    dx: number,
-    dy: number,
-    options?: SweepOptions,
-  ): SweepHit | undefined;
-  /**
-   * The first box that a moving box meets, or `undefined`. 3D: `sweep(minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz,
-   * options?)`.
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
    * space.set(7, 0, 0, 5, 1, 1, 6).update();
    * space.sweep(0, 0, 0, 1, 1, 1, 0, 0, 8)?.time; // → 0.5
    */
-  sweep(
-    minX: number,
-    minY: number,
-    minZ: number,
-    maxX: number,
-    maxY: number,
-    maxZ: number,
-    dx: number,
-    dy: number,
-    dz: number,
-    options?: SweepOptions,
-  ): SweepHit | undefined;
+  sweep(...question: SweepQuestion<D, SweepOptions>): SweepHit | undefined;
   sweep(
     a: number,
     b: number,
@@ -452,9 +399,10 @@ export abstract class Queries extends Space {
 
   /**
    * The ids of the `k` boxes nearest to a point, by the distance to the box, which is 0 inside, and then by id. 2D:
-   * `nearest(x, y, k, options?)`.
-   * @param x where from: finite, as is y
-   * @param k how many: an integer from 1 on, or Infinity for all
+   * `nearest(x, y, k, options?)`, 3D:
+   * `nearest(x, y, z, k, options?)`.
+   *
+   * @param question where from: finite coordinates; how many: an integer from 1 on, or Infinity for all; then options, if any
    * @returns fewer than k where there are no more, or none within `maxDistance`
    * @throws as all questions do: see {@link BroadPhase}
    *
@@ -463,17 +411,13 @@ export abstract class Queries extends Space {
    * space.set(7, 0, 0, 10, 10).set(9, 15, 0, 20, 5).update();
    * space.nearest(13, 2, 2); // → [9, 7]
    * space.nearest(13, 2, 2, { maxDistance: 2 }); // → [9]
-   */
-  nearest(x: number, y: number, k: number, options?: NearestOptions): number[];
-  /**
-   * The ids of the `k` boxes nearest to a point. 3D: `nearest(x, y, z, k, options?)`.
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
    * space.set(7, 0, 0, 0, 1, 1, 1).set(9, 0, 0, 5, 1, 1, 6).update();
    * space.nearest(0, 0, 4, 1); // → [9]
    */
-  nearest(x: number, y: number, z: number, k: number, options?: NearestOptions): number[];
+  nearest(...question: NearestQuestion<D, NearestOptions>): number[];
   nearest(x: number, y: number, z: number, k?: unknown, options?: NearestOptions): number[] {
     const flat = this.width === 4;
     const most = flat ? z : k;

@@ -1,5 +1,6 @@
 // What every face of a space stands on: its kernel, the views of the kernel's memory, and what to do when that ends.
 // BroadPhase is a Space that takes boxes and gives pairs; Queries, in between, asks questions.
+import type { Dimensions } from './dimensions.ts';
 import { instantiate, type KernelExports } from './kernel.ts';
 
 /** A number of views kept, so that pair counts seen lately make no garbage. */
@@ -12,9 +13,9 @@ const ringBoxes = 512;
 const nowhere = 2 ** 30;
 
 /** One instance of the kernel. Users meet it as BroadPhase. */
-export abstract class Space {
+export abstract class Space<D extends Dimensions> {
   /** How many axes the boxes have, as the constructor was told. */
-  readonly dimensions: 2 | 3;
+  readonly dimensions: D;
 
   #own: KernelExports;
   /** Boxes that wait to be taken by the kernel, in its memory: of each its id, then its numbers. @internal */
@@ -34,7 +35,7 @@ export abstract class Space {
   readonly #stackTop: number;
   #io = new Float64Array();
 
-  constructor(dimensions: 2 | 3, wraps: boolean) {
+  constructor(dimensions: D, wraps: boolean) {
     this.dimensions = dimensions;
     this.wraps = wraps;
     this.width = 2 * dimensions;

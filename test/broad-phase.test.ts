@@ -5,7 +5,7 @@ import { createScene } from '../src/scenes/index.ts';
 import { keysOf } from './reference.ts';
 import { setBox } from './set-box.ts';
 
-const pairsOf = (space: BroadPhase) => Array.from(space.update().pairs);
+const pairsOf = (space: BroadPhase<2 | 3>) => Array.from(space.update().pairs);
 
 describe('a BroadPhase reads like a Map', () => {
   test('of boxes by id', () => {

@@ -36,8 +36,8 @@ const ascending = (numbers: Iterable<number>) => [...numbers].sort((a, b) => a -
 
 class Call implements fc.Command<Model, BroadPhase> {
   readonly #name: string;
-  readonly run: (model: Model, space: BroadPhase) => void;
-  constructor(name: string, run: (model: Model, space: BroadPhase) => void) {
+  readonly run: (model: Model, space: BroadPhase<2 | 3>) => void;
+  constructor(name: string, run: (model: Model, space: BroadPhase<2 | 3>) => void) {
     this.#name = name;
     this.run = run;
   }
@@ -61,7 +61,7 @@ function replace(model: Model, boxes: readonly number[][]): void {
   });
 }
 
-function update(model: Model, space: BroadPhase): void {
+function update(model: Model, space: BroadPhase<2 | 3>): void {
   expect(space.update()).toBe(space);
   const { dimensions } = space;
   const keys = pairsOf(model.entries, dimensions);
@@ -127,8 +127,8 @@ function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>
     ),
     dimensions,
   );
-  const call = (name: string, run: (model: Model, space: BroadPhase) => void) => new Call(name, run);
-  const on = (space: BroadPhase) => space as unknown as Loose;
+  const call = (name: string, run: (model: Model, space: BroadPhase<2 | 3>) => void) => new Call(name, run);
+  const on = (space: BroadPhase<2 | 3>) => space as unknown as Loose;
   const show = (values: readonly unknown[]) => values.map((value) => fc.stringify(value)).join(', ');
   const round = dimensions === 2 ? 'queryCircle' : 'querySphere';
   const rowOf = (model: Model, id: number) => [...model.view!.subarray(id * 2 * dimensions, (id + 1) * 2 * dimensions)];

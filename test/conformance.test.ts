@@ -46,7 +46,7 @@ const framesOfTrace = ({ name, recording }: (typeof traces)[number]): Frame[] =>
 
 const hostile = { 2: hostileCases(2), 3: hostileCases(3) };
 
-function setEach(space: BroadPhase, boxes: Numbers, idOf: (index: number) => number = (index) => index): void {
+function setEach(space: BroadPhase<2 | 3>, boxes: Numbers, idOf: (index: number) => number = (index) => index): void {
   const stride = 2 * space.dimensions;
   for (let at = 0; at < boxes.length; at += stride) {
     setBox(

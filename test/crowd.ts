@@ -7,8 +7,8 @@ import { createRandom } from '../src/scenes/random.ts';
 import { setBox } from './set-box.ts';
 
 export class Crowd {
-  readonly kept: BroadPhase;
-  readonly #fresh: BroadPhase;
+  readonly kept: BroadPhase<2 | 3>;
+  readonly #fresh: BroadPhase<2 | 3>;
   readonly #random: () => number;
   readonly #count: number;
   readonly #world: number;

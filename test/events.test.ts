@@ -12,7 +12,11 @@ const combinations = BroadPhase.techniques.flatMap((technique) =>
 );
 
 /** Compares the events of the last update with what the sets before and after say. */
-function expectEvents(space: BroadPhase, before: Float64Array, deleted: ReadonlySet<number> = new Set()): Float64Array {
+function expectEvents(
+  space: BroadPhase<2 | 3>,
+  before: Float64Array,
+  deleted: ReadonlySet<number> = new Set(),
+): Float64Array {
   const now = keysOf(space.pairs);
   const stood = (key: number) => !pairOf(key).some((id) => deleted.has(id));
   const stayed = new Set(before.filter(stood));
@@ -122,7 +126,7 @@ test.each(traceNames)('follows the recorded %s', (name) => {
 });
 
 describe('a box that is deleted', () => {
-  const events = (space: BroadPhase) => [Array.from(space.update().began), Array.from(space.ended)];
+  const events = (space: BroadPhase<2 | 3>) => [Array.from(space.update().began), Array.from(space.ended)];
   const three = () => new BroadPhase({ events: true }).setAll([0, 0, 2, 2, 1, 1, 3, 3, 1, 1, 3, 3]);
 
   test('ends its pairs', () => {
@@ -147,7 +151,10 @@ describe('a box that is deleted', () => {
   });
 
   test('by setAll, boxes or clear is deleted all the same', () => {
-    for (const remove of [(space: BroadPhase) => space.setAll([]), (space: BroadPhase) => space.boxes(0)]) {
+    for (const remove of [
+      (space: BroadPhase<2 | 3>) => space.setAll([]),
+      (space: BroadPhase<2 | 3>) => space.boxes(0),
+    ]) {
       const space = three().update();
       remove(space);
       space.setAll([0, 0, 2, 2, 1, 1, 3, 3]);

@@ -96,7 +96,7 @@ test.each(traceNames)('the recorded %s in four teams, some of it static', (name)
 });
 
 describe('a filter belongs to the id', () => {
-  const pairs = (space: BroadPhase) => Array.from(space.update().pairs);
+  const pairs = (space: BroadPhase<2 | 3>) => Array.from(space.update().pairs);
 
   test('and stays whatever way the box moves', () => {
     const space = new BroadPhase()

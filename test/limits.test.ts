@@ -213,7 +213,7 @@ describe('views of memory', () => {
   beforeAll(() => init(kernelWith(1024 * mebibyte)));
 
   /** Fills boxes so that the pairs of the next update need more memory than there is yet. */
-  function crowd(space: BroadPhase, count = 3000) {
+  function crowd(space: BroadPhase<2 | 3>, count = 3000) {
     space.boxes(count).set(identical(count, space.dimensions));
     space.update();
   }
@@ -272,7 +272,7 @@ describe('views of memory', () => {
     expect(space.update().pairCount).toBe((3000 * 2999) / 2);
   });
 
-  test.each<[string, (space: BroadPhase) => unknown]>([
+  test.each<[string, (space: BroadPhase<2 | 3>) => unknown]>([
     ['set', (space) => space.set(0, 0, 0, 9, 9)],
     ['setAll', (space) => space.setAll(identical(3000, 2))],
     ['delete', (space) => space.delete(0)],
@@ -301,7 +301,7 @@ describe('views of memory', () => {
   test.each([2, 3] as const)(
     'of pairs stay while a few boxes are added and questions asked, in %d dimensions',
     (dimensions) => {
-      const calls: ((space: BroadPhase, count: number) => unknown)[] = [
+      const calls: ((space: BroadPhase<2 | 3>, count: number) => unknown)[] = [
         (space, count) => setBox(space, count, Array(2 * dimensions).fill(count)),
         (space, count) => setBox(space, 2 * count + 1, Array(2 * dimensions).fill(0.1)),
         (space, count) => space.setFilter(count - 1, 1, 2),

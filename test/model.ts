@@ -30,7 +30,7 @@ export const touches = (box: readonly number[], entry: Entry): boolean => overla
 
 /** A space with its model. `step` makes one random call; `update` does not belong to the calls. */
 export class Modelled {
-  readonly space: BroadPhase;
+  readonly space: BroadPhase<2 | 3>;
   readonly entries = new Map<number, Entry>();
   readonly random: () => number;
   /** Ids that were deleted, by whatever call, since this was last cleared. */
@@ -39,7 +39,7 @@ export class Modelled {
   readonly #ids: number;
   readonly #place: (random: () => number) => number;
 
-  constructor(options: BroadPhaseOptions, seed: number, place = anyPlace, world = 60, ids = 80) {
+  constructor(options: BroadPhaseOptions<2 | 3>, seed: number, place = anyPlace, world = 60, ids = 80) {
     this.space = new BroadPhase(options);
     this.random = createRandom(seed);
     this.#world = world;

@@ -15,7 +15,7 @@ type Model = Map<number, number[]>;
 
 interface Call {
   /** Does it to the spaces and to the model. */
-  run(spaces: readonly BroadPhase[], model: Model, check: () => void): void;
+  run(spaces: readonly BroadPhase<2 | 3>[], model: Model, check: () => void): void;
   toString(): string;
 }
 
@@ -127,7 +127,7 @@ function aCall(dimensions: 2 | 3): fc.Arbitrary<Call> {
 }
 
 /** Whether a space gives a box back as it was given, minus zero included. */
-function holds(space: BroadPhase, id: number, box: readonly number[]): boolean {
+function holds(space: BroadPhase<2 | 3>, id: number, box: readonly number[]): boolean {
   const held = space.get(id);
   return held !== undefined && box.every((value, k) => Object.is(held[k], value));
 }

@@ -12,12 +12,12 @@ const ascending = (ids: readonly number[]) => ids.toSorted((a, b) => a - b);
 
 /** Asks a space every question there is, at random places, and compares. */
 class Asker {
-  readonly #space: BroadPhase;
+  readonly #space: BroadPhase<2 | 3>;
   readonly #ask: Loose;
   readonly #random: () => number;
   readonly #world: number;
 
-  constructor(space: BroadPhase, random: () => number, world: number) {
+  constructor(space: BroadPhase<2 | 3>, random: () => number, world: number) {
     this.#space = space;
     this.#ask = space as unknown as Loose;
     this.#random = random;

@@ -6,7 +6,7 @@ import { keysOf } from './reference.ts';
 import { setBox } from './set-box.ts';
 
 /** Who may be the first to read a box after it was set. */
-const readers: Record<string, (space: BroadPhase, id: number) => Iterable<number>> = {
+const readers: Record<string, (space: BroadPhase<2 | 3>, id: number) => Iterable<number>> = {
   get: (space, id) => space.get(id)!,
   'get after another was deleted': (space, id) => {
     space.delete(id === 0 ? 1 : 0);

@@ -63,7 +63,7 @@ class Game {
   readonly counts = { pairs: 0, began: 0, ended: 0, given: 0, restarts: 0, borders: 0 };
   readonly boxes = new Map<number, number[]>();
   readonly #owner = new Map<number, number>();
-  readonly #whole: BroadPhase;
+  readonly #whole: BroadPhase<2 | 3>;
   readonly #random: Random;
   readonly #world: World;
   #zones: Zones;
@@ -77,7 +77,7 @@ class Game {
     this.#shards = Array.from({ length: this.#zones.count }, (_, zone) => new Shard(this.#zones, zone, this.#space()));
   }
 
-  #space(): BroadPhase {
+  #space(): BroadPhase<2 | 3> {
     const { dimensions, wraps, size } = this.#world;
     return new BroadPhase({ dimensions, events: true, ...(wraps ? { wrap: Array(dimensions).fill(size) } : {}) });
   }

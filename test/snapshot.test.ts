@@ -17,7 +17,7 @@ const combinations = BroadPhase.techniques.flatMap((technique) =>
 );
 
 /** Returns the space where it was updated. */
-type Call = (space: BroadPhase) => unknown;
+type Call = (space: BroadPhase<2 | 3>) => unknown;
 
 /** Calls that are the same on whatever space they are made. Every few of them it is updated. */
 function randomCalls(count: number, dimensions: 2 | 3, seed: number): Call[] {
@@ -76,7 +76,7 @@ function randomCalls(count: number, dimensions: 2 | 3, seed: number): Call[] {
 }
 
 /** Makes calls and notes what there is after each update: how many numbers, then these. */
-function play(space: BroadPhase, calls: readonly Call[]): Uint32Array {
+function play(space: BroadPhase<2 | 3>, calls: readonly Call[]): Uint32Array {
   const seen: number[] = [];
   for (const call of calls) {
     if (call(space) !== space) continue;
@@ -181,7 +181,7 @@ test('pairs and answers stay those of the last update until the next', () => {
 });
 
 describe('events after a restore', () => {
-  const events = (space: BroadPhase) => [Array.from(space.began), Array.from(space.ended)];
+  const events = (space: BroadPhase<2 | 3>) => [Array.from(space.began), Array.from(space.ended)];
 
   test('are against the pairs of the snapshot, and come again as they came', () => {
     const space = new BroadPhase({ events: true }).set(1, 0, 0, 2, 2).set(2, 1, 1, 3, 3).update();
@@ -241,7 +241,7 @@ function sealed(bytes: Uint8Array): Uint8Array {
 
 describe('bytes that are no snapshot leave the space as it was', () => {
   /** Everything that a snapshot can hold. */
-  function full(dimensions: 2 | 3): BroadPhase {
+  function full(dimensions: 2 | 3): BroadPhase<2 | 3> {
     const modelled = new Modelled({ dimensions, events: true }, 5);
     for (let id = 0; id < 30; id++) modelled.set(id * 3);
     for (let id = 0; id < 30; id += 4) modelled.filter(id * 3, 1, 3);
@@ -250,7 +250,7 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     modelled.delete(9);
     return modelled.space;
   }
-  const refused = (space: BroadPhase, bytes: unknown, reason: RegExp | string, kind = RangeError) => {
+  const refused = (space: BroadPhase<2 | 3>, bytes: unknown, reason: RegExp | string, kind = RangeError) => {
     const before = space.snapshot();
     const restore = () => space.restore(bytes as Uint8Array);
     expect(restore).toThrow(kind);

@@ -7,7 +7,7 @@ import { ahead } from './query-reference.ts';
 import { referencePairs } from './reference.ts';
 
 type SetSwept = (...given: unknown[]) => BroadPhase;
-const setSwept = (space: BroadPhase, ...given: unknown[]) => (space.setSwept as SetSwept).call(space, ...given);
+const setSwept = (space: BroadPhase<2 | 3>, ...given: unknown[]) => (space.setSwept as SetSwept).call(space, ...given);
 
 describe.each(
   BroadPhase.techniques.flatMap((technique) => ([2, 3] as const).map((dimensions) => [technique, dimensions] as const)),

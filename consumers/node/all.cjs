@@ -2,6 +2,8 @@
 const { readFileSync } = require('node:fs');
 const library = require('broadphase');
 require('broadphase/all');
+require('broadphase/2d');
+require('broadphase/3d');
 require('broadphase/ro');
 require('broadphase/shard');
 require('broadphase/trace');

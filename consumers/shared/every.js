@@ -1,5 +1,7 @@
 // What every consumer does: uses each entry of the package, and says what came out.
 import { BroadPhase, findPairs, init } from 'broadphase';
+import { BroadPhase as FlatBroadPhase } from 'broadphase/2d';
+import { findPairs as findPairsInSpace } from 'broadphase/3d';
 import { BroadPhase as FullBroadPhase } from 'broadphase/all';
 import { coltech, Entity, World } from 'broadphase/ro';
 import { Shard, Zones } from 'broadphase/shard';
@@ -30,6 +32,8 @@ export async function every(kernel) {
   return [
     `index ${lean.pairs}`,
     `findPairs ${findPairs([0, 0, 10, 10, 5, 5, 15, 15])}`,
+    `2d ${fill(new FlatBroadPhase()).pairs}`,
+    `3d ${findPairsInSpace([0, 0, 0, 1, 1, 1, 1, 1, 1, 2, 2, 2])}`,
     `all ${full.pairs}`,
     `ro ${world.broadPhase.queryForCollisionPairs().length} pair`,
     `shard ${cut.join(' | ')}`,

@@ -7,11 +7,16 @@ export interface Body {
 }
 
 export function moveAndSlide(
-  space: BroadPhase,
+  space: BroadPhase<2 | 3>,
   body: Body,
   way: ArrayLike<number>,
   options?: SweepOptions,
   met?: number[],
 ): number[];
 
-export function moveAndBounce(space: BroadPhase, body: Body, velocity: number[], options?: SweepOptions): boolean;
+export function moveAndBounce(
+  space: BroadPhase<2 | 3>,
+  body: Body,
+  velocity: number[],
+  options?: SweepOptions,
+): boolean;

@@ -24,7 +24,7 @@ const costPasses = 3;
 
 export class Engine implements Record<keyof Requests, unknown> {
   #feed: Feed | undefined;
-  #space = new BroadPhase();
+  #space: BroadPhase<2 | 3> = new BroadPhase();
   #setup: Setup = { technique: 'auto', cellSize: undefined };
   /** Whether the pairs are not those of the frame at hand. */
   #stale = true;
@@ -170,17 +170,17 @@ export class Engine implements Record<keyof Requests, unknown> {
     return this.#feed;
   }
 
-  #use(space: BroadPhase): void {
+  #use(space: BroadPhase<2 | 3>): void {
     this.#space.dispose();
     this.#space = space;
     this.#stale = this.#fresh = true;
     this.#heatAt = -Infinity;
   }
 
-  #makeSpace({ technique, cellSize }: Setup, feed = this.#feed): BroadPhase {
+  #makeSpace({ technique, cellSize }: Setup, feed = this.#feed): BroadPhase<2 | 3> {
     const { dimensions = 2, frame } = feed ?? {};
     const options = { dimensions, technique, cellSize, wrap: frame?.wrap };
-    return new BroadPhase(options as BroadPhaseOptions); // what is undefined is as if it were not there
+    return new BroadPhase(options as BroadPhaseOptions<2 | 3>); // what is undefined is as if it were not there
   }
 
   /** Keeps the frame at hand, as the one before the next: in the same array, while it fits. */

@@ -7,7 +7,7 @@ import type { Pen } from './pen.ts';
 
 /** What a question works with. */
 export interface Desk {
-  readonly space: BroadPhase;
+  readonly space: BroadPhase<2 | 3>;
   readonly boxes: Float32Array;
   /** The colour slot of every box. */
   readonly slots: Uint8Array;
@@ -334,7 +334,7 @@ const masks = [7, 7, 7];
 const maskOf = (layer: number) => masks[layer];
 
 /** Gives every box its layer, and the layers that it meets. */
-export function setLayers(space: BroadPhase, count: number, meets: readonly number[]): void {
+export function setLayers(space: BroadPhase<2 | 3>, count: number, meets: readonly number[]): void {
   for (let layer = 0; layer < 3; layer++) masks[layer] = meets[layer];
   for (let id = 0; id < count; id++) space.setFilter(id, 1 << (id % 3), masks[id % 3]);
 }

@@ -19,12 +19,12 @@ export class Figure {
   readonly loop: FrameLoop;
   readonly renderer: BoxRenderer;
   scene: LiveScene | undefined;
-  readonly #space: BroadPhase;
+  readonly #space: BroadPhase<2 | 3>;
   readonly #canvas: HTMLCanvasElement;
   #drawAgain = 0;
 
   /** view holds the canvas and takes the pointer and the keys. */
-  constructor(view: HTMLElement, space: BroadPhase, kind?: RendererKind) {
+  constructor(view: HTMLElement, space: BroadPhase<2 | 3>, kind?: RendererKind) {
     this.#canvas = view.querySelector('canvas')!;
     this.#space = space;
     this.renderer = createRenderer(this.#canvas, this.redraw, kind);

@@ -73,7 +73,7 @@ export class Shard {
   /** Which zone this is. */
   readonly zone: number;
   /** What the zone sees, for queries and filters. Only the shard sets and deletes its boxes, and updates it. */
-  readonly space: BroadPhase;
+  readonly space: BroadPhase<2 | 3>;
   /** Ids that other zones own since the last exchange. */
   readonly given: number[] = [];
   /** Ids that this zone owns since the last update. */
@@ -102,7 +102,7 @@ export class Shard {
    * @example
    * new Shard(new Zones({ borders: { x: [0] } }), 2, new BroadPhase({ events: true })); // throws RangeError: zone: got 2
    */
-  constructor(zones: Zones, zone: number, space: BroadPhase, options: ShardOptions = {}) {
+  constructor(zones: Zones, zone: number, space: BroadPhase<2 | 3>, options: ShardOptions = {}) {
     if (!(Number.isInteger(zone) && zone >= 0 && zone < zones.count)) {
       badValue('zone', zone, `an integer from 0 to ${zones.count - 1}`);
     }

@@ -42,14 +42,14 @@ export class Recording {
    * game goes on, and frames from then on are not recorded.
    */
   fault: unknown;
-  #space: BroadPhase | undefined;
+  #space: BroadPhase<2 | 3> | undefined;
   readonly #writer: TraceWriter;
   readonly #sink: Sink;
   #byteLength = 0;
   #stopped: Promise<void> | undefined;
 
   /** Begins at once: see {@link record}. */
-  constructor(space: BroadPhase, options: RecordOptions = {}) {
+  constructor(space: BroadPhase<2 | 3>, options: RecordOptions = {}) {
     if (typeof space?.[watch] !== 'function') badValue('record', space, 'a BroadPhase', true);
     checkOptions('record', options, ['to']);
     this.#sink = openSink(options.to, (error) => this.#fail(error));
@@ -191,7 +191,7 @@ export class Recording {
  * await recording.stop();
  * openTrace(recording.bytes()).frames; // → 60
  */
-export function record(space: BroadPhase, options?: RecordOptions): Recording {
+export function record(space: BroadPhase<2 | 3>, options?: RecordOptions): Recording {
   return new Recording(space, options);
 }
 

@@ -11,7 +11,7 @@ interface Applied {
   rules: Uint32Array | undefined;
 }
 
-const applied = new WeakMap<BroadPhase, Applied>();
+const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
 
 /**
  * Puts the boxes of a frame into a space in place of all others, in the order they had when they were recorded, so
@@ -29,7 +29,7 @@ const applied = new WeakMap<BroadPhase, Applied>();
  * }
  * copy.pairs; // → Uint32Array [7, 9]
  */
-export function applyFrame(space: BroadPhase, frame: Frame): void {
+export function applyFrame(space: BroadPhase<2 | 3>, frame: Frame): void {
   const { ids, boxes, count } = frame;
   let before = applied.get(space);
   // Boxes with ids of their own stand in the order in which they were set, so that other ids begin anew.
@@ -52,7 +52,7 @@ export function applyFrame(space: BroadPhase, frame: Frame): void {
   before.count = count;
 }
 
-function applyRules(space: BroadPhase, { ids, rules, count }: Frame, before: Applied): void {
+function applyRules(space: BroadPhase<2 | 3>, { ids, rules, count }: Frame, before: Applied): void {
   const were = before.rules;
   const had = were ? Math.min(before.count, count) : 0;
   let changed = before.count !== count;
@@ -143,7 +143,7 @@ const warmUpTime = 30;
 const warmUpUpdates = 50;
 
 /** Empties a space, and makes techniques that keep their structure let go of it. */
-function startOver(space: BroadPhase): void {
+function startOver(space: BroadPhase<2 | 3>): void {
   applied.delete(space);
   space.clear();
   space.update();
@@ -153,7 +153,7 @@ function startOver(space: BroadPhase): void {
  * Readies a space for a first frame, whose update then starts from nothing.
  * @param cold whether the space has not run yet: it then plays the frame a few times
  */
-export function begin(space: BroadPhase, frame: Frame, cold: boolean): void {
+export function begin(space: BroadPhase<2 | 3>, frame: Frame, cold: boolean): void {
   const begun = performance.now();
   for (let k = 0; cold && k < warmUpUpdates && performance.now() - begun < warmUpTime; k++) {
     startOver(space);
@@ -167,7 +167,7 @@ export function begin(space: BroadPhase, frame: Frame, cold: boolean): void {
  * Plays one frame and gives the milliseconds of its update. What stood in the space before must be the frame before
  * it: a technique that keeps its structure has nothing to do where nothing moved, and much where all did.
  */
-export function timeUpdate(space: BroadPhase, frame: Frame): number {
+export function timeUpdate(space: BroadPhase<2 | 3>, frame: Frame): number {
   applyFrame(space, frame);
   const started = performance.now();
   space.update();

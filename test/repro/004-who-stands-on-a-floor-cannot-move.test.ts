@@ -129,7 +129,7 @@ describe('a ray from a touch', () => {
 });
 
 /** Walls around a room, and tiles of its floor (the second axis points down) and of its walls, in any order of ids. */
-function room(space: BroadPhase, least: number, size: number, tile: number, round: (x: number) => number): void {
+function room(space: BroadPhase<2 | 3>, least: number, size: number, tile: number, round: (x: number) => number): void {
   const { dimensions } = space;
   const boxes: number[][] = [];
   const slab = (axis: number, from: number, to: number) => {

@@ -6,7 +6,7 @@ import { describe, expect, test } from 'vitest';
 
 type Loose = Record<string, (...given: unknown[]) => unknown>;
 const space = () => new BroadPhase().set(7, 10, 0, 20, 10).update();
-const ask = (mine = space()) => mine as unknown as Loose;
+const ask = (mine: BroadPhase<2 | 3> = space()) => mine as unknown as Loose;
 
 describe('an option that there is not', () => {
   test.each<[() => unknown, string]>([

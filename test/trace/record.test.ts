@@ -10,7 +10,7 @@ import { concat } from './arbitrary.ts';
 
 const numRuns = runs(100);
 
-type Call = (space: BroadPhase) => void;
+type Call = (space: BroadPhase<2 | 3>) => void;
 
 function aCall(dimensions: 2 | 3): fc.Arbitrary<Call> {
   const side = fc.oneof(fc.integer({ min: -9, max: 9 }), fc.double({ min: -9, max: 9, noNaN: true }));
@@ -114,7 +114,7 @@ describe.each([2, 3] as const)(`a recording in ${'%d'} dimensions (SEED=${seed})
   });
 });
 
-const moving = (space: BroadPhase, recorded: () => number) => {
+const moving = (space: BroadPhase<2 | 3>, recorded: () => number) => {
   for (let k = 0; k < 10; k++)
     space
       .set(1, k, 0, k + 1, 1)

@@ -1,0 +1,31 @@
+/**
+ * The types of `broadphase/all`: those of `broadphase`, and the names of all techniques. What runs is the same source
+ * with another kernel, so nothing here does.
+ *
+ * @module broadphase/all
+ */
+import {
+  type Boxes,
+  type ConstructorOptions,
+  type Dimensions,
+  BroadPhase as Lean,
+  type BroadPhaseOptions as Options,
+  type TechniqueName,
+} from './index.ts';
+
+export * from './index.ts';
+
+/** Options of {@link BroadPhase}, all optional. */
+export interface BroadPhaseOptions<D extends Dimensions = 2> extends Options<D, TechniqueName> {}
+
+/** As in `broadphase`, with every technique. */
+export declare class BroadPhase<D extends Dimensions = 2> extends Lean<D> {
+  constructor(...options: ConstructorOptions<D, TechniqueName>);
+  override get technique(): TechniqueName;
+  override set technique(name: TechniqueName);
+}
+
+/** As in `broadphase`, with every technique. */
+export declare function findPairs(boxes: Boxes, options?: BroadPhaseOptions<Dimensions>): Uint32Array;
+/** As in `broadphase`, with every technique. */
+export declare function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOptions<Dimensions>): Uint32Array;

@@ -1,0 +1,54 @@
+// The types that depend on how many axes a space has: a box of four numbers in a 3D space is an error when compiled.
+
+/** How many axes boxes have. */
+export type Dimensions = 2 | 3;
+
+/** The numbers of a box: minima, then maxima. */
+export type Box<D extends Dimensions> = D extends 2
+  ? [minX: number, minY: number, maxX: number, maxY: number]
+  : [minX: number, minY: number, minZ: number, maxX: number, maxY: number, maxZ: number];
+
+/** An id and the numbers of its box. */
+export type BoxOfId<D extends Dimensions> = D extends 2 ? [id: number, ...Box<2>] : [id: number, ...Box<3>];
+
+/** The numbers of a box and how far it moves along each axis. */
+export type MovingBox<D extends Dimensions> = D extends 2
+  ? [...Box<2>, dx: number, dy: number]
+  : [...Box<3>, dx: number, dy: number, dz: number];
+
+/** An id, the numbers of its box, and how far it moves along each axis. */
+export type MovingBoxOfId<D extends Dimensions> = D extends 2
+  ? [id: number, ...MovingBox<2>]
+  : [id: number, ...MovingBox<3>];
+
+/** The coordinates of a point. */
+export type Point<D extends Dimensions> = D extends 2 ? [x: number, y: number] : [x: number, y: number, z: number];
+
+/** Where a ray begins and where it points. */
+export type Ray<D extends Dimensions> = D extends 2
+  ? [...Point<2>, directionX: number, directionY: number]
+  : [...Point<3>, directionX: number, directionY: number, directionZ: number];
+
+/** What `queryBox` asks about: a box, and options. */
+export type BoxQuestion<D extends Dimensions, Options> = D extends 2
+  ? [...Box<2>, options?: Options]
+  : [...Box<3>, options?: Options];
+/** What `queryPoint` asks about: a point, and options. */
+export type PointQuestion<D extends Dimensions, Options> = D extends 2
+  ? [...Point<2>, options?: Options]
+  : [...Point<3>, options?: Options];
+/** What `rayCast` and `rayCastAll` ask about: a ray, and options. */
+export type RayQuestion<D extends Dimensions, Options> = D extends 2
+  ? [...Ray<2>, options?: Options]
+  : [...Ray<3>, options?: Options];
+/** What `sweep` asks about: a box that moves, and options. */
+export type SweepQuestion<D extends Dimensions, Options> = D extends 2
+  ? [...MovingBox<2>, options?: Options]
+  : [...MovingBox<3>, options?: Options];
+/** What `nearest` asks about: a point, how many boxes, and options. */
+export type NearestQuestion<D extends Dimensions, Options> = D extends 2
+  ? [...Point<2>, k: number, options?: Options]
+  : [...Point<3>, k: number, options?: Options];
+
+/** What `queryCircle` and `querySphere` ask about: a centre, a radius, and options. */
+export type RoundQuestion<D extends Dimensions, Options> = [...Point<D>, radius: number, options?: Options];
