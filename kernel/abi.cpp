@@ -208,7 +208,7 @@ EXPORT(ask_area)(u32 mask, u32 ignored, u32 from, u32 most) -> u32 {
   return with_space([&](auto& space) {
     read_question(space.question, mask, ignored);
     u32 count = space.ask_area(from, most);
-    io[0] = count < most ? -1 : f64(from);
+    io[0] = count < most || count == space.unknown ? -1 : f64(from);
     return count;
   });
 }

@@ -9,6 +9,9 @@
 
 /// In the pairs of a snapshot: the box of the smaller or of the larger id was deleted since they were found.
 inline constexpr u64 smaller_gone = u64(1) << 31, larger_gone = u64(1) << 63;
+/// That it began with that update; or that it ended with it, and is no pair any more: those come behind the others.
+inline constexpr u64 has_begun = u64(1) << 30, has_ended = u64(1) << 62;
+inline constexpr u64 pair_marks = smaller_gone | larger_gone | has_begun | has_ended;
 
 class Events {
   Pairs before_;       // of the last update
@@ -37,26 +40,37 @@ class Events {
   }
 
   /// The pairs of the last update, and which of their boxes were deleted since, for a snapshot.
-  u64 count() const { return before_.count; }
+  u64 count() const { return before_.count + ended.count; }
   COLD void save(u64* to) const {
+    u64 next = 0;  // of those that began, which are in the same order
+    for (u64 p = 0; p < ended.count; p++) to[before_.count + p] = ended.list[p] | has_ended;
     for (u64 p = 0; p < before_.count; p++) {
       u64 pair = before_.list[p];
-      to[p] = pair | (is_gone(u32(pair)) ? smaller_gone : 0) | (is_gone(u32(pair >> 32)) ? larger_gone : 0);
+      bool fresh = next < began.count && began.list[next] == pair;
+      next += fresh;
+      to[p] = pair | (fresh ? has_begun : 0) | (is_gone(u32(pair)) ? smaller_gone : 0) | (is_gone(u32(pair >> 32)) ? larger_gone : 0);
     }
   }
 
   /// Room to restore so many pairs, whose ids are all below this one.
   COLD void stage(u64 pairs, u32 ids) {
     before_.list.grow(larger(pairs, u64(1)), before_.count);
+    began.list.grow(larger(pairs, u64(1)), began.count);
+    ended.list.grow(larger(pairs, u64(1)), ended.count);
     make_room(ids);
   }
   COLD void restore(const u64* from, u64 count) {
     if (any_gone_) __builtin_memset(gone_.data(), 0, gone_words_ * sizeof(u32));
     any_gone_ = false;
-    before_.count = count;
+    before_.count = began.count = ended.count = 0;
     for (u64 p = 0; p < count; p++) {
-      u64 pair = from[p] & ~(smaller_gone | larger_gone);
-      before_.list[p] = pair;
+      u64 pair = from[p] & ~pair_marks;
+      if (from[p] & has_ended) {
+        ended.list[ended.count++] = pair;
+        continue;
+      }
+      before_.list[before_.count++] = pair;
+      if (from[p] & has_begun) began.list[began.count++] = pair;
       if (from[p] & smaller_gone) forget(u32(pair));
       if (from[p] & larger_gone) forget(u32(pair >> 32));
     }

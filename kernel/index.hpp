@@ -2,8 +2,11 @@
 // Idea: boxes in the order of their centres along the Hilbert curve, eight to a block, and blocks of eight blocks above them, to one root:
 // an R-tree without pointers. A block is read as vectors, eight boxes at a time. The order is laid over the extents
 // without outliers, so that one far box does not spoil it.
-// Cost: about 27 (2D) or 30 (3D) ns a box to build, at the first question after an update; 24 (2D) or 34 (3D) bytes a box, and as
-// much as the boxes themselves for the copy that keeps answers to what the update saw.
+// Where an update knows which few boxes changed, the index follows: a box that stays within the bounds of its block is
+// written there, and one that leaves them, or is new, goes to the spare blocks behind the others. What it left is a
+// hole. When no place is spare any more, the next question builds anew.
+// Cost: about 27 (2D) or 30 (3D) ns a box to build; 0.1 us for each box that is followed; 28 (2D) or 38 (3D) bytes a box, and
+// as much as the boxes themselves for the copy that keeps answers to what the update saw.
 // From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993.
 #pragma once
 #include "curve_order.hpp"
@@ -12,7 +15,8 @@
 
 template <int D> class Index {
   static constexpr u32 width = 2 * D;
-  static constexpr u32 most_levels = 8;  // 8^8 boxes
+  static constexpr u32 most_levels = 9;  // 8^8 boxes, and spare places
+  static constexpr u32 nowhere = 0xffffffff;
   static constexpr f32 nothing = __builtin_nanf("");
 
   // As the update saw them, by slot.
@@ -26,6 +30,9 @@ template <int D> class Index {
   bool built_ = false;
   Buffer<u32> slots_;       // per place in the order
   Buffer<u32> placed_ids_;  // the same, while `named_`
+  Buffer<u32> places_;      // per slot, its place
+  u32 sorted_ = 0, used_ = 0, room_ = 0;  // places of boxes in order; and with those behind; and with those to come
+  bool holes_ = false;
   RadixSort sort_;
 
  public:
@@ -41,6 +48,9 @@ template <int D> class Index {
 
  public:
   u32 count() const { return count_; }
+  /// Places that may hold boxes, and whether some hold none.
+  u32 places() const { return used_; }
+  bool holes() const { return holes_; }
   /// The level of the root, which is one block; level 0 are the boxes.
   u32 top() const { return levels_ - 1; }
   const Block& block(u32 level, u32 number) const { return blocks_[first_[level] + number]; }
@@ -87,38 +97,70 @@ template <int D> class Index {
     count_ = n;
   }
 
+  /// Takes over the slots that have changed, of which new ones are some: false where all has to be seen anew.
+  COLD bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const u32* slots, u32 many) {
+    if (rounded_ != (exact != nullptr) || named_ != !ids.same() || filtered_ != (rules != nullptr)) return false;
+    u32 n = ids.count(), had = count_;
+    boxes_.grow(u64(n) * width + 4, u64(had) * width);
+    if (rounded_) exact_.grow(u64(n) * width, u64(had) * width);
+    if (named_) ids_.grow(n, had);
+    if (filtered_) rules_.grow(n, had);
+    if (built_) {
+      places_.grow(larger(n, 1u), had);
+      for (u32 s = n; s < had; s++) vacate(places_[s]);
+      for (u32 s = had; s < n; s++) places_[s] = nowhere;
+    }
+    count_ = n;
+    for (u32 k = 0; k < many; k++) {
+      u32 s = slots[k];
+      if (s >= n) continue;
+      if (rounded_) {
+        __builtin_memcpy(&exact_[u64(s) * width], exact + u64(s) * width, width * sizeof(f64));
+        round_outward<D>(exact + u64(s) * width, &boxes_[u64(s) * width]);
+      } else {
+        __builtin_memcpy(&boxes_[u64(s) * width], boxes + u64(s) * width, width * sizeof(f32));
+      }
+      if (named_) ids_[s] = ids.id(s);
+      if (filtered_) rules_[s] = rules[s];
+      if (built_) move(s);
+    }
+    return true;
+  }
+
   /// Makes the index, if it is not.
   SHARED void build() {
     if (built_) return;
+    sorted_ = used_ = count_;
+    room_ = count_ + count_ / 32 + 64;
+    holes_ = false;
     put_in_order();
     u32 total = 0;
     levels_ = 0;
-    for (u32 n = count_;; n = (n + 7) / 8) {
+    for (u32 n = room_;; n = (n + 7) / 8) {
       first_[levels_++] = total;
       total += (n + 7) / 8;
       if (n <= 8) break;
     }
     blocks_.reserve(total);
+    __builtin_memset(&blocks_[count_ / 8], 0xff, (first_[1] - count_ / 8) * sizeof(Block));
     fill();
     for (u32 level = 1; level < levels_; level++) {
       u32 below = first_[level] - first_[level - 1];
       __builtin_memset(&blocks_[first_[level] + (below - 1) / 8], 0xff, sizeof(Block));
-      for (u32 k = 0; k < below; k++) {
-        const Block& from = block(level - 1, k);
-        Block& to = blocks_[first_[level] + k / 8];
-        for (int a = 0; a < D; a++) {
-          // The first is never NaN, and stands wherever there is none.
-          f32x4 lo = splat(from.lo[a][0]), hi = splat(from.hi[a][0]);
-          for (u32 half = 0; half < 8; half += 4) {
-            lo = min(load<f32x4>(from.lo[a] + half), lo);
-            hi = max(load<f32x4>(from.hi[a] + half), hi);
-          }
-          to.lo[a][k % 8] = smaller(smaller(lo[0], lo[1]), smaller(lo[2], lo[3]));
-          to.hi[a][k % 8] = larger(larger(hi[0], hi[1]), larger(hi[2], hi[3]));
-        }
-      }
+      for (u32 k = 0; k < below; k++) bound(level, k);
     }
+    for (u32 place = 0; place < count_; place++) places_[slots_[place]] = place;
     built_ = true;
+  }
+
+  /// After memory has run out: what was seen stays, what was made of it goes.
+  COLD void forget() {
+    slots_.release();
+    placed_ids_.release();
+    places_.release();
+    sort_.release();
+    blocks_.release();
+    built_ = false;
   }
 
   COLD void release() {
@@ -128,6 +170,7 @@ template <int D> class Index {
     rules_.release();
     slots_.release();
     placed_ids_.release();
+    places_.release();
     sort_.release();
     blocks_.release();
     count_ = 0;
@@ -135,6 +178,76 @@ template <int D> class Index {
   }
 
  private:
+  /// Bounds of the k-th block of the level below, where it stands in its own. Of nothing they are nothing.
+  void bound(u32 level, u32 k) {
+    const Block& from = block(level - 1, k);
+    Block& to = blocks_[first_[level] + k / 8];
+    for (int a = 0; a < D; a++) {
+      f32x4 lo = splat(__builtin_inff()), hi = -lo;
+      for (u32 half = 0; half < 8; half += 4) {
+        lo = min(load<f32x4>(from.lo[a] + half), lo);  // what is not a number does not count
+        hi = max(load<f32x4>(from.hi[a] + half), hi);
+      }
+      f32 least = smaller(smaller(lo[0], lo[1]), smaller(lo[2], lo[3]));
+      f32 most = larger(larger(hi[0], hi[1]), larger(hi[2], hi[3]));
+      bool some = least <= most;
+      to.lo[a][k % 8] = some ? least : nothing;
+      to.hi[a][k % 8] = some ? most : nothing;
+    }
+  }
+
+  /// Bounds of all blocks above a place.
+  void bound_above(u32 place) {
+    for (u32 level = 1; level < levels_; level++) bound(level, place >> (3 * level));
+  }
+
+  void vacate(u32 place) {
+    if (place == nowhere) return;
+    Block& block = blocks_[place / 8];
+    for (int a = 0; a < D; a++) block.lo[a][place % 8] = block.hi[a][place % 8] = nothing;
+    holes_ = true;
+  }
+
+  void write(u32 slot, u32 place) {
+    Block& block = blocks_[place / 8];
+    for (int a = 0; a < D; a++) {
+      block.lo[a][place % 8] = boxes_[u64(slot) * width + a];
+      block.hi[a][place % 8] = boxes_[u64(slot) * width + D + a];
+    }
+    slots_[place] = slot;
+    if (named_) placed_ids_[place] = ids_[slot];
+    places_[slot] = place;
+  }
+
+  /// Whether a box is within the bounds of the block in which this place is.
+  bool within_block(u32 slot, u32 place) const {
+    const Block& above = block(1, place >> 6);
+    u32 lane = place >> 3 & 7;
+    bool within = true;
+    for (int a = 0; a < D; a++) {
+      within &= above.lo[a][lane] <= boxes_[u64(slot) * width + a];
+      within &= boxes_[u64(slot) * width + D + a] <= above.hi[a][lane];
+    }
+    return within;
+  }
+
+  /// Puts a box where it is found: in its place, or behind the others.
+  COLD void move(u32 slot) {
+    u32 place = places_[slot];
+    if (place != nowhere && (place >= sorted_ || within_block(slot, place))) {
+      write(slot, place);
+      if (place >= sorted_) bound_above(place);
+      return;
+    }
+    if (used_ == room_) {
+      built_ = false;
+      return;
+    }
+    vacate(place);
+    write(slot, used_);
+    bound_above(used_++);
+  }
+
   template <class T> static void copy(Buffer<T>& to, const T* from, u64 n, u64 padding) {
     to.reserve(n + padding);
     if (n) __builtin_memcpy(to.data(), from, n * sizeof(T));
@@ -167,7 +280,9 @@ template <int D> class Index {
   /// Fills slots_.
   SHARED void put_in_order() {
     u32 n = count_;
-    u32* slots = slots_.reserve(larger(n, 1u));
+    u32* slots = slots_.reserve(room_);
+    places_.reserve(room_);
+    if (named_) placed_ids_.reserve(room_);
     if (n == 0) return;
     SceneItems<D> items{{boxes_.data(), n, nullptr}, AxisOrder<D>::make(0)};
     HilbertCurve<D> curve(measure<D>(items, n));
@@ -179,8 +294,6 @@ template <int D> class Index {
     }
     sort_.sort(n);
     for (u32 k = 0; k < n; k++) slots[k] = sort_.index(k);
-    if (!named_) return;
-    placed_ids_.reserve(n);
-    for (u32 k = 0; k < n; k++) placed_ids_[k] = ids_[slots[k]];
+    for (u32 k = 0; named_ && k < n; k++) placed_ids_[k] = ids_[slots[k]];
   }
 };

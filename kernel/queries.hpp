@@ -145,7 +145,7 @@ template <int D> class Queries {
     }
     from_ = from;
     most_ = most;
-    from = walk(index_.top(), 0, answers) ? index_.count() : from_;
+    from = walk(index_.top(), 0, answers) ? index_.places() : from_;
     return found_;
   }
 
@@ -249,10 +249,10 @@ template <int D> class Queries {
       }
       return true;
     }
-    u32 inside = all_wanted_ && !is_circle() ? within(block) : 0;
+    u32 inside = all_wanted_ && !is_circle() && !index_.holes() ? within(block) : 0;
     for (; left; left &= left - 1) {
       u32 lane = u32(__builtin_ctz(left)), child = number * 8 + lane;
-      u32 first = child << (3 * level), end = smaller((child + 1) << (3 * level), index_.count());
+      u32 first = child << (3 * level), end = smaller((child + 1) << (3 * level), index_.places());
       if (end <= from_) continue;
       if (!(inside >> lane & 1)) {
         if (!walk(level - 1, child, answers)) return false;

@@ -139,7 +139,7 @@ class Snapshot {
     }
     u32 last = 0;
     for (u32 place = pairs_; place < boxes_; place += sizeof(u64)) {
-      u64 pair = load<u64>(at(place)) & ~(smaller_gone | larger_gone);
+      u64 pair = load<u64>(at(place)) & ~pair_marks;
       if (u32(pair) >= pair >> 32 || pair >> 32 >= max_slots) return false;
       last = larger(last, u32(pair >> 32));
     }

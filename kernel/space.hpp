@@ -62,9 +62,15 @@ template <int D> class Space {
   Neighbours neighbours_;
   bool neighbours_made_ = false;
   Index<D> index_;
-  bool asked_ = false;  // from the first question on, the index keeps what each update saw
-  bool ordered_ = false;   // a snapshot was taken or restored: from then on no update before may show in the order of pairs
+  // What questions see is what the last update saw. While nothing has changed since, the boxes themselves are that; the
+  // index takes a copy before the first change. Large spaces that nobody has asked are spared it, and then cannot say.
+  bool asked_ = false;  // ever
+  bool holds_ = true;   // the index has what the last update saw: at first, nothing
+  bool lost_ = false;   // nobody has
+  static constexpr u32 spared = 16384, spared_in_place = 4096;
+  bool searching_ = false;  // in an update: until its end there are no pairs
   bool restored_ = false;  // since the last update: the pairs before are not those of which `table_` may be made
+  bool ordered_ = false;   // a snapshot was taken or restored: from then on no update before may show in the order of pairs
 
  public:
   Pairs pairs;
@@ -80,6 +86,8 @@ template <int D> class Space {
   Technique technique = Technique::automatic;
   Snapshot snapshot;
 
+  static constexpr u32 unknown = 0xffffffff;  // an answer: nobody has kept what the last update saw
+
   constexpr Space(Ids& ids, const Settings& options) : ids_(ids), options_(options) {}
 
   /// Memory for that many boxes, so that it need not grow while they are added.
@@ -90,6 +98,7 @@ template <int D> class Space {
   /// Adds or moves the first `count` boxes of the ring, in their order, and says what may wait in it from now on. All
   /// ids but one that comes alone are in the space, or there is room for them.
   NOINLINE void take(Ring<D>& ring, u32 count) {
+    if (count && !holds_) hold();
     u32 slots[Ring<D>::batch];
     for (u32 from = 0; from < count; from += Ring<D>::batch) {
       const f64* entries = ring.entries + from * Ring<D>::step;
@@ -128,6 +137,7 @@ template <int D> class Space {
   /// Takes a box away; false where there is none.
   COLD bool remove(u32 id) {
     see_shown();
+    if (!holds_) hold();
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
     if (keeps_events) events.make_room(id);
@@ -156,6 +166,7 @@ template <int D> class Space {
   }
 
   COLD void clear() {
+    if (!holds_) hold();
     room_to_forget();
     forget_from(0);
     ids_.reset(0);
@@ -191,6 +202,7 @@ template <int D> class Space {
     bool rounded = false;
     i32 bad = doubles ? round_staged(count, rounded) : first_bad(staged_.data(), count);
     if (bad >= 0) return bad;
+    if (!holds_) hold();
     if (ids_.same() && ids_.count() == count) changes_.note_all();
     else renumber(count);
     take_staged(rounded);
@@ -201,6 +213,7 @@ template <int D> class Space {
   /// at the origin.
   COLD f32* expose(u32 count) {
     take_written();
+    if (!holds_) hold(spared_in_place);
     u32 had = ids_.count();
     bool ids_were_same = ids_.same();
     if (!ids_were_same) {
@@ -233,6 +246,8 @@ template <int D> class Space {
 
   /// Sets the layer and the mask of a box.
   COLD void filter(u32 slot, u32 layer, u32 mask) {
+    if (!holds_) hold();
+    changes_.note(slot);  // for the index
     Rule& rule = rule_of(slot);
     rule.layer = layer;
     rule.mask = mask;
@@ -262,8 +277,8 @@ template <int D> class Space {
     return -1;
   }
 
-  /// Takes what was staged in `snapshot` in place of all there is; pairs stay those of the last update until the next.
-  /// Where the bytes are bad nothing changes.
+  /// Takes what was staged in `snapshot` in place of all there is, and finds the pairs, as after an update. Where the
+  /// bytes are bad nothing changes.
   COLD SnapshotFault restore() {
     if (!snapshot.is_whole()) return SnapshotFault::damaged;
     const SnapshotHeader& head = snapshot.head();
@@ -277,6 +292,9 @@ template <int D> class Space {
     take_staged(rounded);
     technique = head.technique == SnapshotHeader::automatic ? Technique::automatic : Technique(head.technique);
     restored_ = ordered_ = renamed_ = true;
+    lost_ = false;
+    find();
+    changes_.note_all();  // the next update finds out what begins and ends
     return SnapshotFault::none;
   }
 
@@ -291,7 +309,27 @@ template <int D> class Space {
     bool wraps = options_.wrap[0] > 0;
     if (rounding_ && !exposed_ && !wraps) look_for_map();
     if (exposed_) changes_.note_all();
+    if (lost_) holds_ = lost_ = false;
     if (follows && chosen == ran_ && changes_.none() && ids_.count() == seen_ && !filters_.changed()) return rest();
+    if (!search(chosen, follows)) return rest();
+    if (restored_) table_.made = false;
+    restored_ = false;
+    if (keeps_events) events.follow(pairs, table_);
+    finish();
+    return -1;
+  }
+
+ private:
+  /// Finds the pairs of what has been restored, which has been looked at.
+  COLD void find() {
+    Technique chosen = auto_choice(technique, ids_.count(), ordered_);
+    search(chosen, chosen == Technique::incremental);
+    finish();
+  }
+
+  /// Has a technique find the pairs, and makes of them what is reported; false where they are those of before.
+  bool search(Technique chosen, bool follows) {
+    bool wraps = options_.wrap[0] > 0;
     Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_};
     if (filters_.active()) {
       scene.filtered = filters_.changed();
@@ -305,6 +343,7 @@ template <int D> class Space {
       scene.filtered |= scene.excluded != nullptr;  // of the ghosts, too
       scene.boxes = wrap_.unfold(scene.count, scene.excluded, filters_, boxes_.data(), doubles, options_.wrap, D);
     }
+    searching_ = true;
     pairs.count = pairs.doubt_count = 0;
     pairs.watch = rounding_ && !wraps;
     stats = Stats{};
@@ -319,21 +358,27 @@ template <int D> class Space {
     techniques_.with(ran_, [&](auto& chosen) { chosen.update(scene, mapped, pairs, stats); });
     bool same = pairs.same && !renamed_ && !rounding_;  // doubles may have changed below float32
     if (filters_.active() || wraps || !ids_.same()) pairs.stable = 0;
+    follow_with_index();
     if (follows) changes_.clear(ids_.count());
     else changes_.note_all();
     seen_ = ids_.count();
     renamed_ = false;
     if (stats.candidates == 0) stats.candidates = f64(pairs.count);
     stats.pairs = f64(pairs.count);
-    if (same) return rest();
+    if (same) {
+      searching_ = false;
+      return false;
+    }
     if (wraps) wrap_.fold(pairs);
     else if (rounding_) retest();
     if (filters_.active()) filters_.finish(pairs);
     if (!ids_.same()) name_pairs();
-    if (asked_) see();
-    if (restored_) table_.made = false;
-    restored_ = false;
-    if (keeps_events) events.follow(pairs, table_);
+    if (asked_ && exposed_ && !holds_) see();  // who writes in place does not say when
+    return true;
+  }
+
+  void finish() {
+    searching_ = false;
     table_.made = neighbours_made_ = false;
     updates++;
     stats.pairs = f64(pairs.count);
@@ -342,9 +387,9 @@ template <int D> class Space {
     reach(ids_.count(), pairs.count * bytes_to_look_up + (1 << 17));
     stats.bytes = f64(heap::used);
     explain();
-    return -1;
   }
 
+ public:
   /// Whether two ids are a pair of the last update.
   COLD bool is_pair(u32 a, u32 b) {
     if (pairs.count == 0) return false;
@@ -361,12 +406,14 @@ template <int D> class Space {
 
   /// Answers the question with the boxes that touch its box or circle: see Queries::area.
   COLD u32 ask_area(u32& from, u32 most) {
+    if (lost_) return unknown;
     return can_answer() ? Queries<D>(index_, question).area(from, most, answers) : 0;
   }
 
   /// Answers it with what the moving box meets first, or with what is nearest, at most so many and behind `after`:
   /// the answers are in `hits`, in order. Returns how many.
   COLD u32 ask_order(bool moving, u32 most, const Hit* after) {
+    if (lost_) return unknown;
     if (!can_answer()) return 0;
     hits.begin(most, question.limit, after);
     Queries<D> queries(index_, question);
@@ -402,20 +449,23 @@ template <int D> class Space {
     }
   }
 
-  /// After memory has run out in the middle of an update: no pairs, and all that an update needs built anew.
+  /// After memory has run out: all that an update needs is built anew. In the middle of one: and there are no pairs.
   COLD void recover() {
     release_techniques();
     changes_.note_all();
     pairs.stable = 0;
-    pairs.list.release();
-    pairs.count = events.began.count = events.ended.count = 0;
+    if (searching_) {
+      pairs.list.release();
+      pairs.count = events.began.count = events.ended.count = 0;
+      stats = Stats{};
+    }
+    searching_ = false;
     table_.made = neighbours_made_ = false;
     pairs.doubts.release();
     wrap_.release();
-    index_.release();
+    index_.forget();
     answers.release();
     hits.release();
-    stats = Stats{};
     stats.bytes = f64(heap::used);
   }
 
@@ -525,16 +575,34 @@ template <int D> class Space {
     }
   }
 
+  /// Before a change: what the last update saw is kept, once.
+  COLD void hold(u32 most = spared) {
+    if (options_.wrap[0] > 0) return;  // no questions there
+    if (asked_ || ids_.count() <= most) see();
+    else lost_ = holds_ = true;  // holds_: so that it is not asked for again
+  }
+
+  /// After an update, while its changes are known.
+  COLD void follow_with_index() {
+    if (options_.wrap[0] > 0) return;
+    const f64* exact = rounding_ ? exact_.data() : nullptr;
+    const Rule* rules = filters_.active() ? filters_.rules() : nullptr;
+    u32 few = larger(ids_.count() / 8, 8u);
+    holds_ = holds_ && !changes_.all() && changes_.count() <= few &&
+             index_.follow(boxes_.data(), exact, ids_, rules, changes_.list(), changes_.count());
+  }
+
   /// The index takes over what stands in the space.
   COLD void see() {
     see_shown();
     index_.see(boxes_.data(), rounding_ ? exact_.data() : nullptr, ids_, filters_.active() ? filters_.rules() : nullptr);
+    holds_ = true;
   }
 
   /// Whether there is anything to ask about; if so, the index is made.
   COLD bool can_answer() {
-    if (!asked_ && updates > 0) see();
     asked_ = true;
+    if (!holds_) see();
     if (index_.count() == 0) return false;
     index_.build();
     return true;

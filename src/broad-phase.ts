@@ -165,8 +165,8 @@ export let beginAnew: (space: BroadPhase<Dimensions>) => number;
  *
  * Questions (`queryBox` to `nearest`, `isColliding`, `collisionsOf`) are answered by what the last update saw: boxes
  * that were set, moved or deleted since then make no difference until the next, and before the first update there is
- * nothing. (A space that is never asked keeps no copy of its boxes; so the very first question, if boxes changed after
- * the update before it, sees them as they are now.) All is decided in double precision. The options are read at each
+ * nothing. A large space that has not been asked keeps no copy of its boxes (above 16,384, and 4,096 written in
+ * place): its first question is to follow an update, or throws. All is decided in double precision. The options are read at each
  * call; to make no garbage, keep and reuse them with an `out` in them, whose answers stay about as many. All questions
  * throw RangeError for NaN, a minimum above its maximum, infinite points, ways and directions, negative distances, and
  * masks and ids out of range; TypeError for other than numbers and for a wrong number of them.
@@ -778,8 +778,8 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
 
   /**
    * What stands in the space, as bytes to go back to with `restore`, or to save: boxes as they were given, ids,
-   * filters, which boxes are static, the technique, and with `events: true` the pairs of the last update. Options of
-   * the constructor are not in it. A box takes 16 bytes in 2D and 24 in 3D, twice that where some box is not a
+   * filters, which boxes are static, the technique, and with `events: true` the pairs of the last update, and those
+   * that began and ended with it. Options of the constructor are not in it. A box takes 16 bytes in 2D and 24 in 3D, twice that where some box is not a
    * float32, 4 more where ids have gaps, up to 9 more with filters; a pair 8.
    *
    * From the first call on, and from `restore` on, the order of the pairs depends on what stands in the space alone,
@@ -814,14 +814,16 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
    * same calls give the same pairs, in the same order, as they gave there, whatever either space did before, where the
    * two were made with the same options.
    *
-   * As with every change of boxes, pairs and answers stay those of the last update until the next. With `events: true`
-   * what begins and ends with that one does so against the pairs that the space of the snapshot had: events come again
-   * as they came there, and what happened only in frames that were taken back does not end. A snapshot of a space
-   * without events has no pairs to tell them from: all begin.
+   * A restored space is as after an update of the boxes that it now has: `pairs`, `isColliding`, `collisionsOf` and all
+   * questions answer by them. With `events: true`, `began` and `ended` are those that the space of the snapshot had, and
+   * what begins and ends with the next update does so against the pairs that it had: events come again as they came
+   * there, and what happened only in frames that were taken back does not end. A snapshot of a space without events has
+   * no pairs to tell them from: all begin.
    *
    * @param bytes what `snapshot` gave, in this version of the library or an older one
    * @throws RangeError that says why for bytes that are damaged, cut off, of other dimensions, or no snapshot at all;
    *   TypeError for other than bytes. The space is as before.
+   * @throws RangeError where memory ends while the pairs are found: the boxes are restored, the pairs are empty
    *
    * @example
    * const space = new BroadPhase();
@@ -848,6 +850,7 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
     }
     if (fault !== 0) badSnapshot(fault, source, this.dimensions, techniques[source[7]!] ?? `number ${source[7]}`);
     this.#technique = techniques[source[7]!] ?? 'auto';
+    this.#readStats();
     this.#view = undefined;
     return this;
   }

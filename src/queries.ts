@@ -85,8 +85,8 @@ const isNumber = (value: unknown): value is number => typeof value === 'number';
  * A space that answers. Users meet it as BroadPhase.
  *
  * All questions are answered by what the last update saw: boxes that were set, moved or deleted since then make no
- * difference until the next, and before the first update there is nothing. (A space that is never asked keeps no copy
- * of its boxes; so the very first question, if boxes changed after the update before it, sees them as they are now.)
+ * difference until the next, and before the first update there is nothing. A large space that has not been asked keeps no
+ * copy of its boxes (above 16,384, and 4,096 written in place): its first question is to follow an update, or throws.
  * Boxes are closed: what touches counts. Rays and sweeps meet a box where their way leads into a face of it: along a
  * face or away from it is no hit. All is decided in double precision. The options are read at each call; to
  * make no garbage, keep and reuse them with an `out` in them, whose answers stay about as many.
@@ -531,7 +531,7 @@ export abstract class Queries<D extends Dimensions> extends Space<D> {
     const out = options?.out ?? [];
     checkOut(where, out);
     try {
-      return this.#copyIds(this.kernel.ask_area(mask, ignored, 0, everything), out);
+      return this.#copyIds(known(where, this.kernel.ask_area(mask, ignored, 0, everything)), out);
     } catch (error) {
       this.recover(error, where);
     }
@@ -543,7 +543,7 @@ export abstract class Queries<D extends Dimensions> extends Space<D> {
     const mask = maskOf(where, options);
     const ignored = ignoredOf(where, options);
     try {
-      return this.kernel.ask_order(kind, mask, ignored, nobody, most);
+      return known(where, this.kernel.ask_order(kind, mask, ignored, nobody, most));
     } catch (error) {
       this.recover(error, where);
     }
@@ -555,7 +555,7 @@ export abstract class Queries<D extends Dimensions> extends Space<D> {
     try {
       for (let from = 0; from >= 0; ) {
         this.io().set(visit.question);
-        const count = this.kernel.ask_area(mask, ignored, from, part);
+        const count = known(where, this.kernel.ask_area(mask, ignored, from, part));
         from = this.io()[0]!;
         const first = this.kernel.answers_address() >>> 2;
         const words = this.#wordView();
@@ -589,7 +589,7 @@ export abstract class Queries<D extends Dimensions> extends Space<D> {
       for (let left = most, after = nobody; left > 0; left -= part) {
         const wanted = Math.min(left, part);
         this.io().set(visit.question);
-        const count = this.kernel.ask_order(kind, mask, ignored, after, wanted);
+        const count = known(where, this.kernel.ask_order(kind, mask, ignored, after, wanted));
         const first = this.kernel.hits_address();
         const words = this.#wordView();
         const doubles = this.#doubleView();
@@ -668,6 +668,15 @@ function writeLength(io: Float64Array, first: number, dimensions: number): void 
   let sum = 0;
   for (let k = first; most > 0 && k < first + dimensions; k++) sum += (io[k]! / most) * (io[k]! / most);
   io[lengthAt] = most * Math.sqrt(sum);
+}
+
+/** A number of answers, where the kernel knows them. */
+function known(where: string, count: number): number {
+  if (count !== -1) return count;
+  throw new Error(
+    `${where}: boxes have changed since the last update, and a space of so many keeps none of before until it was ` +
+      'asked, expected the first question right after an update',
+  );
 }
 
 function wrongShape(where: string, dimensions: number, right: string): never {

@@ -23,12 +23,13 @@ interface Model {
   /** The keys of the pairs of the last update: of this space, and of the one that was saved. */
   shown: Set<number>;
   before: Set<number>;
-  /** What questions see: as of the last update, from the first question on. */
-  seen: Map<number, Entry> | undefined;
-  updated: boolean;
+  began: number[];
+  ended: number[];
+  /** What questions see: what stood there at the last update, whether or not one was asked before. */
+  seen: Map<number, Entry>;
   /** What `boxes()` gave, while its rows stand for the ids 0, 1, 2, …. */
   view: Float32Array | undefined;
-  saved?: { bytes: Uint8Array; entries: Map<number, Entry>; gone: Set<number>; before: Set<number> };
+  saved?: Pick<Model, 'entries' | 'gone' | 'before' | 'began' | 'ended'> & { bytes: Uint8Array };
 }
 
 const copy = (entries: ReadonlyMap<number, Entry>) => new Map([...entries].map(([id, entry]) => [id, { ...entry }]));
@@ -68,23 +69,24 @@ function update(model: Model, space: BroadPhase<2 | 3>): void {
   expectKeys(space, keys);
   const now = new Set(keys);
   const isGone = (key: number) => model.gone.has(Math.floor(key / 2 ** 24)) || model.gone.has(key % 2 ** 24);
-  const keysIn = (pairs: Uint32Array) =>
-    ascending(Array.from({ length: pairs.length / 2 }, (_, k) => keyOf(pairs[2 * k], pairs[2 * k + 1])));
-  expect(keysIn(space.began)).toEqual(ascending([...now].filter((key) => !model.before.has(key) || isGone(key))));
-  expect(keysIn(space.ended)).toEqual(ascending([...model.before].filter((key) => !now.has(key) || isGone(key))));
+  model.began = ascending([...now].filter((key) => !model.before.has(key) || isGone(key)));
+  model.ended = ascending([...model.before].filter((key) => !now.has(key) || isGone(key)));
+  expectEvents(model, space);
   model.shown = model.before = now;
   model.gone = new Set();
-  model.updated = true;
-  if (model.seen) model.seen = copy(model.entries);
+  model.seen = copy(model.entries);
   expect(space.stats.pairs).toBe(space.pairCount);
   space.validate();
 }
 
-/** The first question sees what stands there, if there was an update. */
-function seen(model: Model): Map<number, Entry> {
-  model.seen ??= model.updated ? copy(model.entries) : new Map();
-  return model.seen;
+function expectEvents(model: Model, space: BroadPhase): void {
+  const keysIn = (pairs: Uint32Array) =>
+    ascending(Array.from({ length: pairs.length / 2 }, (_, k) => keyOf(pairs[2 * k], pairs[2 * k + 1])));
+  expect(keysIn(space.began)).toEqual(model.began);
+  expect(keysIn(space.ended)).toEqual(model.ended);
 }
+
+const seen = (model: Model) => model.seen;
 
 const anId = fc.oneof(
   { weight: 12, arbitrary: fc.nat(25) },
@@ -324,8 +326,8 @@ function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>
     ),
     fc.constant(
       call('snapshot()', (model, space) => {
-        const { entries, gone, before } = model;
-        model.saved = { bytes: space.snapshot(), entries: copy(entries), gone: new Set(gone), before };
+        const { entries, gone, before, began, ended } = model;
+        model.saved = { bytes: space.snapshot(), entries: copy(entries), gone: new Set(gone), before, began, ended };
       }),
     ),
     fc.constant(
@@ -337,6 +339,13 @@ function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>
         model.entries = copy(saved.entries);
         model.gone = new Set(saved.gone);
         model.before = saved.before;
+        model.began = saved.began;
+        model.ended = saved.ended;
+        model.seen = copy(saved.entries);
+        const keys = pairsOf(model.entries, dimensions);
+        expectKeys(space, keys);
+        expectEvents(model, space);
+        model.shown = new Set(keys);
         expect(Buffer.compare(space.snapshot(), saved.bytes)).toBe(0);
       }),
     ),
@@ -442,8 +451,9 @@ describe(`every method in any order (SEED=${seed})`, () => {
           gone: new Set<number>(),
           shown: new Set<number>(),
           before: new Set<number>(),
-          seen: undefined,
-          updated: false,
+          began: [],
+          ended: [],
+          seen: new Map(),
           view: undefined,
         } as Model,
         real: new BroadPhase({ dimensions, technique, events: true }),

@@ -51,8 +51,9 @@ template <int D> class Calls {
   Space<D>& space_;
   Model<D> model_;
   PairList before_;           // of the last update
+  bool unsure_ = false;
   bool found_ = false;        // whether they are still the space's: not after memory ended
-  std::optional<Model<D>> seen_;  // by the questions, once one was asked
+  std::optional<Model<D>> seen_;  // by the questions: what the last update saw
   bool updated_ = false, asked_ = false;
   u32 crowds_ = 0, spells_left_ = 0;
   bool starved_ = false;  // the next call has little memory
@@ -234,8 +235,7 @@ template <int D> class Calls {
     if (!ended) return true;
     space_.recover();
     found_ = false;
-    seen_.reset();
-    CHECK(space_.pairs.count == 0);
+    unsure_ = true;  // whether the questions see what this update saw, or what the one before did
     compare();
     return false;
   }
@@ -391,8 +391,11 @@ template <int D> class Calls {
       model_ = saved_->model;
       before_ = saved_->before;
       space_.technique = saved_->technique;
+      CHECK(sorted_pairs(space_) == expected());
     }
-    found_ = false;
+    seen_ = model_;
+    updated_ = true;
+    unsure_ = found_ = false;
     compare();
   }
 
@@ -417,7 +420,7 @@ template <int D> class Calls {
     CHECK(space_.update() == -1);
     updated_ = true;
     before_ = expected();
-    if (asked_) seen_ = model_;
+    seen_ = model_;
   }
 
   void update(bool whole = true) {
@@ -433,7 +436,8 @@ template <int D> class Calls {
     }
     updated_ = found_ = true;
     model_.updated();
-    if (asked_) seen_ = model_;
+    seen_ = model_;
+    unsure_ = false;
     if (space_.pairs.count > crowded && ++crowds_ > most_crowds) clear();
   }
 
@@ -456,15 +460,16 @@ template <int D> class Calls {
     return list;
   }
 
-  /// Asks; returns whether there was memory for it. The first question sees what stands there if there was an update.
+  /// Asks; returns whether there was memory for it.
   template <class Ask> bool asked(Ask ask) {
+    // A large space that was never asked may not know what the last update saw.
+    if (unsure_ || (!asked_ && ids_.count() > 4000)) update();
+    asked_ = true;
     bool done = made(ask);
-    if (!done) {  // whether the index was made before memory ended cannot be told: begin anew
+    if (!done) {
       update();
       ask();
     }
-    if (!asked_ || !done) seen_ = updated_ ? std::optional<Model<D>>(model_) : std::nullopt;
-    asked_ = true;
     return done;
   }
 
