@@ -3,8 +3,9 @@
 // There are four of the library, which differ in the kernel: the lean one, `all`, with every technique, and `2d` and `3d`,
 // of one dimension. The other entries use `all`. The types of all four stand on those of the lean one, so that a space of
 // one can be passed on to another.
-// script/ is the lean one for a plain <script> tag, where it is the global `broadphase`, and for `require` where that
-// cannot load modules. CDNs send .cjs as something browsers do not run, so it is a .js file, in a folder of scripts.
+// script/ is the lean one for a plain <script> tag, where it is the global `broadphase`, minified; and for `require` where
+// that cannot load modules, to be read and stepped through. CDNs send .cjs as something browsers do not run, so both are
+// .js files, in a folder of scripts.
 import { defineConfig, type UserConfig } from 'tsdown';
 import { withKernel } from './scripts/every-technique.mjs';
 
@@ -46,6 +47,15 @@ export default defineConfig([
     outDir: 'dist/script',
     outputOptions: { entryFileNames: 'broadphase.js' },
     plugins: [folderOfScripts],
+  },
+  {
+    ...common,
+    dts: false,
+    entry: 'src/index.ts',
+    format: 'cjs',
+    sourcemap: true,
+    outDir: 'dist/script',
+    outputOptions: { entryFileNames: 'require.js' },
   },
   ...['trace', 'ro', 'shard'].flatMap((name): UserConfig[] => [
     { ...common, ...beside('./all.js'), dts: false, entry: { [name]: `src/${name}/index.ts` } },
