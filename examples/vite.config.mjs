@@ -5,6 +5,9 @@ import { everyTechnique } from '../scripts/every-technique.mjs';
 
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
 
+/** A page that is alone in its process has a finer clock. */
+const headers = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' };
+
 export default {
   root: path('.'), // all of them share page/
   base: './',
@@ -19,5 +22,5 @@ export default {
   },
   // What is found only later makes Vite reload a page.
   optimizeDeps: { entries: ['*/index.html'] },
-  server: { fs: { allow: [path('..')] } },
+  server: { headers, fs: { allow: [path('..')] } },
 };

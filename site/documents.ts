@@ -9,6 +9,8 @@ import MarkdownIt from 'markdown-it';
 import type { Plugin } from 'vite';
 import { rootFrom } from './frame.ts';
 
+/** The text of an example, which not all have. */
+const readme = 'README.md';
 const repository = fileURLToPath(new URL('..', import.meta.url));
 const site = fileURLToPath(new URL('.', import.meta.url));
 
@@ -87,6 +89,7 @@ function render(file: string, page: string): string {
   // What scrolls must be reached by the keyboard.
   rules.table_open = () => '<div class="scroll" tabindex="0" role="group" aria-label="A table"><table>';
   rules.table_close = () => '</table></div>';
+  rules.image = () => ''; // what they show is live on the page of showcases
   const { fence } = rules;
   rules.fence = (...given) => fence!(...given).replace('<pre>', '<pre tabindex="0">');
   rules.link_open = (tokens, k, options, _, self) => {
@@ -98,10 +101,10 @@ function render(file: string, page: string): string {
   return markdown.render(read(file));
 }
 
-/** The source of an example, file by file. */
-function source(folder: string): string {
+/** What an example says of itself, where it does, and its source, file by file. */
+function source(folder: string, page: string): string {
   const files = readdirSync(repository + folder)
-    .filter((name) => name !== 'package-lock.json')
+    .filter((name) => name !== readme && name !== 'package-lock.json')
     .sort();
   const listings = files.flatMap((name) => {
     const language = name.split('.').pop()!.replace('mjs', 'js');
@@ -109,7 +112,9 @@ function source(folder: string): string {
     return `<h2 id="${slugOf(name)}">${name}</h2>
       <pre tabindex="0"><code>${paint(read(`${folder}/${name}`), language)}</code></pre>`;
   });
-  return `<h1>${basename(folder)}</h1><p><a href="../">All examples</a></p>${listings.join('')}`;
+  const text = `${folder}/${readme}`;
+  const start = existsSync(repository + text) ? render(text, page) : `<h1>${basename(folder)}</h1>`;
+  return `${start}<p><a href="../">All examples</a></p>${listings.join('')}`;
 }
 
 /** The list beside a document. */
@@ -128,7 +133,7 @@ function documentOf(page: string): string {
   const [file] = [...pages, ...folders].find(([, path]) => path === page)!;
   const isGuide = page.startsWith('guides/');
   const title = folders.has(file) ? `${basename(file)}, an example` : titleOf(read(file));
-  const body = folders.has(file) ? source(file) : render(file, page);
+  const body = folders.has(file) ? source(file, page) : render(file, page);
   return `<!doctype html>
 <html lang="en">
   <head>

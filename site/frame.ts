@@ -8,6 +8,7 @@ const sections = {
   article: 'Article',
   lab: 'Lab',
   questions: 'Questions',
+  showcases: 'Showcases',
   bench: 'Benchmark',
   guides: 'Guides',
   api: 'API',

@@ -22,6 +22,7 @@ export default defineConfig({
   // The same in pages and workers, in development and built: every technique, in the script, as users have it.
   plugins: [addresses, api, documents, frame, everyTechnique],
   resolve: {
+    dedupe: ['react', 'react-dom', '@xyflow/react', 'd3-force', 'd3-quadtree', 'rbush', 'flatbush'],
     alias: {
       'broadphase/ro': path('../src/ro/index.ts'),
       'broadphase/shard': path('../src/shard/index.ts'),
@@ -45,6 +46,7 @@ export default defineConfig({
         lab: path('lab/index.html'),
         bench: path('bench/index.html'),
         questions: path('questions/index.html'),
+        showcases: path('showcases/index.html'),
         'narrow-phase': path('narrow-phase/index.html'),
       },
     },

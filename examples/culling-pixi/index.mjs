@@ -3,7 +3,7 @@
 import { BroadPhase } from 'broadphase';
 import { Application, Container, Graphics, Sprite, Texture } from 'pixi.js';
 import { stopwatch } from '../page/page.mjs';
-import { moveView } from './view.mjs';
+import { moveView } from '../page/view.mjs';
 
 const count = 100_000;
 /** The golden angle: a tile for each seed of a sunflower. */

@@ -229,3 +229,30 @@ test('React: a finger draws the band too', async ({ browser }) => {
   expect(faults).toEqual([]);
   await page.close();
 });
+
+test('React Flow: nodes come apart on the page of the example too', async ({ page }) => {
+  test.slow();
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  const faults = await openExample(page, 'nodes-xyflow');
+  await expect(page.locator('.react-flow__node')).toHaveCount(40);
+  await page.getByRole('button', { name: 'Untangle' }).click();
+  await expect(page.getByRole('status')).toContainText('40 nodes', patient);
+  await page.getByRole('button', { name: 'Untangle' }).click();
+  await expect(page.getByRole('status')).toContainText('none overlap', patient);
+  expect(faults).toEqual([]);
+});
+
+test('d3-force: the chart, the words and the map each have their page', async ({ page }) => {
+  test.slow();
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  const faults = await openExample(page, 'force-d3');
+  await expect(page.getByRole('status')).toContainText('300 rectangles', patient);
+  for (const [show, says] of [
+    ['cloud', '300 words'],
+    ['map', '20,000 labels'],
+  ]) {
+    await page.goto(new URL(`?show=${show}`, page.url()).href);
+    await expect(page.getByRole('status')).toContainText(says, patient);
+  }
+  expect(faults).toEqual([]);
+});

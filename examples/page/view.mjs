@@ -34,12 +34,16 @@ export function moveView(element, { pan, zoom, point }) {
   element.addEventListener(
     'wheel',
     (event) => {
+      const pageScrolls = document.documentElement.scrollHeight > innerHeight;
+      if (pageScrolls && !event.ctrlKey && document.activeElement !== element) return;
       event.preventDefault();
       zoom(Math.exp(-0.0015 * event.deltaY), ...at(event));
     },
     { passive: false },
   );
-  element.addEventListener('keydown', ({ key }) => {
+  element.addEventListener('keydown', (event) => {
+    const { key } = event;
+    if (key in arrows) event.preventDefault(); // the page does not scroll
     const middle = [element.clientWidth / 2, element.clientHeight / 2];
     if (arrows[key]) pan(keyStep * arrows[key][0], keyStep * arrows[key][1]);
     else if (key === '+' || key === '=') zoom(1.25, ...middle);

@@ -1,0 +1,12 @@
+/** What a showcase gives: see showcase.mjs. */
+export interface Demo {
+  readonly contenders: Readonly<Record<string, string>>;
+  use(key: string): void;
+  race(key: string): number;
+  step(): boolean;
+  settle(): void;
+}
+
+export type Show = (stage: HTMLElement, page: { wake(): void; say(text: string): void }) => Demo;
+
+export function runShowcase(show: Show, stage: HTMLElement, controls: HTMLElement): Demo;

@@ -1,0 +1,7 @@
+// All showcases, each fetched when it is wanted.
+export const showcases = {
+  nodes: async () => (await import('../nodes-xyflow/demo.jsx')).nodesDemo,
+  chart: async () => (await import('../force-d3/rectangles.mjs')).rectanglesDemo('chart'),
+  cloud: async () => (await import('../force-d3/rectangles.mjs')).rectanglesDemo('cloud'),
+  map: async () => (await import('../force-d3/map.mjs')).mapDemo,
+};

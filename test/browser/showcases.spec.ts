@@ -1,0 +1,167 @@
+// The page of showcases as a visitor meets it: each runs by who is chosen, the milliseconds of all are told, nothing
+// overlaps in the end, and code is copied in one piece.
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { expect, type Page, test } from '@playwright/test';
+
+let faults: string[] = [];
+
+test.beforeEach(({ page, baseURL }) => {
+  test.slow();
+  faults = [];
+  page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
+  page.on('pageerror', (error) => faults.push(String(error)));
+  page.on('request', (request) => {
+    const url = request.url();
+    if (!/^(data|blob):/.test(url) && !url.startsWith(baseURL!)) faults.push(`a request to ${url}`);
+  });
+});
+
+test.afterEach(() => expect(faults).toEqual([]));
+
+/** Where there is no GPU, and others work too, this takes long. */
+const patient = { timeout: 40_000 };
+
+/** Opens one showcase and waits until its contenders have been timed. */
+async function open(page: Page, id: string, reducedMotion: 'reduce' | 'no-preference' = 'reduce') {
+  await page.emulateMedia({ reducedMotion });
+  await page.goto(`/showcases/#${id}`);
+  const section = page.locator(`#${id}`);
+  await section.scrollIntoViewIfNeeded();
+  await expect(section).toHaveAttribute('data-ready', 'true', patient);
+  await expect
+    .poll(async () => (await section.locator('output').allTextContents()).every((text) => / ms$/.test(text)), patient)
+    .toBe(true);
+  return section;
+}
+
+/** The boxes of the nodes of the canvas, in its own pixels. */
+const nodeBoxes = (page: Page) =>
+  page.locator('#nodes .react-flow__node').evaluateAll((nodes) =>
+    (nodes as HTMLElement[]).map((node) => {
+      const { m41: x, m42: y } = new DOMMatrix(getComputedStyle(node).transform);
+      return [x, y, x + node.offsetWidth, y + node.offsetHeight];
+    }),
+  );
+
+/** How many pairs overlap by more than half a pixel: a look at every two. */
+const overlaps = (boxes: number[][]) =>
+  boxes.reduce((sum, a, k) => {
+    const over = (b: number[], axis: number) => Math.min(a[axis + 2], b[axis + 2]) - Math.max(a[axis], b[axis]);
+    return sum + boxes.slice(k + 1).filter((b) => Math.min(over(b, 0), over(b, 1)) > 0.51).length;
+  }, 0);
+
+test('nodes: untangled, by everyone, none overlaps another; a node that is moved by keys has others give way', async ({
+  page,
+}) => {
+  const section = await open(page, 'nodes');
+  for (const name of ['broadphase', 'rbush', 'every two']) {
+    await section.getByRole('button', { name: 'Start over' }).click();
+    await expect(section.getByRole('status')).toHaveText('40 nodes');
+    await section.getByRole('radio', { name }).check();
+    expect(overlaps(await nodeBoxes(page))).toBeGreaterThan(20);
+    await section.getByRole('button', { name: 'Untangle' }).click();
+    await expect.poll(async () => overlaps(await nodeBoxes(page)), patient).toBe(0);
+  }
+  await section.getByRole('radio', { name: 'broadphase' }).check();
+  const before = await nodeBoxes(page);
+  const node = section.locator('.react-flow__node').nth(20);
+  await node.focus();
+  await page.keyboard.press('Enter');
+  for (let press = 0; press < 8; press++) await page.keyboard.press('Shift+ArrowDown');
+  await expect.poll(async () => overlaps(await nodeBoxes(page)), patient).toBe(0);
+  const after = await nodeBoxes(page);
+  expect(after.filter(([, y], k) => y !== before[k][1]).length).toBeGreaterThan(1);
+});
+
+test('nodes: 500 are pasted, and come apart frame by frame', async ({ page }) => {
+  const section = await open(page, 'nodes', 'no-preference');
+  await section.getByRole('button', { name: 'Paste 500' }).click();
+  await expect(section.locator('.react-flow__node')).toHaveCount(540);
+  const heap = overlaps(await nodeBoxes(page));
+  expect(heap).toBeGreaterThan(100);
+  await section.getByRole('button', { name: 'Untangle' }).click();
+  await expect(section.getByRole('status')).toContainText('none overlap', { timeout: 90_000 });
+  expect(overlaps(await nodeBoxes(page))).toBe(0);
+});
+
+test('nodes: one that is dragged stays with the pointer, and the others make room', async ({ page }) => {
+  const section = await open(page, 'nodes');
+  await section.getByRole('button', { name: 'Untangle' }).click();
+  await expect.poll(async () => overlaps(await nodeBoxes(page)), patient).toBe(0);
+  const box = (await section.locator('.react-flow__node').first().boundingBox())!;
+  const target = (await section.locator('.react-flow__node').nth(2).boundingBox())!;
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(target.x + 10, target.y + 5, { steps: 8 });
+  await page.mouse.up();
+  await expect.poll(async () => overlaps(await nodeBoxes(page)), patient).toBe(0);
+});
+
+for (const [id, things] of [
+  ['chart', 'rectangles'],
+  ['cloud', 'words'],
+] as const) {
+  test(`${things}: at rest at once for those who ask for less motion, and none overlap`, async ({ page }) => {
+    const section = await open(page, id);
+    await expect(section.getByRole('status')).toContainText(`300 ${things}`, patient);
+    await expect(section.getByRole('status')).toContainText('; 0 overlap', patient);
+    await section.getByRole('radio', { name: 'rbush' }).check();
+    await section.getByRole('button', { name: 'Shuffle' }).click();
+    await expect(section.getByRole('status')).toContainText('; 0 overlap', patient);
+    const canvas = section.locator('canvas');
+    const look = () => canvas.evaluate((element) => (element as HTMLCanvasElement).toDataURL());
+    const before = await look();
+    await section.locator('.stage').focus();
+    await page.keyboard.press('ArrowRight');
+    await expect.poll(look, patient).not.toBe(before);
+  });
+}
+
+test('labels: zooming in shows more, panning changes none, and both finders agree', async ({ page }) => {
+  const section = await open(page, 'map');
+  const status = section.getByRole('status');
+  await expect(status).toContainText(/at 1.0 times/, patient);
+  const told = await status.textContent();
+  await section.getByRole('radio', { name: 'rbush' }).check();
+  await expect(status).toHaveText(told!);
+  await section.locator('.stage').focus();
+  await page.keyboard.press('+');
+  await expect(status).toContainText('at 1.3 times', patient);
+  await page.keyboard.press('-');
+  await expect(status).toHaveText(told!, patient);
+  await section.getByRole('button', { name: 'Zoom in' }).click();
+  await expect(status).toContainText('at 1.6 times', patient);
+});
+
+test('the code of each is copied in one piece', async ({ page, context }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  await page.goto('/showcases/');
+  for (const file of ['nodes-xyflow/separate', 'force-d3/force-collide-rect', 'force-d3/first-scales']) {
+    const path = fileURLToPath(new URL(`../../examples/${file}.mjs`, import.meta.url));
+    const block = page.locator('.code-block', { hasText: 'one file to copy' }).filter({ hasText: file.split('/')[1] });
+    await block.locator('summary').click();
+    await block.getByRole('button').click();
+    await expect(block.getByRole('button')).toHaveText('Copied');
+    expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(readFileSync(path, 'utf8').trimEnd());
+  }
+});
+
+for (const colorScheme of ['light', 'dark'] as const) {
+  for (const [device, width, height] of [
+    ['phone', 390, 844],
+    ['wide', 1440, 900],
+  ] as const) {
+    test(`fit a ${device} screen, ${colorScheme}`, async ({ page }) => {
+      await page.setViewportSize({ width, height });
+      await page.emulateMedia({ colorScheme });
+      for (const id of ['nodes', 'chart', 'cloud', 'map']) {
+        const section = await open(page, id);
+        const background = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+        expect(background).toBe(colorScheme === 'light' ? 'rgb(251, 251, 250)' : 'rgb(16, 17, 19)');
+        expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+        await section.screenshot({ path: `test-results/screens/showcase-${id}-${device}-${colorScheme}.png` });
+      }
+    });
+  }
+}
