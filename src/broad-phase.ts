@@ -418,7 +418,8 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
     checkBoxes(where, boxes);
     if (count === undefined) count = countBoxes(where, boxes, this.dimensions);
     const { length } = boxes;
-    checkBoxCount(`${where}: count`, count);
+    // Told apart before the text is made: a string in each call would be garbage.
+    if (!isBoxCount(count)) checkBoxCount(`${where}: count`, count);
     if (count * width > length) {
       badValue(`${where}: count`, count, `at most ${Math.floor(length / width)}, as ${length} numbers were given`);
     }
@@ -1032,10 +1033,13 @@ function checkTechnique(name: unknown): void {
   badValue('technique', name, `one of ${BroadPhase.techniques.join(', ')}${more}`, typeof name !== 'string');
 }
 
+const isBoxCount = (count: unknown): boolean =>
+  Number.isInteger(count) && Number(count) >= 0 && Number(count) <= maxId + 1;
+
 function checkBoxCount(what: string, count: unknown): void {
   const expected = `an integer from 0 to ${maxId + 1}`;
   if (typeof count !== 'number') badValue(what, count, expected, true);
-  if (!Number.isInteger(count) || count < 0 || count > maxId + 1) badValue(what, count, expected);
+  if (!isBoxCount(count)) badValue(what, count, expected);
 }
 
 /** One positive number per axis. */
