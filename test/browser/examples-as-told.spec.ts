@@ -12,7 +12,8 @@ const folders = readdirSync(examples, { withFileTypes: true }).filter((entry) =>
 const has = (file: string) =>
   folders.map(({ name }) => name).filter((name) => existsSync(`${examples}/${name}/${file}`));
 const pages = has('index.html').filter((name) => name !== 'csp'); // which has a server of its own, and a test
-const programs = has('index.mjs').filter((name) => !pages.includes(name));
+// What has packages of its own has tests of its own.
+const programs = has('index.mjs').filter((name) => !pages.includes(name) && !has('package.json').includes(name));
 
 test('the README tells how to start each', () => {
   for (const name of [...pages, ...programs]) expect(readme).toContain(`](${name}`);
