@@ -79,7 +79,7 @@ function update(model: Model, space: BroadPhase<2 | 3>): void {
   space.validate();
 }
 
-function expectEvents(model: Model, space: BroadPhase): void {
+function expectEvents(model: Model, space: BroadPhase<2 | 3>): void {
   const keysIn = (pairs: Uint32Array) =>
     ascending(Array.from({ length: pairs.length / 2 }, (_, k) => keyOf(pairs[2 * k], pairs[2 * k + 1])));
   expect(keysIn(space.began)).toEqual(model.began);
