@@ -207,7 +207,7 @@ template <int D> class Incremental {
       ended_ |= more;
       rest_age_ = more ? smaller(tuning.longest_pause, 2 * rest_age_) : larger(tuning.watched, rest_age_ / 2);
     }
-    if (age_ >= 4 && (ended_ || age_ % 32 == 0) && life_ + build > 0.98 * prospect_.fresh * age_) give_up();
+    if (age_ >= 4 && (ended_ || age_ % 32 == 0) && life_ + build > tuning.proven * prospect_.fresh * age_) give_up();
     else if (ended_ && age_ >= 8) pauses_ = tuning.first_pause;
   }
 
@@ -237,9 +237,7 @@ template <int D> class Incremental {
       u32 tag = first || slot < had ? tags_[slot] & slot_mask : 0;
       f32 aside = margin;
       if (!first) {
-        f32 before[width + padding];
-        widen(box, tag & rests ? 0 : margin_, before);
-        bool rested = steady && slot < had && !(tag & strays) && bitmask(alike<D>(before, region(slot))) == 15;
+        bool rested = steady && slot < had && !(tag & strays) && is_widened(region(slot), box, tag & rests ? 0 : margin_);
         tag = rested ? tag | rests : tag & (wild | most_grown);
         if (rested && tag >= grown) tag -= grown;
       }
@@ -279,10 +277,25 @@ template <int D> class Incremental {
 
   /// A box, and so much on all sides.
   static void widen(const f32* box, f32 aside, f32* out) {
-    f32x4 by = splat(aside);
-    store(out, load<f32x4>(box) - by);
-    f32x4 high = load<f32x4>(box + D) + by;
-    __builtin_memcpy(out + D, &high, D * sizeof(f32));
+    if constexpr (D == 2) {
+      store(out, load<f32x4>(box) + f32x4{-aside, -aside, aside, aside});
+    } else {
+      f32x4 by = splat(aside), high = load<f32x4>(box + D) + by;
+      store(out, load<f32x4>(box) - by);
+      __builtin_memcpy(out + D, &high, D * sizeof(f32));
+    }
+  }
+
+  /// Whether a region is just a box and so much on all sides: without a store that a wider load would wait for.
+  static bool is_widened(const f32* region, const f32* box, f32 aside) {
+    f32x4 its = load<f32x4>(region);
+    if constexpr (D == 2) {
+      return bitmask(load<f32x4>(box) + f32x4{-aside, -aside, aside, aside} == its) == 15;
+    } else {
+      f32x4 by = splat(aside);
+      i32x4 low = load<f32x4>(box) - by == its, high = load<f32x4>(box + D) + by == load<f32x4>(region + D);
+      return (bitmask(low & high) & 7) == 7;
+    }
   }
 
   /// Wild boxes that are still among the first n.
@@ -329,15 +342,17 @@ template <int D> class Incremental {
     bool moved = any(bits<i32x4>(offset) ^ bits<i32x4>(offset_));
     offset_ = offset;
     u32 both = smaller(n, had);
+    // So many late boxes cost as much as a new list.
+    u32 enough = u32(smaller(build_work() * n / (tuning.late * prospect_.farness(tuning)), n / 2.0));
     if (!moved && scene.listed() && !scene.changes->most(n)) late_count_ = look_at(scene, both, late);
-    else late_count_ = resting_ ? look<true>(scene, both, late) : look<false>(scene, both, late);
+    else late_count_ = resting_ ? look<true>(scene, both, late, enough) : look<false>(scene, both, late, enough);
     bool strikes = n < had;
     if (scene.filtered || filtered_ != (scene.excluded != nullptr)) {
       late = late_.grow(2 * u64(n) + 4, late_count_);
       strikes |= refilter(scene, both, late);
     }
     u32 many = late_count_ + (n - both);
-    if (many * tuning.late * prospect_.farness(tuning) > build_work() * n || many > n / 2) {
+    if (many > enough) {
       if (age_ <= 1) give_up();
       return false;
     }
@@ -376,8 +391,8 @@ template <int D> class Incremental {
     return bitmask(alike<D>(at, its)) == 15;
   }
 
-  /// Writes the slots of boxes that are not where they are expected; gives how many.
-  template <bool some_rest> NOINLINE u32 look(const Scene<D>& scene, u32 until, u32* out) const {
+  /// Writes the slots of boxes that are not where they are expected; gives how many. More than enough it does not seek.
+  template <bool some_rest> NOINLINE u32 look(const Scene<D>& scene, u32 until, u32* out, u32 enough) const {
     const f32 *box = scene.boxes, *its = regions_.data();
     const u32* tags = tags_.data();
     f32x4 offset = offset_;
@@ -396,6 +411,7 @@ template <int D> class Incremental {
         out[found] = slot + k;
         found += !is_expected(box + k * width, slot + k);
       }
+      if (found > enough) return found;
     }
     for (; slot < until; slot++) {
       out[found] = slot;

@@ -10,7 +10,7 @@ template <int D> struct Tuning {
   f64 late = 700;                // to give a box that has left its region a new one
   f64 far = 400'000;             // so many boxes make the last two twice as much, since caches do not hold them
   f64 build = 1.45, widen = 0.15; // of a rebuild: to make a list; and more where its candidates are twice the pairs
-  f64 worth = 0.95;              // of a rebuild: a list must promise to cost less
+  f64 worth = 0.9, proven = 0.95; // of a rebuild: a list must promise to cost less; and have cost less, to go on
   u32 few = 200;                 // fewer boxes are not worth keeping anything
   u32 first_pause = 8, longest_pause = 512;  // updates
   u32 watched = 8;               // updates after which it is known whether anything is worth keeping, and who rests
