@@ -1036,10 +1036,12 @@ function checkTechnique(name: unknown): void {
 const isBoxCount = (count: unknown): boolean =>
   Number.isInteger(count) && Number(count) >= 0 && Number(count) <= maxId + 1;
 
+// Made once: a text of every call would be garbage in each frame.
+const boxCounts = `an integer from 0 to ${maxId + 1}`;
+
 function checkBoxCount(what: string, count: unknown): void {
-  const expected = `an integer from 0 to ${maxId + 1}`;
-  if (typeof count !== 'number') badValue(what, count, expected, true);
-  if (!isBoxCount(count)) badValue(what, count, expected);
+  if (typeof count !== 'number') badValue(what, count, boxCounts, true);
+  if (!isBoxCount(count)) badValue(what, count, boxCounts);
 }
 
 /** One positive number per axis. */
