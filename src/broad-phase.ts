@@ -863,7 +863,21 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
    * const space = new BroadPhase().set(7, 0, 0, 1, 1);
    * JSON.stringify(space); // → '{"dimensions":2,"technique":"auto","size":1,"pairs":0}'
    */
-  toJSON(): { dimensions: 2 | 3; technique: TechniqueName; size: number; pairs: number } | { disposed: true } {
+  toJSON():
+    | {
+        /** As of the space. */
+        dimensions: 2 | 3;
+        /** As of the space. */
+        technique: TechniqueName;
+        /** How many boxes there are. */
+        size: number;
+        /** How many pairs the last update found. */
+        pairs: number;
+      }
+    | {
+        /** Of a space that was disposed of there is nothing else to say. */
+        disposed: true;
+      } {
     if (this.disposed) return { disposed: true };
     return { dimensions: this.dimensions, technique: this.technique, size: this.size, pairs: this.pairCount };
   }
