@@ -6,8 +6,11 @@ import { badBox, badValue } from '../errors.ts';
  * have to arrive in the order in which they were made, and none may get lost.
  */
 export interface Delta {
+  /** The zone that tells. */
   from: number;
+  /** The zone that is told. */
   to: number;
+  /** The boxes to which something happened. */
   ids: Uint32Array;
   /** For each id bits of what happened: 1 enters, 2 leaves, 4 is owned from now on, 8 added, 16 gone; 0: it moved. */
   changes: Uint8Array;

@@ -11,9 +11,11 @@ import type { Zones } from './zones.ts';
 
 /** A shard between two ticks, to go on from in another process: see {@link Shard.state}. */
 export interface ShardState {
+  /** The boxes that the zone sees. */
   ids: Uint32Array;
   /** For each id the zone that owns it. */
   owners: Uint16Array;
+  /** For each id its box: minima, then maxima. */
   boxes: Float64Array;
 }
 

@@ -7,8 +7,11 @@ import { badValue } from '../errors.ts';
 
 /** Where a world is cut: ascending coordinates along each axis that is cut, such as `{ x: [100, 200] }`. */
 export interface Borders {
+  /** Left out: not cut along x. */
   x?: readonly number[];
+  /** Left out: not cut along y. */
   y?: readonly number[];
+  /** Left out: not cut along z. */
   z?: readonly number[];
 }
 
@@ -49,6 +52,7 @@ interface Cut {
 export class Zones {
   /** How many zones there are. */
   readonly count: number;
+  /** What it was made with. */
   readonly options: Readonly<ZonesOptions>;
   /** 2 or 3. */
   readonly dimensions: 2 | 3;
