@@ -53,7 +53,7 @@ export function runShowcase(show, stage, controls) {
   const rows = Object.entries(demo.contenders).map(([key, label], k) => {
     const input = make('input', { type: 'radio', name, value: key, checked: k === 0 });
     input.addEventListener('change', () => demo.use(key));
-    const output = make('output', { textContent: '–' });
+    const output = make('output', { textContent: '–', ariaLive: 'off' });
     const bar = make('span', { className: 'share' });
     outputs.set(key, { output, bar });
     return make('label', {}, input, make('span', { className: 'name', textContent: label }), output, bar);
