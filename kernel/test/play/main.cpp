@@ -151,9 +151,10 @@ template <int D> class Player {
   void sweep() {
     ask(~0u, 3 * D);
     space_.question.limit = space_.question.length = 1;
+    space_.question.stops = true;
     bool met = space_.ask_order(true, 1, nullptr) > 0;
     u64 time = bits<u64>(met ? space_.hits.data()[0].rank : -1.0);
-    u32 words[] = {met ? space_.hits.data()[0].id : ~0u, u32(time), u32(time >> 32)};
+    u32 words[] = {met ? space_.hits.data()[0].id & ~Hit::corner : ~0u, u32(time), u32(time >> 32)};
     hash_.add_all(words, 3);
   }
   void partners() {
