@@ -82,9 +82,10 @@ export function nodesDemo(stage, { wake, say }) {
     const started = performance.now();
     const next = work(nodes, { padding, maxIterations, fixed });
     const taken = performance.now() - started;
-    relaxing = next !== nodes || nodes.some(fixed);
-    if (next !== nodes) show(next);
-    say(`${nodes.length} nodes; this step took ${taken.toFixed(2)} ms${next === nodes ? '; none overlap' : ''}`);
+    const apart = next === nodes;
+    relaxing = !apart || nodes.some(fixed);
+    if (!apart) show(next);
+    say(`${nodes.length} nodes; this step took ${taken.toFixed(2)} ms${apart ? '; none overlap' : ''}`);
   };
   const changed = (changes) => {
     show(applyNodeChanges(changes, nodes));
