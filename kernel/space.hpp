@@ -278,7 +278,7 @@ template <int D> class Space {
   }
 
   /// Takes what was staged in `snapshot` in place of all there is, and finds the pairs, as after an update. Where the
-  /// bytes are bad nothing changes.
+  /// bytes are bad, or memory ends before all is taken, nothing changes; where it ends later there are no pairs.
   COLD SnapshotFault restore() {
     if (!snapshot.is_whole()) return SnapshotFault::damaged;
     const SnapshotHeader& head = snapshot.head();
@@ -292,7 +292,7 @@ template <int D> class Space {
     take_staged(rounded);
     technique = head.technique == SnapshotHeader::automatic ? Technique::automatic : Technique(head.technique);
     restored_ = ordered_ = renamed_ = true;
-    lost_ = false;
+    holds_ = lost_ = false;
     find();
     changes_.note_all();  // the next update finds out what begins and ends
     return SnapshotFault::none;
@@ -323,12 +323,14 @@ template <int D> class Space {
   /// Finds the pairs of what has been restored, which has been looked at.
   COLD void find() {
     Technique chosen = auto_choice(technique, ids_.count(), ordered_);
+    if (rounding_ && !(options_.wrap[0] > 0)) look_for_map();
     search(chosen, chosen == Technique::incremental);
     finish();
   }
 
   /// Has a technique find the pairs, and makes of them what is reported; false where they are those of before.
   bool search(Technique chosen, bool follows) {
+    searching_ = true;
     bool wraps = options_.wrap[0] > 0;
     Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_};
     if (filters_.active()) {
@@ -343,7 +345,6 @@ template <int D> class Space {
       scene.filtered |= scene.excluded != nullptr;  // of the ghosts, too
       scene.boxes = wrap_.unfold(scene.count, scene.excluded, filters_, boxes_.data(), doubles, options_.wrap, D);
     }
-    searching_ = true;
     pairs.count = pairs.doubt_count = 0;
     pairs.watch = rounding_ && !wraps;
     stats = Stats{};
@@ -474,6 +475,7 @@ template <int D> class Space {
     techniques_.with(ran_, [](auto& used) { used.release(); });
     cells.release();
     cell_count = 0;
+    stats.cells = stats.entries = 0;  // there are none to draw
   }
 
   /// The number of the first invariant that does not hold (see src/broad-phase.ts), or 0; `detail`: where.

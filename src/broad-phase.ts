@@ -832,6 +832,7 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
    */
   restore(bytes: Uint8Array | ArrayBuffer): this {
     const source = snapshotBytes(bytes);
+    const place = this.#place();
     const io = this.io();
     // The header first: memory is taken only for what may be a snapshot and is as long as it says.
     const header = new Uint8Array(io.buffer, io.byteOffset, headerBytes);
@@ -843,16 +844,18 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
       fault = this.io()[0]!;
       if (fault === 0) {
         new Uint8Array(this.kernel.memory.buffer, at, source.length).set(source);
-        fault = this.kernel.restore();
         this.forget();
+        fault = this.kernel.restore();
       }
     } catch (error) {
-      this.recover(error, 'restore');
+      try {
+        this.recover(error, 'restore');
+      } finally {
+        if (this.#place() !== place) this.#restored(source); // memory ended while the pairs were found
+      }
     }
     if (fault !== 0) badSnapshot(fault, source, this.dimensions, techniques[source[7]!] ?? `number ${source[7]}`);
-    this.#technique = techniques[source[7]!] ?? 'auto';
-    this.#readStats();
-    this.#view = undefined;
+    this.#restored(source);
     return this;
   }
 
@@ -958,6 +961,18 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
       ids ? new Uint32Array(buffer, ids, this.size) : undefined,
       rules ? new Uint32Array(buffer, rules, 3 * this.size) : undefined,
     );
+  }
+
+  /** Where the boxes stand: elsewhere once others were restored. */
+  #place(): number {
+    this.kernel.contents();
+    return this.io()[1]!;
+  }
+
+  #restored(source: Uint8Array): void {
+    this.#technique = techniques[source[7]!] ?? 'auto';
+    this.#readStats();
+    this.#view = undefined;
   }
 
   #readStats(): void {

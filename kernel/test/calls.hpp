@@ -218,8 +218,12 @@ template <int D> class Calls {
     }
   }
 
-  /// Makes a call; returns whether there was memory for it. `recover` is what abi.cpp does after a trap.
+  /// Makes a call; returns whether there was memory for it. `recover` is what abi.cpp does after a trap. Where memory
+  /// ended, `unmade` sees to it that nothing has changed.
   template <class Call> bool made(Call call) {
+    return made(call, [&] { compare(); });
+  }
+  template <class Call, class Unmade> bool made(Call call, Unmade unmade) {
     const u64 limit = heap::limit;
     if (starved_) heap::limit = heap::used + 64 * u64(bytes_.next());
     bool ended = false;
@@ -236,7 +240,7 @@ template <int D> class Calls {
     space_.recover();
     found_ = false;
     unsure_ = true;  // whether the questions see what this update saw, or what the one before did
-    compare();
+    unmade();
     return false;
   }
 
@@ -358,7 +362,8 @@ template <int D> class Calls {
     saved_ = Saved{{made.words(), made.words() + made.bytes() / 8}, model_, before_, space_.technique};
   }
 
-  /// Goes back to what was saved; or tries to with other bytes, which must change nothing.
+  /// Goes back to what was saved; or tries to with other bytes, which must change nothing. Where memory ends, all is as it
+  /// was, or the boxes are restored and there are no pairs.
   void restore() {
     if (!saved_) return;
     std::vector<u64> words = saved_->words;
@@ -372,17 +377,22 @@ template <int D> class Calls {
     SnapshotHeader head = {};
     __builtin_memcpy(&head, bytes, smaller(size, u64(sizeof(head))));
     SnapshotFault fault = SnapshotFault::none;
+    // The technique tells whether anything was restored: meanwhile it is another than that of the snapshot.
+    Technique mine = space_.technique, other = head.technique == u8(Technique::brute_force) ? Technique::automatic : Technique::brute_force;
+    space_.technique = other;
     bool done = made([&] {
       fault = space_.snapshot.stage(head, u32(size), D, built);
       if (fault != SnapshotFault::none) return;
       __builtin_memcpy(const_cast<u64*>(space_.snapshot.words()), bytes, size);
       if (how == 3) space_.snapshot.seal();
       fault = space_.restore();
-    });
-    if (!done) return;
-    if (how == 1 || how == 2) CHECK(fault != SnapshotFault::none);
-    if (how == 0) CHECK(fault == SnapshotFault::none);
-    if (fault != SnapshotFault::none) return compare();
+      CHECK(how == 0 || how == 3 || fault != SnapshotFault::none);
+      CHECK(how != 0 || fault == SnapshotFault::none);
+    }, [&] { CHECK(space_.technique == other || space_.pairs.count == 0); });
+    if (space_.technique == other) {
+      space_.technique = mine;
+      return compare();
+    }
     if (how == 3) {
       u32 detail;
       CHECK(space_.validate(detail) == 0);
@@ -390,8 +400,8 @@ template <int D> class Calls {
     } else {
       model_ = saved_->model;
       before_ = saved_->before;
-      space_.technique = saved_->technique;
-      CHECK(sorted_pairs(space_) == expected());
+      CHECK(space_.technique == saved_->technique);
+      if (done) CHECK(sorted_pairs(space_) == expected());
     }
     seen_ = model_;
     updated_ = true;
@@ -503,7 +513,12 @@ template <int D> class Calls {
     for (u32 a = 0; a < D; a++) asks.lo[a] = asks.hi[a] = f64(bytes_.below(40));
   }
 
-  /// From the point that is asked about to a box.
+  /// From the point that is asked about to a box: without overflow.
+  static f64 distance(const Question<D>& asks, const Box<D>& box) {
+    f64 all = 0;
+    for (u32 a = 0; a < D; a++) all = std::hypot(all, std::max({box[a] - asks.lo[a], asks.lo[a] - box[D + a], 0.0}));
+    return all;
+  }
   static f64 squared_distance(const Question<D>& asks, const Box<D>& box) {
     f64 sum = 0;
     for (u32 a = 0; a < D; a++) {
@@ -547,6 +562,7 @@ template <int D> class Calls {
 
   /// Up to rounding: the nearest, in order.
   void ask_near() {
+    const f64 tiny = 1e-150;  // the squares of less are not exact
     Question<D> asks = question();
     from_a_point(asks);
     asks.limit = bytes_.below(2) ? std::numeric_limits<f64>::infinity() : f64(bytes_.next()) * 4;
@@ -560,13 +576,13 @@ template <int D> class Calls {
     CHECK(hits.size() <= most);
     bool good = true;
     std::map<u32, f64> distances;
-    for (u32 id : eligible(asks)) distances[id] = squared_distance(asks, seen_->at(id));
+    for (u32 id : eligible(asks)) distances[id] = distance(asks, seen_->at(id));
     for (size_t k = 0; k < hits.size(); k++) {
       good &= k == 0 || hits[k - 1] < hits[k];
       good &= distances.count(hits[k].id) > 0;
       if (!good) break;
       f64 is = distances[hits[k].id];
-      good &= is == hits[k].rank || std::fabs(is - hits[k].rank) <= 1e-12 * is;
+      good &= is == hits[k].rank || std::fabs(is - hits[k].rank) <= 1e-12 * is + tiny;
       distances.erase(hits[k].id);
     }
     f64 last = hits.size() == most ? hits.back().rank : asks.limit;
@@ -587,7 +603,7 @@ template <int D> class Calls {
     std::vector<u32> ids = eligible(asks);
     bool good = hits.size() <= 3;
     for (const Hit& hit : hits) {
-      good &= hit.rank >= 0 && hit.rank <= 1 && std::binary_search(ids.begin(), ids.end(), hit.id);
+      good &= hit.rank >= 0 && hit.rank <= 1 && std::binary_search(ids.begin(), ids.end(), hit.id & ~Hit::corner);
     }
     CHECK(good);
   }
