@@ -110,6 +110,17 @@ describe('with 64 MiB of memory', () => {
     expect(() => new BroadPhase({ capacity: 2 ** 24 })).toThrow(/^capacity: out of memory/);
   });
 
+  test('a snapshot whose pairs do not fit leaves its boxes and no pairs', () => {
+    const count = 8000;
+    const crowd = new BroadPhase({ technique: 'strip-sweep' }).setAll(identical(count, 2)).snapshot();
+    const space = new BroadPhase().set(3, 0, 0, 1, 1).set(5, 1, 1, 2, 2.1).update();
+    expect(() => space.restore(crowd)).toThrow(/^restore: out of memory/);
+    expect([space.size, space.pairCount, space.technique]).toEqual([count, 0, 'strip-sweep']);
+    expect(() => space.update()).toThrow(/^update: out of memory/);
+    for (let id = 10; id < count; id++) space.delete(id);
+    expect(space.set(10, 0, 0, 1, 1).update().validate().pairCount).toBe(55);
+  });
+
   test('a snapshot that does not fit is refused, and what was there stays', () => {
     const space = new BroadPhase({ events: true }).set(3, 0, 0, 1, 1).set(5, 1, 1, 2, 2.1).update();
     const before = space.snapshot();
