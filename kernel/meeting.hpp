@@ -29,7 +29,7 @@ inline f64 time_to(f64 lo, f64 hi, f64 face, f64 along, bool stops) {
   bool forth = along > 0;
   f64 near = forth ? hi : lo, speed = __builtin_fabs(along);
   f64 gap = larger(0.0, forth ? face - hi : lo - face);
-  if (!stops) return gap / speed;
+  if (!stops || gap == __builtin_inf()) return gap / speed;
   if (lo < hi && !(is_single(lo) && is_single(hi) && is_single(face))) {
     f64 error = roundings * (gap + size_of(lo) + size_of(hi) + size_of(face));
     f64 other = forth ? face - (hi - lo) : face + (hi - lo);

@@ -374,7 +374,6 @@ template <int D> class Space {
     else if (rounding_) retest();
     if (filters_.active()) filters_.finish(pairs);
     if (!ids_.same()) name_pairs();
-    if (asked_ && exposed_ && !holds_) see();  // who writes in place does not say when
     return true;
   }
 
@@ -592,6 +591,8 @@ template <int D> class Space {
     u32 few = larger(ids_.count() / 8, 8u);
     holds_ = holds_ && !changes_.all() && changes_.count() <= few &&
              index_.follow(boxes_.data(), exact, ids_, rules, changes_.list(), changes_.count());
+    // Who writes in place does not say when.
+    if (exposed_ && !holds_ && (asked_ || ids_.count() <= spared_in_place)) see();
   }
 
   /// The index takes over what stands in the space.

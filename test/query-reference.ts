@@ -99,7 +99,7 @@ function below(x: number): number {
 function timeTo(lo: number, hi: number, face: number, along: number, stops: boolean): number {
   const forth = along > 0;
   let gap = Math.max(0, forth ? face - hi : lo - face);
-  if (!stops) return gap / Math.abs(along);
+  if (!stops || gap === Infinity) return gap / Math.abs(along);
   if (lo < hi && !(isSingle(lo) && isSingle(hi) && isSingle(face))) {
     const error = roundings * (gap + sizeOf(lo) + sizeOf(hi) + sizeOf(face));
     const other = forth ? face - (hi - lo) : face + (hi - lo);
