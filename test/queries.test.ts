@@ -340,3 +340,18 @@ describe.each([2, 3] as const)('bad questions in %d dimensions', (dimensions) =>
     expect(() => ask[wrong](...point, 1, 1)).toThrow(`${wrong}: this space has ${dimensions} dimensions`);
   });
 });
+
+test('no sweep meets what begins infinitely far away, however far it goes', () => {
+  const space = new BroadPhase().set(7, -Infinity, Infinity, Infinity, Infinity).update();
+  expect(space.sweep(0, -0.1, 1, 0, 1e300, 1e308)).toBeUndefined();
+});
+
+test('the first question sees what the last update saw, whatever was written in place since', () => {
+  const space = new BroadPhase();
+  const boxes = space.boxes(1);
+  boxes.set([0, 0, 1, 1]);
+  space.update();
+  boxes.set([5, 5, 6, 6]);
+  expect([space.queryPoint(0, 0), space.queryPoint(5, 5)]).toEqual([[0], []]);
+  expect([space.update().queryPoint(0, 0), space.queryPoint(5, 5)]).toEqual([[], [0]]);
+});
