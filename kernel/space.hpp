@@ -306,12 +306,11 @@ template <int D> class Space {
     i32 bad = bad_in_place();
     if (bad >= 0) return bad;
     take_written();
-    bool wraps = options_.wrap[0] > 0;
-    if (rounding_ && !exposed_ && !wraps) look_for_map();
+    look_for_map();
     if (exposed_) changes_.note_all();
     if (lost_) holds_ = lost_ = false;
     if (follows && chosen == ran_ && changes_.none() && ids_.count() == seen_ && !filters_.changed()) return rest();
-    if (!search(chosen, follows)) return rest();
+    if (!search(chosen)) return rest();
     if (restored_) table_.made = false;
     restored_ = false;
     if (keeps_events) events.follow(pairs, table_);
@@ -323,14 +322,15 @@ template <int D> class Space {
   /// Finds the pairs of what has been restored, which has been looked at.
   COLD void find() {
     Technique chosen = auto_choice(technique, ids_.count(), ordered_);
-    if (rounding_ && !(options_.wrap[0] > 0)) look_for_map();
-    search(chosen, chosen == Technique::incremental);
+    look_for_map();
+    search(chosen);
     finish();
   }
 
   /// Has a technique find the pairs, and makes of them what is reported; false where they are those of before.
-  bool search(Technique chosen, bool follows) {
+  bool search(Technique chosen) {
     searching_ = true;
+    bool follows = chosen == Technique::incremental;
     bool wraps = options_.wrap[0] > 0;
     Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_};
     if (filters_.active()) {
@@ -762,20 +762,19 @@ template <int D> class Space {
     return is;
   }
 
-  /// Looks whether another map serves better, now and then, and at once where many boxes have become points. Says whether
-  /// there is another.
-  COLD bool look_for_map() {
+  /// Looks whether another map serves better, now and then, and at once where many boxes have become points.
+  COLD void look_for_map() {
+    if (!rounding_ || exposed_ || options_.wrap[0] > 0) return;
     u32 n = ids_.count(), collapsed = collapsed_;
     collapsed_ = 0;
     if (ordered_) {  // by what stands in the space alone
       GapMap<D> other;
       if (n >= worth_a_look) other.choose(exact_.data(), n, nullptr, 0);
-      if (other == map_) return false;
+      if (other == map_) return;
       map_ = other;
-      round_all();
-      return true;
+      return round_all();
     }
-    if (n < worth_a_look || (collapsed <= bearable_ && look_in_-- > 0)) return false;
+    if (n < worth_a_look || (collapsed <= bearable_ && look_in_-- > 0)) return;
     look_in_ = look_every;
     u32 some[usual_collapsed], many = 0;
     if (collapsed > bearable_) {
@@ -790,7 +789,6 @@ template <int D> class Space {
     if (better) round_all();
     if (better) bearable_ = usual_collapsed;
     else if (collapsed > bearable_) bearable_ = 2 * collapsed;
-    return better;
   }
 
   /// The rule of a box, to be changed.
