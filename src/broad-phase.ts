@@ -86,7 +86,7 @@ export type TechniqueName = (typeof techniques)[number];
 /** The arguments of `new BroadPhase`: a space of other than two dimensions has to say so. */
 export type ConstructorOptions<D extends Dimensions, Technique extends TechniqueName = LeanTechnique> = 2 extends D
   ? [options?: BroadPhaseOptions<D, Technique>]
-  : [options: BroadPhaseOptions<D, Technique> & Required<Pick<BroadPhaseOptions<D>, 'dimensions'>>];
+  : [options: BroadPhaseOptions<D, Technique> & { dimensions: NoInfer<D> }];
 
 const reasons = [
   'asked for',

@@ -5,7 +5,7 @@ import { BroadPhase as FullBroadPhase } from 'broadphase/all';
 import { coltech, Entity, World } from 'broadphase/ro';
 import { openTrace, record } from 'broadphase/trace';
 
-const options: BroadPhaseOptions<2> = { dimensions: 2, technique: 'strip-sweep' };
+const options: BroadPhaseOptions = { dimensions: 2, technique: 'strip-sweep' };
 const space: BroadPhase = new BroadPhase(options).set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
 const pairs: Uint32Array = space.pairs;
 const stats: Stats = space.stats;
