@@ -86,7 +86,13 @@ export type TechniqueName = (typeof techniques)[number];
 /** The arguments of `new BroadPhase`: a space of other than two dimensions has to say so. */
 export type ConstructorOptions<D extends Dimensions, Technique extends TechniqueName = LeanTechnique> = 2 extends D
   ? [options?: BroadPhaseOptions<D, Technique>]
-  : [options: BroadPhaseOptions<D, Technique> & { dimensions: NoInfer<D> }];
+  : [options: BroadPhaseOptions<D, Technique> & DimensionsSaid<D>];
+
+/** What a space of other than two dimensions has to be given. */
+export interface DimensionsSaid<D extends Dimensions> {
+  /** The number of dimensions: it has to be said where it is not 2. */
+  dimensions: NoInfer<D>;
+}
 
 const reasons = [
   'asked for',

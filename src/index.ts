@@ -9,6 +9,7 @@ export {
   BroadPhase,
   type BroadPhaseOptions,
   type ConstructorOptions,
+  type DimensionsSaid,
   type Reason,
   type Stats,
   type TechniqueName,
