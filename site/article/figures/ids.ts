@@ -14,7 +14,7 @@ const lights: Readonly<Record<AddingOperation, string>> = {
   technique: 'this.#broadPhase.addEntity',
   uniq: 'this.uniq++',
   world: 'entity.world = this',
-  done: 'this.#entities.push',
+  done: 'this.#entities.add(',
 };
 
 export function mount(root: HTMLElement): () => void {

@@ -93,7 +93,7 @@ export abstract class EntityList<E extends Collidable = Entity> implements Techn
 
   /** @throws RangeError for the first entity whose box is not one (NaN, or min above max), naming it. */
   update(): void {
-    for (const entity of this.entities) checkAABB(entity);
+    for (const entity of this.#byId.values()) checkAABB(entity);
   }
 
   abstract queryForCollisionPairs(): Pair<E>[];
