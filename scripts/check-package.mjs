@@ -40,6 +40,14 @@ throws(() => {
 equal(space.technique, 'auto');
 equal(new coltech.BroadPhase({ technique: 'quadtree' }).space.technique, 'quadtree');
 
+for (const option of [{ cellSize: 4 }, { bounds: [0, 0, 9, 9] }, { margin: 1 }]) {
+  const [name] = Object.keys(option);
+  const unheeded = { name: 'RangeError', message: new RegExp(`^${name}: got .*that it is left out.*'broadphase/all'`) };
+  throws(() => new lean.BroadPhase(option), unheeded);
+  throws(() => new flat.BroadPhase(option), unheeded);
+  equal(new all.BroadPhase(option).technique, 'auto');
+}
+
 const recording = record(space);
 space.setAll(boxes).update();
 await recording.stop();

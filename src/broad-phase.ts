@@ -30,11 +30,12 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
   /** One of {@link BroadPhase.techniques}. Default `'auto'`. */
   technique?: Technique;
   /**
-   * For grids, which `auto` has none of: the side of a cell, or one number per axis, above 0. One so small that boxes would stand in very many
-   * cells is doubled until they do not. Left out: chosen from the boxes.
+   * For grids, which are in `broadphase/all`: the side of a cell, or one number per axis, above 0. `auto` has no
+   * grid, and does not look at it. One so small that boxes would stand in very many cells is doubled until they do
+   * not. Left out: chosen from the boxes.
    */
   cellSize?: number | readonly number[];
-  /** For `spatial-grid`: the world that is cut into cells, minima then maxima. Boxes outside are found all the same. */
+  /** For `spatial-grid`, in `broadphase/all`: the world that is cut into cells, minima then maxima. Boxes outside are found all the same. */
   bounds?: readonly number[];
   /**
    * The size of a world that wraps around, along each axis: what leaves it on one side comes in on the other, as in
@@ -45,7 +46,7 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
   wrap?: readonly number[];
   /** Whether every update finds out which pairs began and ended, for `began`. Default false. */
   events?: boolean;
-  /** For `aabb-tree`: how far a box may move before the tree changes, above 0. Left out: from the motion seen. */
+  /** For `aabb-tree`, in `broadphase/all`: how far a box may move before the tree changes, above 0. Left out: from the motion seen. */
   margin?: number;
   /** A hint: how many boxes there will be, 0 … 2^24. Saves growing while they are added. */
   capacity?: number;
@@ -248,6 +249,7 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
     const cells = cellSize === undefined ? undefined : checkCellSize(cellSize, dimensions);
     if (bounds !== undefined) checkBounds(bounds, dimensions);
     if (margin !== undefined) checkMargin(margin);
+    checkHeeded({ cellSize, bounds, margin });
     if (wrap !== undefined) checkWrap(wrap, dimensions);
 
     super(dimensions, wrap !== undefined);
@@ -564,10 +566,11 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
   }
 
   /**
-   * Says whom box `id` meets: a pair is reported where each one's layer has a bit in the other's mask. Both are 32
-   * bits; without a filter both have all bits set, so that a box meets all but those that want to meet nobody. Applied
-   * before and inside the search: boxes that ignore each other cost little, boxes that can meet nobody cost nothing.
-   * The filter belongs to the id: it stays when the box moves, by whatever call, and goes with `delete` and `clear`.
+   * Says whom box `id` meets: a pair is reported where each one's layer has a bit in the other's mask, so that a box
+   * of layer 0 is in none. Both are 32 bits; without a filter both have all bits set, so that a box meets all but those
+   * that want to meet nobody. Applied before and inside the search: boxes that ignore each other cost little, boxes
+   * that can meet nobody cost nothing. The filter belongs to the id: it stays when the box moves, by whatever call,
+   * and goes with `delete` and `clear`.
    *
    * @param id an integer from 0 to 2^24 - 1, of a box that is there
    * @param layer what the box is: an integer from 0 to 2^32 - 1, most often one bit
@@ -1066,6 +1069,15 @@ function checkTechnique(name: unknown): void {
   if (technique >= 0 && isBuilt(technique)) return;
   const more = technique < 0 ? '' : ": the others are in 'broadphase/all'";
   badValue('technique', name, `one of ${BroadPhase.techniques.join(', ')}${more}`, typeof name !== 'string');
+}
+
+/** Options that no technique of this build looks at: those who have them are in `broadphase/all`. */
+function checkHeeded(options: Record<string, unknown>): void {
+  if (isBuilt(techniques.indexOf('spatial-grid'))) return;
+  for (const [name, value] of Object.entries(options)) {
+    if (value === undefined) continue;
+    badValue(name, value, "that it is left out: the techniques that heed it are in 'broadphase/all'");
+  }
 }
 
 const isBoxCount = (count: unknown): boolean =>
