@@ -1,5 +1,5 @@
 // What the documents in Markdown name is there: files that they link to, paths, commands of npm; and all files of the
-// kernel and of the library stand in the map of ARCHITECTURE.md.
+// kernel and of the library stand in the map of ARCHITECTURE.md. Sentences and paragraphs are short.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { basename, dirname, join, parse } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -44,9 +44,32 @@ describe.each(documents)('%s', (document, text) => {
   });
 });
 
+/** The paragraphs of running text: no code, tables or headings; each item of a list is one. */
+const paragraphs = (text: string) =>
+  text
+    .replaceAll(/^```[\s\S]*?^```/gm, '')
+    .split(/\n\s*\n|\n(?=\s*(?:[-*]|\d+\.) )/)
+    .filter((paragraph) => !/^\s*[|#<]/.test(paragraph) && paragraph.trim() !== '');
+const sentences = (paragraph: string) => paragraph.split(/(?<=[.!?:])\s+/);
+const words = (text: string) => text.trim().split(/\s+/).length;
+
+describe('prose', () => {
+  test.each(documents)('%s has no sentence above 45 words, no paragraph above 90', (_, text) => {
+    const found = paragraphs(text);
+    expect(found.filter((paragraph) => words(paragraph) > 90)).toEqual([]);
+    expect(found.flatMap(sentences).filter((sentence) => words(sentence) > 45)).toEqual([]);
+  });
+
+  test('has at most 18 words a sentence in the mean', () => {
+    const all = documents.flatMap(([, text]) => paragraphs(text).flatMap(sentences));
+    expect(all.length).toBeGreaterThan(500);
+    expect(all.reduce((sum, sentence) => sum + words(sentence), 0) / all.length).toBeLessThan(18);
+  });
+});
+
 describe('ARCHITECTURE.md', () => {
   const architecture = read('ARCHITECTURE.md');
-  const [map] = matches(architecture, /```\n([\s\S]*?)```/g);
+  const [map] = matches(architecture, /## The map\n\n```\n([\s\S]*?)```/g);
   const sources = files.filter((file) => /\.(hpp|cpp|m?ts|mjs|json)$/.test(file));
 
   test('has every file of the kernel and of the library in its map', () => {
