@@ -3,13 +3,14 @@
 //   npm run bench -- --full                 with more sizes and contenders, for some hours
 //   npm run bench -- --motions flock,hail   rows of a kind alone, printed; --json file writes them down
 //   npm run bench -- --native               libraries of C++ and Rust, where they are at hand, into the same results
-//   npm run bench -- --compare before.json after.json      what changed beyond the noise
+//   npm run bench -- --compare main         what changed beyond the noise since main; or two files
 //   npm run bench -- --figures              writes the documents anew, from the results that are there
 import { execFileSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { bundle } from '../scripts/bundle.mjs';
+import { machineName } from './machine.mjs';
 import { compare } from './report/compare.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
@@ -37,12 +38,24 @@ const list = (text) => text?.split(',').filter(Boolean);
 const numbers = (text) => list(text)?.map(Number);
 const read = (file) => JSON.parse(readFileSync(file, 'utf8'));
 
-if (options.compare) {
-  if (positionals.length !== 2) {
-    console.error('--compare takes two files of results: before and after.');
+/** Results from a file, or those of this machine that a branch or commit has. */
+function resultsOf(place) {
+  if (existsSync(place)) return read(place);
+  try {
+    const file = `bench/results/${machineName}.json`;
+    return JSON.parse(execFileSync('git', ['show', `${place}:${file}`], { cwd: here, maxBuffer: 2 ** 28, stdio: 'pipe' }));
+  } catch {
+    console.error(`--compare: ${place} is no file, and no branch or commit with results of this machine.`);
     process.exit(1);
   }
-  console.log(compare(read(positionals[0]), read(positionals[1])));
+}
+
+if (options.compare) {
+  if (positionals.length < 1 || positionals.length > 2) {
+    console.error('--compare takes what was before, a file of results, branch or commit, and perhaps what came after.');
+    process.exit(1);
+  }
+  console.log(compare(...[positionals[0], positionals[1] ?? `${here}results/${machineName}.json`].map(resultsOf)));
   process.exit();
 }
 
