@@ -208,7 +208,7 @@ test('a race whose scene is changed again and again goes on, and leaves no worke
   await expect(page.locator('.tile.out')).toHaveCount(0);
   const frame = await number(page, 'frame');
   await expect.poll(() => number(page, 'frame'), { timeout: 20_000 }).toBeGreaterThan(frame);
-  expect(workers).toBe(8 + 1);
+  await expect.poll(() => page.workers().length, { timeout: 20_000 }).toBe(8 + 1);
   expect(most).toBeLessThanOrEqual(2 * (8 + 1)); // some of the race before, until the browser has ended them
 });
 
