@@ -179,7 +179,10 @@ async function open(frame: number, look?: readonly number[]): Promise<void> {
 
 async function openAt(frame: number, look: readonly number[] | undefined, signal: AbortSignal): Promise<void> {
   source = sourceOf();
-  race?.end();
+  if (race) {
+    race.end();
+    picture = spare = undefined; // its arrays may be on their way to a racer: they cannot be lent twice
+  }
   race = undefined;
   recording = false;
   if (source.kind !== 'scene') say('Loading the recording.');

@@ -182,6 +182,26 @@ test('techniques race on the same frames, and agree', async ({ page }) => {
   await expect(page).not.toHaveURL(/race=/);
 });
 
+test('a race goes on after a recording that was long in coming', async ({ page }) => {
+  await page.context().route('**/traces/*', async (route) => {
+    await new Promise((resolve) => setTimeout(resolve, 1500));
+    await route.continue();
+  });
+  await page.goto('/lab/?boxes=2000&race=auto,strip-sweep');
+  const note = page.locator('#race-note');
+  await expect(note).toContainText('all find the same', { timeout: 20_000 });
+  const menu = page.getByRole('combobox', { name: 'Scene' });
+  for (let k = 0; k < 8; k++) {
+    await menu.selectOption('rain');
+    await page.waitForTimeout(700);
+    await menu.selectOption('crowd');
+    await expect(page).toHaveURL(/scene=crowd/, { timeout: 20_000 });
+    await expect(page.getByRole('button', { name: 'Pause' })).toBeVisible();
+  }
+  const frame = await number(page, 'frame');
+  await expect.poll(() => number(page, 'frame'), { timeout: 20_000 }).toBeGreaterThan(frame);
+});
+
 test('a race whose scene is changed again and again goes on, and leaves no workers behind', async ({ page }) => {
   test.slow();
   let [workers, most] = [0, 0];
