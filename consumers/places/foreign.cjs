@@ -25,7 +25,7 @@ function everyForeign({ BroadPhase, findPairs, findPairsBetween, init }, foreign
     ];
     answers.push(all.join(' '));
   }
-  new BroadPhase({ cellSize: foreign.Array.of(4, 4), wrap: foreign.Array.of(100, 100) });
+  new BroadPhase({ wrap: foreign.Array.of(100, 100) });
   if (kernel) {
     init(kernel);
     init(kernel.buffer);
