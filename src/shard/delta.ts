@@ -21,52 +21,40 @@ export interface Delta {
 /** The bits. */
 export const Change = { enters: 1, leaves: 2, owned: 4, added: 8, gone: 16 } as const;
 
-/** Collects what one zone is told. */
-export class DeltaWriter {
-  readonly #ids: number[] = [];
-  readonly #changes: number[] = [];
-  readonly #boxes: number[] = [];
-
-  add(id: number, change: number, box?: readonly number[], before?: readonly number[]): void {
-    this.#ids.push(id);
-    this.#changes.push(change);
-    if (box) for (const value of box) this.#boxes.push(value);
-    if (before) for (const value of before) this.#boxes.push(value);
-  }
-
-  get size(): number {
-    return this.#ids.length;
-  }
-
-  /** What was collected; the writer is empty after it. */
-  take(from: number, to: number): Delta {
-    const delta: Delta = {
-      from,
-      to,
-      ids: Uint32Array.from(this.#ids),
-      changes: Uint8Array.from(this.#changes),
-      boxes: Float64Array.from(this.#boxes),
-    };
-    this.#ids.length = this.#changes.length = this.#boxes.length = 0;
-    return delta;
-  }
+/** What is told of one box: its bits, and its boxes as a delta has them. */
+export interface Told {
+  id: number;
+  change: number;
+  boxes: readonly (readonly number[])[];
 }
 
+export const pack = (from: number, to: number, told: readonly Told[]): Delta => ({
+  from,
+  to,
+  ids: Uint32Array.from(told, ({ id }) => id),
+  changes: Uint8Array.from(told, ({ change }) => change),
+  boxes: Float64Array.from(told.flatMap(({ boxes }) => boxes.flat())),
+});
+
 /** Throws for what is no delta for this zone: it comes from elsewhere, over a network. */
-export function checkDelta({ to, ids, changes, boxes }: Delta, zone: number, dimensions: 2 | 3): void {
+export function unpack({ to, ids, changes, boxes }: Delta, zone: number, dimensions: 2 | 3): Told[] {
   if (to !== zone) badValue('update: delta.to', to, `${zone}, this zone`);
   if (changes.length !== ids.length)
     badValue('update: delta.changes.length', changes.length, `${ids.length}, as of ids`);
-  const width = 2 * dimensions;
   let at = 0;
-  for (const [k, change] of changes.entries()) {
-    const count = change & Change.gone ? 0 : change & Change.enters && !(change & Change.added) ? 2 : 1;
-    for (const end = at + count * width; at < end; at += width) {
-      const box = boxes.subarray(at, at + width);
-      for (let a = 0; a < dimensions; a++) {
-        if (!(box[a] <= box[a + dimensions])) badBox('update: delta.boxes', ids[k], box, dimensions);
-      }
+  const next = (id: number) => {
+    const box = Array.from(boxes.subarray(at, at + 2 * dimensions));
+    at += 2 * dimensions;
+    for (let a = 0; a < dimensions; a++) {
+      if (!(box[a] <= box[a + dimensions])) badBox('update: delta.boxes', id, box, dimensions);
     }
-  }
+    return box;
+  };
+  const told = Array.from(ids, (id, k) => {
+    const change = changes[k];
+    const count = change & Change.gone ? 0 : change & Change.enters && !(change & Change.added) ? 2 : 1;
+    return { id, change, boxes: Array.from({ length: count }, () => next(id)) };
+  });
   if (at !== boxes.length) badValue('update: delta.boxes.length', boxes.length, `${at}`);
+  return told;
 }

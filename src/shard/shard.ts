@@ -3,10 +3,10 @@
 // are left out (Zones.reporterOf). For events the space must also know where at the update before everything was that
 // it sees now. So a box that enters brings its earlier box along, and is put there first, in an update of its own; a box
 // that leaves stays for one update more. What began and ended is then what the space itself says, wrapped worlds too.
-// Cost: that of the space, a look at each owned box per exchange, two look-ups per pair.
+// Cost: that of the space, a look at each box that changed per exchange, two look-ups per pair.
 import type { BroadPhase } from 'broadphase';
 import { badBox, badCount, badId, badValue, maxId } from '../errors.ts';
-import { Change, checkDelta, type Delta, DeltaWriter } from './delta.ts';
+import { Change, type Delta, pack, type Told, unpack } from './delta.ts';
 import type { Zones } from './zones.ts';
 
 /** A shard between two ticks, to go on from in another process: see {@link Shard.state}. */
@@ -31,11 +31,11 @@ export interface ShardOptions {
 interface Seen {
   readonly id: number;
   owner: number;
-  now: number[];
+  now: readonly number[];
   /** As of the last update. */
-  before: number[];
-  /** Which zones see it, as of the last exchange; empty: none was told. */
-  ranges: number[];
+  before: readonly number[];
+  /** If this zone owns it: the zones that see it as of the last exchange. */
+  seers: readonly number[];
   flags: number;
 }
 
@@ -45,13 +45,8 @@ const here = 1;
 const enters = 2;
 /** It is another than the one in the space, if there is one. */
 const added = 4;
-const moved = 8;
-const leaves = 16;
-const gone = 32;
-/** The other zones have not been told. */
-const untold = 64;
-/** The next update has to do something. */
-const touched = enters | added | moved | leaves | gone;
+const leaves = 8;
+const gone = 16;
 
 /**
  * One zone of a world cut into {@link Zones}: boxes in, and those pairs out that this zone has to report. All zones
@@ -82,18 +77,20 @@ export class Shard {
   readonly taken: number[] = [];
   readonly #entered: (id: number) => void;
   readonly #seen = new Map<number, Seen>();
-  readonly #touched: Seen[] = [];
+  /** For these the next update has to do something. */
+  readonly #touched = new Set<Seen>();
+  /** Of these, which this zone owns, the others are to be told at the next exchange. */
+  readonly #untold = new Set<Seen>();
   /** Zones that know nothing. */
   readonly #blank = new Set<number>();
-  readonly #writers: readonly DeltaWriter[];
+  /** What each zone is told. */
+  readonly #told: readonly Told[][];
   /** As of the last update, and as of the last exchange. */
   #zones: Zones;
   #nextZones: Zones;
   #pairs = new Uint32Array();
   #began = new Uint32Array();
   #ended = new Uint32Array();
-  readonly #known: number[] = [];
-  readonly #seers: number[] = [];
 
   /**
    * @param zones how the world is cut, the same in every process
@@ -115,7 +112,7 @@ export class Shard {
     this.space = space;
     this.#zones = this.#nextZones = zones;
     this.#entered = options.entered ?? (() => {});
-    this.#writers = Array.from({ length: zones.count }, () => new DeltaWriter());
+    this.#told = Array.from({ length: zones.count }, () => []);
     if (options.state) this.#restore(options.state);
   }
 
@@ -156,10 +153,11 @@ export class Shard {
     if (!(Number.isInteger(id) && id >= 0 && id <= maxId)) badId('set', id);
     if (box.length !== 2 * dimensions) badCount('set', id, box.length + 1, dimensions);
     for (let k = 0; k < dimensions; k++) if (!(box[k] <= box[k + dimensions])) badBox('set', id, box, dimensions);
-    const seen = this.#seen.get(id);
-    if (!seen) this.#put(id, this.zone, added | untold, box);
-    else if (seen.flags & gone) this.#touch(seen, added | untold, box).flags &= ~gone;
-    else this.#touch(seen, moved | (seen.owner === this.zone ? untold : 0), box);
+    const isNew = !this.sees(id);
+    const seen = this.#touch(id, isNew ? added : 0, box);
+    seen.flags &= ~gone;
+    if (isNew) seen.owner = this.zone;
+    if (seen.owner === this.zone) this.#untold.add(seen);
     return this;
   }
 
@@ -173,10 +171,10 @@ export class Shard {
    * shard.set(7, 0, 0, 10, 10).delete(7); // → true
    */
   delete(id: number): boolean {
-    const seen = this.#seen.get(id);
-    if (!seen || seen.flags & gone) return false;
+    const seen = this.#find(id);
+    if (!seen) return false;
     if (seen.owner !== this.zone) badValue('delete', id, `a box of zone ${this.zone}, not of zone ${seen.owner}`);
-    this.#touch(seen, gone | untold);
+    this.#untold.add(this.#touch(id, gone));
     return true;
   }
 
@@ -187,8 +185,7 @@ export class Shard {
    * new Shard(new Zones({ borders: {} }), 0, new BroadPhase({ events: true })).owns(7); // → false
    */
   owns(id: number): boolean {
-    const seen = this.#seen.get(id);
-    return seen !== undefined && seen.owner === this.zone && (seen.flags & gone) === 0;
+    return this.#find(id)?.owner === this.zone;
   }
 
   /**
@@ -198,8 +195,7 @@ export class Shard {
    * new Shard(new Zones({ borders: {} }), 0, new BroadPhase({ events: true })).sees(7); // → false
    */
   sees(id: number): boolean {
-    const seen = this.#seen.get(id);
-    return seen !== undefined && (seen.flags & gone) === 0;
+    return this.#find(id) !== undefined;
   }
 
   /**
@@ -228,13 +224,14 @@ export class Shard {
    * shard.given; // → [7]
    */
   exchange(zones: Zones = this.#nextZones): Delta[] {
-    if (zones.count !== this.#writers.length)
-      badValue('zones.count', zones.count, `${this.#writers.length}, as before`);
+    if (zones.count !== this.#told.length) badValue('zones.count', zones.count, `${this.#told.length}, as before`);
+    const all = zones !== this.#nextZones || this.#blank.size > 0;
     this.#nextZones = zones;
     this.given.length = 0;
-    for (const seen of this.#seen.values()) if (seen.owner === this.zone) this.#tell(seen, zones);
+    for (const seen of all ? this.#seen.values() : this.#untold) if (seen.owner === this.zone) this.#tell(seen);
+    this.#untold.clear();
     this.#blank.clear();
-    return this.#writers.flatMap((writer, to) => (writer.size > 0 ? writer.take(this.zone, to) : []));
+    return this.#told.flatMap((told, to) => (told.length > 0 ? pack(this.zone, to, told.splice(0)) : []));
   }
 
   /**
@@ -249,11 +246,11 @@ export class Shard {
    * shard.update([{ from: 0, to: 1, ids, changes, boxes }]).taken; // → [7]
    */
   update(deltas: readonly Delta[] = []): this {
+    const told = deltas.flatMap((delta) => unpack(delta, this.zone, this.space.dimensions));
     this.taken.length = 0;
-    for (const delta of deltas) checkDelta(delta, this.zone, this.space.dimensions);
     // What is gone comes first: another zone may have added a box with that id.
-    for (const delta of deltas) this.#receiveGone(delta);
-    for (const delta of deltas) this.#receive(delta);
+    for (const { id, change } of told) if (change & Change.gone && this.#seen.has(id)) this.#touch(id, gone);
+    for (const each of told) if (!(each.change & Change.gone)) this.#receive(each);
     this.#enter();
     for (const seen of this.#touched) {
       const { id, flags, now } = seen;
@@ -296,7 +293,7 @@ export class Shard {
    */
   forget(zone: number): void {
     if (zone === this.zone) badValue('forget', zone, 'another zone than this');
-    for (const seen of this.#seen.values()) if (seen.owner === zone) this.#touch(seen, gone);
+    for (const { id, owner } of this.#seen.values()) if (owner === zone) this.#touch(id, gone);
   }
 
   /**
@@ -312,9 +309,9 @@ export class Shard {
    * new Shard(zones, 0, new BroadPhase({ events: true }), { state }).owns(7); // → true
    */
   state(): ShardState {
-    const all = [...this.#seen.values()];
-    const open = all.find(({ flags }) => flags !== here);
+    const [open] = [...this.#touched, ...this.#untold];
     if (open) throw new Error(`state: box ${open.id} has changed, expected an exchange and an update since then`);
+    const all = [...this.#seen.values()];
     return {
       ids: Uint32Array.from(all, ({ id }) => id),
       owners: Uint16Array.from(all, ({ owner }) => owner),
@@ -325,90 +322,71 @@ export class Shard {
   #restore({ ids, owners, boxes }: ShardState): void {
     const width = 2 * this.space.dimensions;
     for (const [k, id] of ids.entries()) {
-      const seen = this.#put(id, owners[k], added, Array.from(boxes.subarray(k * width, (k + 1) * width)));
-      this.#zones.rangesOf(seen.now, seen.ranges);
-      this.#place(id, seen.now);
-      this.#entered(id);
+      const now = Array.from(boxes.subarray(k * width, (k + 1) * width));
+      const seers = this.#zones.seenBy(now);
+      // It enters from where it is, so nothing begins.
+      Object.assign(this.#touch(id, enters, now), { owner: owners[k], before: now, seers });
     }
-    this.space.update();
-    this.#settle();
-    this.#pairs = this.#reported(this.space.pairs, this.#zones, 'now');
+    this.update();
   }
 
-  #put(id: number, owner: number, flags: number, now: number[]): Seen {
-    const seen = { id, owner, flags, now, before: [], ranges: [] };
+  #find(id: number): Seen | undefined {
+    const seen = this.#seen.get(id);
+    return seen && seen.flags & gone ? undefined : seen;
+  }
+
+  /** Notes for the next update what happens to a box, which may be new here. */
+  #touch(id: number, flags: number, now?: readonly number[]): Seen {
+    const seen = this.#seen.get(id) ?? { id, owner: this.zone, now: [], before: [], seers: [], flags: 0 };
     this.#seen.set(id, seen);
-    this.#touched.push(seen);
-    return seen;
-  }
-
-  #touch(seen: Seen, flags: number, now = seen.now): Seen {
-    if (!(seen.flags & touched)) this.#touched.push(seen);
+    this.#touched.add(seen);
     seen.flags |= flags;
-    seen.now = now;
+    if (now) seen.now = now;
     return seen;
   }
 
   /** Tells the other zones what is new of a box that this zone owns. */
-  #tell(seen: Seen, zones: Zones): void {
+  #tell(seen: Seen): void {
     const { id, flags, now, before } = seen;
-    const known = zones.list(seen.ranges, this.#known);
-    if (flags & gone) seen.ranges.length = 0;
-    else zones.rangesOf(now, seen.ranges);
-    const seers = zones.list(seen.ranges, this.#seers);
-    const owner = flags & gone ? this.zone : zones.ownerOf(now);
+    const isGone = (flags & gone) > 0;
     const isNew = (flags & added) > 0;
+    const known = seen.seers.filter((zone) => zone !== this.zone && !this.#blank.has(zone));
+    const seers = isGone ? [] : this.#nextZones.seenBy(now);
+    const owner = isGone ? this.zone : this.#nextZones.ownerOf(now);
     for (const to of seers) {
-      const knows = known.includes(to) && !this.#blank.has(to);
-      if (to === this.zone || (knows && !(flags & untold) && to !== owner)) continue;
+      const knows = known.includes(to);
+      if (to === this.zone || (knows && to !== owner && !this.#untold.has(seen))) continue;
       const change = (knows ? 0 : Change.enters) | (to === owner ? Change.owned : 0) | (isNew ? Change.added : 0);
-      this.#writers[to].add(id, change, now, knows || isNew ? undefined : before);
+      this.#told[to].push({ id, change, boxes: knows || isNew ? [now] : [now, before] });
     }
     for (const to of known) {
-      if (to === this.zone || seers.includes(to) || this.#blank.has(to)) continue;
-      if (flags & (gone | added)) this.#writers[to].add(id, Change.gone);
-      else this.#writers[to].add(id, Change.leaves, now);
+      if (seers.includes(to)) continue;
+      if (isGone || isNew) this.#told[to].push({ id, change: Change.gone, boxes: [] });
+      else this.#told[to].push({ id, change: Change.leaves, boxes: [now] });
     }
-    seen.flags &= ~untold;
-    if (flags & gone) return;
-    if (!seers.includes(this.zone)) this.#touch(seen, leaves);
+    seen.seers = owner === this.zone ? seers : [];
+    if (!isGone && !seers.includes(this.zone)) this.#touch(id, leaves);
     if (owner === this.zone) return;
     seen.owner = owner;
     this.given.push(id);
   }
 
-  #receiveGone({ ids, changes }: Delta): void {
-    for (const [k, id] of ids.entries()) {
-      const seen = changes[k] & Change.gone ? this.#seen.get(id) : undefined;
-      if (seen) this.#touch(seen, gone);
+  #receive({ id, change, boxes: [now, before] }: Told): void {
+    const known = this.#seen.get(id);
+    // What nobody has told of before, because that got lost, is as good as new.
+    const isNew = change & Change.added || (!known && !before);
+    const seen = this.#touch(id, isNew ? added : 0, now);
+    if (before && !(seen.flags & here)) {
+      seen.flags |= enters;
+      seen.before = before;
     }
-  }
-
-  #receive({ ids, changes, boxes }: Delta): void {
-    let at = 0;
-    const width = 2 * this.space.dimensions;
-    const next = () => {
-      at += width;
-      return Array.from(boxes.subarray(at - width, at));
-    };
-    for (const [k, id] of ids.entries()) {
-      const change = changes[k];
-      if (change & Change.gone) continue;
-      const now = next();
-      const before = change & Change.enters && !(change & Change.added) ? next() : undefined;
-      let seen = this.#seen.get(id);
-      // What nobody has told of before, because that got lost, is as good as new.
-      if (!seen) seen = this.#put(id, 0, before ? enters : added, now);
-      else if (change & Change.added) this.#touch(seen, added, now);
-      else this.#touch(seen, moved | (before && !(seen.flags & here) ? enters : 0), now);
-      if (seen.flags & enters && before) seen.before = before;
-      seen.flags &= ~(gone | leaves);
-      if (change & Change.leaves) seen.flags |= leaves;
-      seen.owner = change & Change.owned ? this.zone : this.#nextZones.ownerOf(now);
-      if (!(change & Change.owned)) continue;
-      this.taken.push(id);
-      this.#nextZones.rangesOf(now, seen.ranges);
-    }
+    seen.flags &= ~(gone | leaves);
+    if (change & Change.leaves) seen.flags |= leaves;
+    const isOwned = (change & Change.owned) > 0;
+    seen.owner = isOwned ? this.zone : this.#nextZones.ownerOf(now);
+    if (!isOwned) return;
+    this.taken.push(id);
+    seen.seers = this.#nextZones.seenBy(now);
   }
 
   /** Puts what enters where it was at the update before, so that the space knows what overlapped then. */
@@ -445,22 +423,23 @@ export class Shard {
 
   /** After an update: what has left goes, and of what stays this is the update before. */
   #settle(): void {
-    let kept = 0;
     for (const seen of this.#touched) {
       const { id, flags } = seen;
-      if (flags & gone && flags & untold && seen.ranges.length > 0) {
-        // The others are to be told at the next exchange.
-        seen.flags = gone | untold;
+      if (flags & gone && this.#untold.has(seen) && seen.seers.length > 0) {
+        // The others are to be told first.
+        seen.flags = gone;
         seen.before = [];
-        this.#touched[kept++] = seen;
-      } else if (flags & (gone | leaves)) {
+        continue;
+      }
+      this.#touched.delete(seen);
+      if (flags & (gone | leaves)) {
         if (!(flags & gone)) this.space.delete(id);
         this.#seen.delete(id);
+        this.#untold.delete(seen);
       } else {
         seen.before = seen.now;
-        seen.flags = here | (flags & untold);
+        seen.flags = here;
       }
     }
-    this.#touched.length = kept;
   }
 }

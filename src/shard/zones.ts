@@ -35,8 +35,10 @@ interface Cut {
   borders: readonly number[];
   /** The size of the world, or 0 where it does not wrap around. */
   world: number;
-  /** How much further than needed zones see, for roundings. */
+  /** How far a lower corner may be off, which is rounded in a world that wraps around. */
   slack: number;
+  /** How much further than a box the zones are that must see it. */
+  reach: number;
 }
 
 /**
@@ -57,7 +59,6 @@ export class Zones {
   /** 2 or 3. */
   readonly dimensions: 2 | 3;
   readonly #cuts: readonly Cut[];
-  readonly #margin: number;
 
   /**
    * @throws RangeError or TypeError that names the option
@@ -84,11 +85,11 @@ export class Zones {
       const last = world || Infinity;
       const fit = along.every((at, k) => at >= (k > 0 ? along[k - 1] : world ? 0 : -Infinity) && at <= last);
       if (!fit) badValue(`borders.${name}`, along, `ascending numbers${world ? ` from 0 to ${world}` : ''}`);
-      return [{ axis, borders: [...along], world, slack: world * 2 ** -48 }];
+      const slack = world * 2 ** -48;
+      return [{ axis, borders: [...along], world, slack, reach: margin + 4 * slack }];
     });
     this.options = options;
     this.dimensions = dimensions;
-    this.#margin = margin;
     this.count = this.#cuts.reduce((count, cut) => count * (cut.borders.length + 1), 1);
   }
 
@@ -109,7 +110,26 @@ export class Zones {
    * new Zones({ borders: { x: [100] }, margin: 5 }).seenBy([80, 0, 96, 20]); // → [0, 1]
    */
   seenBy(box: ArrayLike<number>): number[] {
-    return this.list(this.rangesOf(box, []), []);
+    const out = [0];
+    let stride = 1;
+    for (const { axis, borders, world, reach } of this.#cuts) {
+      const size = borders.length + 1;
+      const [low, high] = [box[axis], box[axis + this.dimensions]];
+      const start = world > 0 ? modulo(modulo(low, world) - reach, world) : low - reach;
+      const end = world > 0 ? start + (high - low) + 2 * reach : high + reach;
+      const first = zoneAt(borders, start);
+      let count = zoneAt(borders, end) - first + 1;
+      if (world > 0 && !(end < world)) {
+        count = end - world < start ? Math.min(size, size - first + zoneAt(borders, end - world) + 1) : size;
+      }
+      const known = out.length;
+      for (let step = 1; step < count; step++) {
+        for (let k = 0; k < known; k++) out.push(out[k] + stride * ((first + step) % size));
+      }
+      for (let k = 0; k < known; k++) out[k] += stride * first;
+      stride *= size;
+    }
+    return out;
   }
 
   /**
@@ -137,49 +157,6 @@ export class Zones {
       stride *= borders.length + 1;
     }
     return zone;
-  }
-
-  /** For each axis that is cut, the first zone that must see a box, and in how many it reaches. @internal */
-  rangesOf(box: ArrayLike<number>, out: number[]): number[] {
-    let to = 0;
-    for (const { axis, borders, world, slack } of this.#cuts) {
-      const low = box[axis];
-      const high = box[axis + this.dimensions];
-      let first = zoneAt(borders, low - this.#margin);
-      let count = zoneAt(borders, high + this.#margin) - first + 1;
-      if (world > 0) {
-        const more = this.#margin + 4 * slack;
-        const start = modulo(modulo(low, world) - more, world);
-        const end = start + (high - low) + 2 * more;
-        first = zoneAt(borders, start);
-        count = borders.length + 1;
-        if (end < world) count = zoneAt(borders, end) - first + 1;
-        else if (end - world < start) count = Math.min(count, count - first + zoneAt(borders, end - world) + 1);
-      }
-      out[to++] = first;
-      out[to++] = count;
-    }
-    return out;
-  }
-
-  /** The zones in what {@link Zones.rangesOf} gave, into an array that is emptied before. @internal */
-  list(ranges: readonly number[], out: number[]): number[] {
-    out.length = 0;
-    if (ranges.length === this.#cuts.length * 2) out.push(0);
-    let at = 0;
-    let stride = 1;
-    for (const { borders } of this.#cuts) {
-      const size = borders.length + 1;
-      const first = ranges[at++];
-      const count = ranges[at++];
-      const known = out.length;
-      for (let step = 1; step < count; step++) {
-        for (let k = 0; k < known; k++) out.push(out[k] + stride * ((first + step) % size));
-      }
-      for (let k = 0; k < known; k++) out[k] += stride * first;
-      stride *= size;
-    }
-    return out;
   }
 }
 
