@@ -95,6 +95,9 @@ const redis = values.memory ? undefined : await startRedis();
 const all = Array.from({ length: zones }, (_, zone) => zone);
 const { everything } = values;
 
+/** Milliseconds before a process that died is started again: first those that are left take over its zones. */
+const restartTime = 2000;
+
 /** Starts a process with these zones; when it dies, one in its place, which has none until another dies. */
 function startServer(number, rooms) {
   const options = {
@@ -108,10 +111,10 @@ function startServer(number, rooms) {
   };
   const child = start('server.mjs', options, (code, signal) => {
     say({
-      text: `the process at port ${port + number} ended (${signal ?? code}): another is started`,
+      text: `the process at port ${port + number} ended (${signal ?? code}): another is started in ${restartTime} ms`,
       died: child.pid,
     });
-    startServer(number, []);
+    setTimeout(() => startServer(number, []), restartTime);
   });
   say({ text: `started at port ${port + number}`, process: child.pid, started: rooms });
 }

@@ -2,19 +2,22 @@
 // So all zones together are at any tick what one process would be. Messages go over the presence of Colyseus.
 //
 // A zone that starts, or starts again, joins: it asks all, is told by each at which tick that is and whom it owns, and
-// names a tick from which on they count with each other. If a zone is silent, the others ask whether its process still
-// listens. If it does not, it has died: they go on, and another process makes its room anew. Else they wait, but not for
-// ever. Entities turn round at the border of a zone that is not there.
-import { connect } from 'node:net';
+// names a tick from which on they count with each other. If a zone is silent, the others ask whether its process is still
+// there. If it is not, they go on, and another process makes its room anew. Else they wait, but not for ever. Entities
+// turn round at the border of a zone that is not there.
 import { pack, packDelta, packEntities, unpack, unpackDelta, unpackEntities } from './wire.mjs';
 import { tickTime } from './world.mjs';
 
 const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
-/** After so many milliseconds without a word it is asked whether the other process still listens. */
+/** After so many milliseconds without a word it is asked whether the other process is still there, and again. */
 const suspicious = 200;
-/** Who listens and says nothing for so long is left out. */
+/** Who is there and says nothing for so long is left out. */
 const patience = 5000;
+/** So long an answer may take; a process that gives none, but takes the question, is there. */
+const answerTime = 500;
+/** Milliseconds from one attempt to bring a zone back to the next. */
+const retryTime = 4000;
 /** How long one that joins waits for answers, and how many ticks ahead it begins. */
 const gathering = 300;
 const ahead = 6;
@@ -37,11 +40,13 @@ export class Link {
   /** Zones that count: what they sent by tick. And those that will from some tick on. */
   #peers = new Map();
   #coming = new Map();
-  /** When each zone last said that it runs. */
+  /** When each zone last said that it runs, and that it would like to. */
   #ran = new Map();
+  #asked = new Map();
   #welcomes = new Map();
   #yieldUntil = 0;
   #wake = () => {};
+  /** What it told whom in this tick and the last one. */
   #last = [];
   #stopped = false;
 
@@ -69,15 +74,16 @@ export class Link {
     return this.#peers.get(zone)?.info;
   }
 
-  /** Waits until it runs. */
+  /** Joins the others, and runs until it is stopped. */
   async start() {
-    await this.#presence.subscribe(`zone:${this.#zone}`, (message) => this.#hear(message));
-    await this.#presence.subscribe('zones', (message) => this.#hear(message));
-    await this.#join();
-    this.#run().catch((error) => {
+    try {
+      await this.#presence.subscribe(`zone:${this.#zone}`, (message) => this.#hear(message));
+      await this.#presence.subscribe('zones', (message) => this.#hear(message));
+      await this.#run();
+    } catch (error) {
       this.#calls.log(`stopped: ${error.stack}`);
       process.exit(1);
-    });
+    }
   }
 
   async stop() {
@@ -100,6 +106,7 @@ export class Link {
       if (!this.running) {
         await this.#join();
         next = performance.now();
+        if (this.#stopped) return;
       }
       await sleep(Math.max(0, next - performance.now()));
       next = Math.max(next + tickTime, performance.now() - tickTime);
@@ -133,7 +140,7 @@ export class Link {
       this.#calls.log(`zone ${zone} is here from tick ${this.tick} on`);
     }
     const { deltas, given } = this.#simulation.step(this.tick, this.isOpen);
-    this.#last = [...this.#peers.keys()].map((zone) => {
+    const told = [...this.#peers.keys()].map((zone) => {
       const delta = deltas.find(({ to }) => to === zone);
       const entities = given.filter(({ to }) => to === zone).map(({ entity }) => entity);
       const message = {
@@ -146,13 +153,15 @@ export class Link {
       this.sent.records += delta?.ids.length ?? 0;
       return [zone, this.#send(zone, message)];
     });
+    // No zone can be more than a tick behind.
+    this.#last = [...this.#last.filter(([, { tick }]) => tick === this.tick - 1), ...told];
     return given;
   }
 
   /** Waits until all others have told the same; leaves out those that do not. */
   async #everyone() {
     let since = performance.now();
-    let away = false;
+    let asked = since;
     while (this.running && !this.#stopped) {
       const missing = [...this.#peers].filter(([, { inbox }]) => !inbox.has(this.tick)).map(([zone]) => zone);
       if (missing.length === 0) return;
@@ -165,16 +174,13 @@ export class Link {
       });
       if (!this.#isConnected()) {
         // Nobody is to blame: the world waits.
-        away = true;
-        since = performance.now();
-      } else if (away) {
-        // What was said meanwhile may have been lost.
-        away = false;
-        await sleep(100);
-        for (const [zone, message] of this.#last) this.#send(zone, message);
-        since = performance.now() + 500;
-      } else if (performance.now() - since > suspicious) {
-        for (const zone of missing) await this.#suspect(zone, performance.now() - since);
+        since = asked = performance.now();
+      } else if (performance.now() - asked > suspicious) {
+        for (const zone of missing) {
+          this.#send(zone, { type: 'again', tick: this.tick }); // it may have got lost, with Redis
+          await this.#suspect(zone, performance.now() - since);
+        }
+        asked = performance.now();
       }
     }
   }
@@ -183,24 +189,30 @@ export class Link {
   async #suspect(zone, silent) {
     const info = this.#peers.get(zone)?.info;
     if (!info) return;
-    const isAlive = await listens(info.address);
-    if (this.#peers.get(zone)?.info !== info || (isAlive && silent < patience)) return;
-    const why = isAlive ? `listens, but has said nothing for ${patience} ms` : `cannot be reached at ${info.address}`;
-    this.#calls.log(`zone ${zone} ${why}: going on without it`);
+    const there = await isThere(info);
+    if (this.#peers.get(zone)?.info !== info || (there && silent < patience)) return;
+    const why = there ? `has said nothing for ${patience} ms` : 'cannot be reached';
+    this.#calls.log(`zone ${zone} ${why} (${info.address}): going on without it`);
     this.#drop(zone);
-    if (isAlive) this.#send(zone, { type: 'dropped' });
-    else this.#replace(zone, info);
+    this.#asked.delete(zone);
+    if (there) this.#send(zone, { type: 'dropped' });
+    this.#bringBack(zone, info);
   }
 
-  /** Has a zone made anew that has died; again and again, until it is there. One of those that are left does it. */
-  async #replace(zone, info) {
-    const isBack = this.#peers.has(zone) || this.#coming.has(zone);
-    if (this.#stopped || isBack || [...this.#peers.keys()].some((peer) => peer < this.#zone)) return;
-    if ((await this.#presence.hincrbyex('zones:replaced', String(zone), 1, 3)) === 1) {
-      this.#calls.log(`zone ${zone} is made anew`);
-      await this.#calls.lost(zone, info);
+  /** Until a zone is there again: once its process has died, one of those that are left makes its room anew. */
+  async #bringBack(zone, info) {
+    if (this.#stopped || this.#peers.has(zone) || this.#coming.has(zone)) return;
+    const isMine = [...this.#peers.keys()].every((peer) => peer > this.#zone);
+    const comes = performance.now() - (this.#asked.get(zone) ?? -Infinity) < retryTime;
+    if (isMine && !comes && !(await isThere(info))) {
+      // Only one does, should another zone think that it is its turn.
+      const turn = await this.#presence.hincrbyex('zones:replaced', String(zone), 1, retryTime / 1000 - 1);
+      if (turn === 1) {
+        this.#calls.log(`zone ${zone} is made anew`);
+        await this.#calls.lost(zone, info);
+      }
     }
-    setTimeout(() => this.#replace(zone, info), 4000);
+    setTimeout(() => this.#bringBack(zone, info), retryTime);
   }
 
   #drop(zone) {
@@ -214,24 +226,25 @@ export class Link {
 
   /** Becomes one of those that are running; waits as long as that takes. */
   async #join() {
-    for (const zone of [...this.#peers.keys()]) this.#drop(zone);
+    const known = [...this.#peers.keys()];
+    for (const zone of known) this.#drop(zone);
     this.#coming.clear();
     const begin = await this.#calls.begin();
+    const expected = begin.peers ?? known;
     for (;;) {
       await sleep(Math.max(0, this.#yieldUntil - performance.now()));
       this.#epoch = Math.floor(Math.random() * 2 ** 48);
       this.#welcomes.clear();
       const asked = performance.now();
       this.#send(undefined, { type: 'join', since: begin.tick, info: this.#info });
-      const expected = begin.peers ?? [];
       while (performance.now() - asked < (expected.length > 0 ? 2 * gathering : gathering)) {
         await sleep(20);
         if (expected.length > 0 && expected.every((zone) => this.#welcomes.has(zone))) break;
       }
       if (this.#stopped) return;
       if (this.#yieldUntil > performance.now()) continue;
-      const somebodyRuns = [...this.#ran.values()].some((at) => at > asked - 1000);
-      if (somebodyRuns && this.#welcomes.size === 0) continue;
+      // Who runs has to say first whom it owns.
+      if ([...this.#ran].some(([zone, at]) => at > asked - 1000 && !this.#welcomes.has(zone))) continue;
       this.#begin(begin);
       return;
     }
@@ -267,8 +280,11 @@ export class Link {
       return;
     }
     if (type === 'hello') this.#ran.set(from, performance.now());
+    if (type === 'join') this.#asked.set(from, performance.now());
     if (type === 'tick') this.#hearTick(message);
-    else if (type === 'join') this.#welcome(message);
+    else if (type === 'again') {
+      for (const [zone, told] of this.#last) if (zone === from && told.tick === message.tick) this.#send(zone, told);
+    } else if (type === 'join') this.#welcome(message);
     else if (type === 'welcome' && message.to === this.#epoch)
       this.#welcomes.set(from, { ...message, at: performance.now() });
     else if (type === 'start') this.#admit(message);
@@ -283,7 +299,7 @@ export class Link {
 
   #hearTick(message) {
     const peer = this.#peers.get(message.from) ?? this.#coming.get(message.from);
-    if (peer?.epoch === message.epoch) peer.inbox.set(message.tick, message);
+    if (peer?.epoch === message.epoch && message.tick >= this.tick) peer.inbox.set(message.tick, message);
   }
 
   #welcome({ from, epoch, since }) {
@@ -309,17 +325,12 @@ export class Link {
   }
 }
 
-/** Whether a process accepts connections. */
-function listens(address) {
-  const [host, port] = address.split(':');
-  return new Promise((resolve) => {
-    const socket = connect({ host, port: Number(port), timeout: patience });
-    const answer = (is) => {
-      socket.destroy();
-      resolve(is);
-    };
-    socket.on('connect', () => answer(true));
-    socket.on('timeout', () => answer(false));
-    socket.on('error', () => answer(false));
-  });
+/** Whether a process is there: it, and no other that has its port by now. */
+async function isThere({ address, processId }) {
+  try {
+    const response = await fetch(`http://${address}/process`, { signal: AbortSignal.timeout(answerTime) });
+    return (await response.text()) === processId;
+  } catch ({ name }) {
+    return name === 'TimeoutError'; // it is busy
+  }
 }

@@ -40,6 +40,7 @@ const server = new Server({
       watchers.add(response);
       response.on('close', () => watchers.delete(response));
     });
+    app.get('/process', (_, response) => response.send(matchMaker.processId));
     app.post('/kill/:process', (request, response) => {
       presence.publish('kill', Number(request.params.process));
       response.end();

@@ -3,7 +3,7 @@ import { BroadPhase } from 'broadphase';
 import { Shard } from 'broadphase/shard';
 import { boxOf, isAvatar, move, sight } from './world.mjs';
 
-/** For so many ticks it is known who was handed over, should the other zone be lost meanwhile. */
+/** For so many ticks it is known who was handed over, should the other zone be lost meanwhile; then until it is back. */
 const remembered = 60;
 
 export class Simulation {
@@ -44,7 +44,7 @@ export class Simulation {
       this.shard.set(entity.id, ...boxOf(entity));
     }
     const deltas = this.shard.exchange();
-    this.#handedOver = this.#handedOver.filter((given) => given.tick > tick - remembered);
+    this.#handedOver = this.#handedOver.filter((given) => given.tick > tick - remembered || !isOpen(given.to));
     const given = this.shard.given.map((id) => {
       const entity = this.entities.get(id);
       this.entities.delete(id);
@@ -58,6 +58,11 @@ export class Simulation {
   finish(deltas, arrivals) {
     for (const entity of arrivals) this.entities.set(entity.id, entity);
     this.shard.update(deltas);
+  }
+
+  /** All whom this zone may have to go on with: its own, and those handed over who may have arrived nowhere. */
+  everybody() {
+    return [...this.#handedOver.map(({ entity }) => entity), ...this.entities.values()];
   }
 
   /** Those who went to a zone after a tick. */

@@ -26,7 +26,7 @@ export class ZoneRoom extends Room {
   #counts = { given: 0, taken: 0, began: 0, ended: 0, ticks: 0, work: 0, worst: 0, late: 0 };
   #lastTick = performance.now();
 
-  async onCreate({ zone, peers, setup }) {
+  onCreate({ zone, peers, setup }) {
     this.#setup = setup ?? ZoneRoom.setup;
     const { zones, presence, isConnected, log } = this.#setup;
     this.zone = zone;
@@ -54,7 +54,8 @@ export class ZoneRoom extends Room {
         log: (text) => log(`zone ${zone}: ${text}`),
       },
     });
-    await this.#link.start();
+    // Not awaited: who asks for a room is to know that it is being made, and until it runs no client finds its entity.
+    this.#link.start();
   }
 
   onDispose() {
@@ -63,8 +64,7 @@ export class ZoneRoom extends Room {
 
   /** What to begin with: what this room has, or the last snapshot, or the beginning of the world. */
   async #begin(peers) {
-    const { entities } = this.#simulation;
-    if (this.#link.tick > 0) return { tick: this.#link.tick - 1, entities: [...entities.values()] };
+    if (this.#link.tick > 0) return { tick: this.#link.tick - 1, entities: this.#simulation.everybody() };
     const snapshot = await this.presence.get(`zone:${this.zone}:snapshot`);
     if (snapshot) {
       const { tick, entities } = JSON.parse(snapshot);
