@@ -52,7 +52,7 @@ export class Link {
 
   /**
    * @param info what other zones are to know of this one: its room and its process
-   * @param calls `begin()` gives { tick, entities } to begin with; `ticked(given)` after each tick; `restarted()`;
+   * @param calls `begin()` gives { tick, entities, isLive, peers } to begin with; `ticked(given)` after each tick; `restarted()`;
    *   `lost(zone, info)` where a zone has to be made anew; `replaced()` where this one was; `log(text)`
    */
   constructor({ presence, isConnected, simulation, info, calls }) {
@@ -236,7 +236,7 @@ export class Link {
       this.#epoch = Math.floor(Math.random() * 2 ** 48);
       this.#welcomes.clear();
       const asked = performance.now();
-      this.#send(undefined, { type: 'join', since: begin.tick, info: this.#info });
+      this.#send(undefined, { type: 'join', since: begin.isLive ? -1 : begin.tick, info: this.#info });
       while (performance.now() - asked < (expected.length > 0 ? 2 * gathering : gathering)) {
         await sleep(20);
         if (expected.length > 0 && expected.every((zone) => this.#welcomes.has(zone))) break;
@@ -250,13 +250,15 @@ export class Link {
     }
   }
 
-  #begin({ tick, entities }) {
+  #begin({ tick, entities, isLive }) {
     const welcomes = [...this.#welcomes.values()];
     const ticks = welcomes.map(({ tick, at }) => tick + Math.ceil((performance.now() - at) / tickTime));
     const start = welcomes.length === 0 ? tick + 1 : Math.max(...ticks) + ahead;
     const others = new Set(welcomes.flatMap(({ owned }) => [...unpack(owned, Uint32Array)]));
-    const mine = new Map(entities.map((entity) => [entity.id, entity]));
-    for (const { offers } of welcomes) for (const entity of unpackEntities(offers)) mine.set(entity.id, entity);
+    // What others handed to this zone since a snapshot is newer than that; what it has itself is newer than what they handed.
+    const offers = welcomes.flatMap((welcome) => unpackEntities(welcome.offers));
+    const all = isLive ? [...offers, ...entities] : [...entities, ...offers];
+    const mine = new Map(all.map((entity) => [entity.id, entity]));
     this.#simulation.restart([...mine.values()].filter(({ id }) => !others.has(id)));
     this.tick = start;
     this.running = true;

@@ -64,7 +64,8 @@ export class ZoneRoom extends Room {
 
   /** What to begin with: what this room has, or the last snapshot, or the beginning of the world. */
   async #begin(peers) {
-    if (this.#link.tick > 0) return { tick: this.#link.tick - 1, entities: this.#simulation.everybody() };
+    const { tick: next } = this.#link;
+    if (next > 0) return { tick: next - 1, entities: this.#simulation.everybody(), isLive: true };
     const snapshot = await this.presence.get(`zone:${this.zone}:snapshot`);
     if (snapshot) {
       const { tick, entities } = JSON.parse(snapshot);

@@ -1,0 +1,176 @@
+// Three zones in one process, over a wire that loses and holds back messages: at every tick that all of them reach nobody
+// is missing and nobody there twice. Neither Colyseus nor Redis is in it.
+import { createServer } from 'node:http';
+import { afterEach, expect, test } from 'vitest';
+import { createRandom } from '../../src/scenes/random.ts';
+import { seed } from '../../test/runs.ts';
+import { Link } from './link.mjs';
+import { Simulation } from './simulation.mjs';
+import { beginnings, cutInto, zoneOf } from './world.mjs';
+
+const count = 3;
+const entities = 6000;
+const zones = cutInto(count);
+/** They keep real time: a zone is silent for five seconds before it is left out. */
+const limit = 120_000;
+let world;
+
+class World {
+  log = [];
+  links = [];
+  servers = [];
+  /** Zones that had to be made anew. */
+  lost = [];
+  /** The newest tick that all zones reached, and those in which somebody was missing or there twice. */
+  whole = -1;
+  wrong = [];
+  /** `lost`, `held` or nothing, for each message. */
+  fate = () => undefined;
+  #held = [];
+  #listeners = new Map();
+  #ticks = new Map();
+  #watchers = [];
+
+  presence = {
+    subscribe: (topic, hear) => this.#listeners.set(topic, [...(this.#listeners.get(topic) ?? []), hear]),
+    unsubscribe: (topic) => this.#listeners.delete(topic),
+    publish: (topic, message) => {
+      const fate = this.fate(topic, message);
+      if (fate === 'lost') return;
+      const deliver = () => {
+        for (const hear of this.#listeners.get(topic) ?? []) hear(structuredClone(message));
+      };
+      if (fate === 'held') this.#held.push(deliver);
+      else setImmediate(deliver);
+    },
+    hincrbyex: () => 1,
+  };
+
+  deliver() {
+    this.fate = () => undefined;
+    for (const deliver of this.#held.splice(0)) deliver();
+  }
+
+  async start() {
+    for (let zone = 0; zone < count; zone++) {
+      const server = createServer((_, response) => response.end(server.processId));
+      server.processId = `process ${zone}`;
+      await new Promise((resolve) => server.listen(0, resolve));
+      this.servers.push(server);
+      this.links.push(this.#link(zone, `localhost:${server.address().port}`));
+    }
+    for (const link of this.links) link.start();
+    await this.until(() => this.whole > 0);
+  }
+
+  #link(zone, address) {
+    const simulation = new Simulation(zones, zone);
+    const mine = () => [...beginnings(entities)].filter((entity) => zoneOf(zones, entity) === zone);
+    const link = new Link({
+      presence: this.presence,
+      isConnected: () => true,
+      simulation,
+      info: { roomId: `room ${zone}`, processId: `process ${zone}`, address },
+      calls: {
+        begin: () =>
+          link.tick > 0
+            ? { tick: link.tick - 1, entities: simulation.everybody(), isLive: true }
+            : { tick: -1, entities: mine() },
+        ticked: () => this.#ticked(link.tick, [...simulation.entities.keys()]),
+        restarted: () => {},
+        lost: (other) => this.lost.push(other),
+        replaced: () => {},
+        log: (text) => {
+          this.log.push(`zone ${zone}: ${text}`);
+          this.#look();
+        },
+      },
+    });
+    return link;
+  }
+
+  #ticked(tick, ids) {
+    const all = [...(this.#ticks.get(tick) ?? []), ids];
+    this.#ticks.set(tick, all);
+    // Zones that do not know of each other go on each by itself, at ticks of the same number.
+    const together = this.links.every((link, zone) =>
+      this.links.every((_, other) => other === zone || link.isOpen(other)),
+    );
+    if (all.length === count && together) {
+      this.whole = tick;
+      const once = new Set(all.flat());
+      if (once.size !== entities || all.flat().length !== entities)
+        this.wrong.push([tick, all.flat().length, once.size]);
+    }
+    this.#look();
+  }
+
+  #look() {
+    this.#watchers = this.#watchers.filter(({ holds, resolve }) => !holds() || resolve());
+  }
+
+  until(holds) {
+    return new Promise((resolve) => {
+      this.#watchers.push({ holds, resolve });
+      this.#look();
+    });
+  }
+
+  said = (text) => this.log.some((line) => line.includes(text));
+
+  async end() {
+    for (const link of this.links) await link.stop();
+    for (const server of this.servers) server.close();
+  }
+}
+
+afterEach(() => world.end());
+
+test(
+  `messages that get lost are asked for (SEED=${seed})`,
+  async () => {
+    world = new World();
+    await world.start();
+    const random = createRandom(seed);
+    let lost = 0;
+    world.fate = (_, { type }) => (type === 'tick' && random() < 0.1 && lost++ >= 0 ? 'lost' : undefined);
+    const { whole } = world;
+    await world.until(() => lost >= 10 && world.whole > whole + 20);
+    expect([world.wrong, world.said('without it')]).toEqual([[], false]);
+  },
+  limit,
+);
+
+test(
+  'a zone has died whose address another process answers at: it is made anew',
+  async () => {
+    world = new World();
+    await world.start();
+    world.fate = (topic, { from }) => (topic === 'zone:1' || from === 1 ? 'lost' : undefined);
+    await world.links[1].stop();
+    world.servers[1].processId = 'one in its place';
+    await world.until(() => world.lost.length > 0);
+    expect(world.lost).toEqual([1]);
+    expect(world.said('zone 0: zone 1 cannot be reached (localhost:')).toBe(true);
+  },
+  limit,
+);
+
+test(
+  'a zone that is silent is left out, and loses nobody when it is back',
+  async () => {
+    world = new World();
+    await world.start();
+    const before = world.whole;
+    await world.until(() => world.whole > before + 20);
+    world.fate = (topic, { from }) => (topic === 'zone:1' || topic === 'zones' || from === 1 ? 'held' : undefined);
+    await world.until(
+      () => world.said('zone 0: zone 1 has said nothing for') && world.said('zone 2: zone 1 has said nothing'),
+    );
+    const { whole } = world;
+    world.deliver();
+    await world.until(() => world.whole > whole + 20);
+    expect(world.wrong).toEqual([]);
+  },
+  limit,
+);
