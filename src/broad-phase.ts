@@ -300,11 +300,13 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
    */
   set(...box: BoxOfId<D>): this;
   set(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
-    // Short enough for engines to inline, since a call boxes its doubles, and boxes are garbage.
-    const flat = this.width === 4;
+    // Short enough for engines to inline, since a call boxes its doubles, and boxes are garbage: V8 does it up to 460
+    // bytes of its code, those of what is inlined in here included. `arguments` itself must not leave, or it is made in
+    // every call.
+    const { width } = this;
     if (
       // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
-      arguments.length !== this.width + 1 ||
+      arguments.length !== width + 1 ||
       typeof id !== 'number' ||
       typeof a !== 'number' ||
       typeof b !== 'number' ||
@@ -312,27 +314,26 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
       typeof d !== 'number' ||
       id >>> 0 !== id ||
       id > maxId ||
-      !(flat ? a <= c && b <= d : areNumbers(e, f) && a <= d && b <= e! && c <= f!)
+      !(width === 4 ? a <= c && b <= d : typeof e === 'number' && typeof f === 'number' && a <= d && b <= e && c <= f)
     ) {
       // biome-ignore lint/complexity/noArguments: the same
-      badSet(arguments, this.dimensions);
+      badSet(arguments.length, id, a, b, c, d, e, f, this.dimensions);
     }
     const waits = id < this.dense || this.mayWait(id);
-    let k = waits ? this.next : this.drain(); // else it comes alone
-    if (k >= this.ring.length) k = this.drain();
+    let k = this.next;
+    if (!waits || k >= this.ring.length) k = this.drain(); // one that cannot wait comes alone
     const { ring } = this;
     ring[k] = id;
     ring[k + 1] = a;
     ring[k + 2] = b;
     ring[k + 3] = c;
     ring[k + 4] = d;
-    this.next = k + 5;
-    if (!flat) {
+    if (width === 6) {
       ring[k + 5] = e!;
       ring[k + 6] = f!;
-      this.next = k + 7;
     }
-    if (!waits) this.#takeNow();
+    this.next = k + width + 1;
+    if (!waits) this.takeNow();
     return this;
   }
 
@@ -380,12 +381,11 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
       // What is infinite is NaN without itself.
       (flat ? e - e + (f - f) : g! - g! + (h! - h!) + (i! - i!)) !== 0
     ) {
-      // biome-ignore lint/complexity/noArguments: the same
-      badSwept(arguments, this.dimensions);
+      badSwept(id, [a, b, c, d, e, f, g, h, i], this.dimensions);
     }
     const waits = id < this.dense || this.mayWait(id);
-    let k = waits ? this.next : this.drain(); // else it comes alone
-    if (k >= this.ring.length) k = this.drain();
+    let k = this.next;
+    if (!waits || k >= this.ring.length) k = this.drain(); // one that cannot wait comes alone
     const { ring } = this;
     ring[k] = id;
     if (flat) {
@@ -402,7 +402,7 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
       ring[k + 6] = f + Math.max(i!, 0);
     }
     this.next = k + this.width + 1;
-    if (!waits) this.#takeNow();
+    if (!waits) this.takeNow();
     return this;
   }
 
@@ -480,11 +480,10 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
       const { kernel } = this;
       this.forget();
       const at = kernel.expose(count) >>> 0;
-      const { buffer } = kernel.memory;
       const length = count * this.width;
       let view = this.#view;
-      if (view?.buffer !== buffer || view.byteOffset !== at || view.length !== length) {
-        view = new Float32Array(buffer, at, length);
+      if (view?.byteOffset !== at || view.length !== length) {
+        view = new Float32Array(kernel.memory.buffer, at, length);
         this.#view = view;
       }
       this.#viewIsOpen = true;
@@ -650,7 +649,8 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
    * space.update().pairCount; // → 1
    */
   update(): this {
-    if (this.#view !== undefined && this.#view.buffer !== this.kernel.memory.buffer) {
+    if (this.#view?.byteOffset === 0) {
+      // Only views that were cut off stand there.
       throw new Error(
         'update: the array that boxes() gave was cut off when memory grew, so what was written to it since is lost: ' +
           'call boxes(count) before each time it is written',
@@ -1009,39 +1009,45 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
 
   /** A view of staged boxes. Two arrays take turns in the kernel, so the last two views are kept. */
   #stagedView(at: number, length: number, single: boolean): Float32Array | Float64Array {
-    const { buffer } = this.kernel.memory;
     const views = this.#stagedViews;
     const kind = single ? Float32Array : Float64Array;
     for (let k = 0; k < views.length; k++) {
       const view = views[k]!;
-      if (view.buffer === buffer && view.byteOffset === at && view.length === length && view instanceof kind)
-        return view;
+      if (view.byteOffset === at && view.length === length && view instanceof kind) return view;
     }
-    const view = new kind(buffer, at, length);
+    const view = new kind(this.kernel.memory.buffer, at, length);
     if (views.push(view) > 2) views.shift();
     return view;
   }
 
   /** A box that cannot wait: it may fail, or a view of the boxes is open that has to show it. */
-  #takeNow(): void {
+  private takeNow(): void {
     if (!this.#viewIsOpen) this.#view = undefined;
     this.flush();
   }
 }
 
 /** Finds what is wrong with the arguments of `set`. */
-function badSet(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
-  const id = given[0];
+function badSet(
+  given: number,
+  id: unknown,
+  a: unknown,
+  b: unknown,
+  c: unknown,
+  d: unknown,
+  e: unknown,
+  f: unknown,
+  dimensions: 2 | 3,
+): never {
   if (!isId(id)) badId('set', id);
-  if (given.length !== 1 + 2 * dimensions) badCount('set', id, given.length, dimensions);
-  badBox('set', id, Array.prototype.slice.call(given, 1), dimensions);
+  if (given !== 1 + 2 * dimensions) badCount('set', id, given, dimensions);
+  badBox('set', id, [a, b, c, d, e, f], dimensions);
 }
 
 /** Finds what is wrong with the arguments of `setSwept`. */
-function badSwept(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
-  const id = given[0];
+function badSwept(id: unknown, given: readonly unknown[], dimensions: 2 | 3): never {
   if (!isId(id)) badId('setSwept', id);
-  badQuestion('setSwept', Array.prototype.slice.call(given, 1), dimensions === 2 ? sweep2 : sweep3, 'a number');
+  badQuestion('setSwept', given, dimensions === 2 ? sweep2 : sweep3, 'a number');
 }
 
 const areNumbers = (a: unknown, b: unknown, c: unknown = 0, d: unknown = 0, e: unknown = 0, f: unknown = 0): boolean =>

@@ -151,11 +151,12 @@ export abstract class Space<D extends Dimensions> {
 
   /** A view of pairs in the kernel's memory, from among those made before if possible. @internal */
   protected pairView(views: Uint32Array[], address: number, count: number): Uint32Array {
-    const at = address >>> 0; // a WebAssembly address is signed to JavaScript
-    const { buffer } = this.kernel.memory;
+    // A WebAssembly address is signed to JavaScript, and 0 where there was never a pair: then any other will do.
+    const at = address >>> 0 || 4;
     let view = views[count % viewsKept];
-    if (view?.buffer !== buffer || view.byteOffset !== at || view.length !== 2 * count) {
-      view = new Uint32Array(buffer, at, 2 * count);
+    // A view that was cut off stands at 0. To ask the memory for its buffer takes as long as all the rest.
+    if (view?.byteOffset !== at || view.length !== 2 * count) {
+      view = new Uint32Array(this.kernel.memory.buffer, at, 2 * count);
       views[count % viewsKept] = view;
     }
     return view;
