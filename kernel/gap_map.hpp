@@ -46,7 +46,11 @@ template <int D> class GapMap {
       pairs[k] = narrow(plain_ ? numbers : shifted(numbers, 2 * k));
     }
     join(pairs, first, last);
-    if (any(are_infinite(first) | are_infinite(last))) bound(box, first, last);
+    if (!any(are_infinite(first) | are_infinite(last))) return;
+    f32 to[width];
+    bound(box, to);
+    first = load<f32x4>(to);
+    last = load<f32x4>(to + width - 4);
   }
 
   /// The number that is searched where this one was given, before it is rounded.
@@ -118,8 +122,7 @@ template <int D> class GapMap {
 
   /// What is beyond float32 becomes its largest number, so that it is equal to others, and in doubt; only what has no end
   /// stays so, on the side where it has none: then differences of bounds are numbers.
-  COLD void bound(const f64* box, f32x4& first, f32x4& last) const {
-    f32 to[width];
+  COLD void bound(const f64* box, f32* to) const {
     for (u32 n = 0; n < width; n++) {
       bool is_low = n < D;
       f64 given = box[n];
@@ -127,8 +130,6 @@ template <int D> class GapMap {
       bool endless = is_low ? given == -__builtin_inf() : given == __builtin_inf();
       to[n] = endless || x != x ? f32(given) : smaller(largest, larger(-largest, x));
     }
-    first = load<f32x4>(to);
-    last = load<f32x4>(to + width - 4);
   }
 
   /// Takes over an axis of another map.

@@ -10,15 +10,10 @@
 // Code that runs once in a while: small rather than fast, and out of the way of the code that runs often.
 #if defined(__clang__)
 #define COLD __attribute__((noinline, minsize))
-// Around the code of a whole file that may be small rather than fast.
-#define SMALL_CODE _Pragma("clang attribute push(__attribute__((minsize)), apply_to = function)")
-#define END_OF_SMALL_CODE _Pragma("clang attribute pop")
 // Before a loop of known length that is long enough without being unrolled.
 #define ROLLED _Pragma("clang loop unroll(disable)")
 #else
 #define COLD __attribute__((noinline, cold))
-#define SMALL_CODE
-#define END_OF_SMALL_CODE
 #define ROLLED  // g++ builds the tests only, and warns where its own pragma comes to nothing
 #endif
 // One copy for all callers: code that runs long each time it is called.

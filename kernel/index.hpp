@@ -20,7 +20,7 @@ template <int D> class Index {
   static constexpr f32 nothing = __builtin_nanf("");
 
   // As the update saw them, by slot.
-  Buffer<f32> boxes_;
+  Buffer<f32> boxes_;  // where they are rounded, once `built_`: outward
   Buffer<f64> exact_;
   Buffer<u32> ids_;
   Buffer<Rule> rules_;
@@ -80,13 +80,8 @@ template <int D> class Index {
     count_ = 0;
     built_ = false;
     rounded_ = exact;
-    if (exact) {
-      copy(exact_, exact, u64(n) * width, 0);
-      boxes_.reserve(u64(n) * width + 4);
-      for (u64 s = 0; s < n; s++) round_outward<D>(exact + s * width, boxes_.data() + s * width);
-    } else {
-      copy(boxes_, boxes, u64(n) * width, 4);
-    }
+    if (exact) copy(exact_, exact, u64(n) * width, 0);  // hardly any of these copies are asked: `build` rounds
+    else copy(boxes_, boxes, u64(n) * width, 4);
     filtered_ = rules;
     if (rules) copy(rules_, rules, n, 0);
     named_ = !ids.same();
@@ -101,7 +96,7 @@ template <int D> class Index {
   COLD bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const u32* slots, u32 many) {
     if (rounded_ != (exact != nullptr) || named_ != !ids.same() || filtered_ != (rules != nullptr)) return false;
     u32 n = ids.count(), had = count_;
-    boxes_.grow(u64(n) * width + 4, u64(had) * width);
+    if (built_ || !rounded_) boxes_.grow(u64(n) * width + 4, u64(had) * width);
     if (rounded_) exact_.grow(u64(n) * width, u64(had) * width);
     if (named_) ids_.grow(n, had);
     if (filtered_) rules_.grow(n, had);
@@ -116,7 +111,7 @@ template <int D> class Index {
       if (s >= n) continue;
       if (rounded_) {
         __builtin_memcpy(&exact_[u64(s) * width], exact + u64(s) * width, width * sizeof(f64));
-        round_outward<D>(exact + u64(s) * width, &boxes_[u64(s) * width]);
+        if (built_) round_outward<D>(exact + u64(s) * width, &boxes_[u64(s) * width]);
       } else {
         __builtin_memcpy(&boxes_[u64(s) * width], boxes + u64(s) * width, width * sizeof(f32));
       }
@@ -130,6 +125,10 @@ template <int D> class Index {
   /// Makes the index, if it is not.
   SHARED void build() {
     if (built_) return;
+    if (rounded_) {
+      boxes_.reserve(u64(count_) * width + 4);
+      for (u64 s = 0; s < count_; s++) round_outward<D>(&exact_[s * width], &boxes_[s * width]);
+    }
     sorted_ = used_ = count_;
     room_ = count_ + count_ / 32 + 64;
     holes_ = false;

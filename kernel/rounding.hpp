@@ -1,7 +1,7 @@
 // Doubles to float32, outward, for what has to contain them: what is rounded down is never above, what is rounded up
 // never below.
 #pragma once
-#include "simd.hpp"
+#include "heap.hpp"
 
 inline f32 next_toward(f32 x, bool up) {
   i32 b = bits<i32>(x == 0 ? (up ? 0.0f : -0.0f) : x);
@@ -26,7 +26,7 @@ inline f32x4 round_down(f64x2 x, f64x2 sign) {
 }
 
 /// A box rounded outward.
-template <int D> void round_outward(const f64* box, f32* to) {
+template <int D> NOINLINE void round_outward(const f64* box, f32* to) {
   for (u32 a = 0; a < D; a++) {
     f64x2 numbers = load<f64x2>(box + 2 * a);
     f32x4 pair = round_down(numbers, f64x2{2 * a < D ? 0.0 : -0.0, 2 * a + 1 < D ? 0.0 : -0.0});

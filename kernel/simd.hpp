@@ -65,7 +65,11 @@ inline i32x4 all_lanes(i32x4 a, i32x4 b, i32x4 c, i32x4 d) {
 inline u32 at_most(f64x2 a, f64x2 b) { return wasm_i64x2_bitmask(bits<v128_t>(a <= b)); }
 inline bool any(i32x4 v) { return wasm_v128_any_true(bits<v128_t>(v)); }
 /// Two doubles as float32 in the lower lanes, and back.
-inline f32x4 narrow(f64x2 v) { return bits<f32x4>(wasm_f32x4_demote_f64x2_zero(bits<v128_t>(v))); }
+inline f32x4 narrow(f64x2 v) {
+  v128_t low = wasm_f32x4_demote_f64x2_zero(bits<v128_t>(v));
+  __asm__("" : "+r"(low));  // or the compiler converts one number after the other where a shuffle follows
+  return bits<f32x4>(low);
+}
 inline f64x2 widen(f32x4 v) { return bits<f64x2>(wasm_f64x2_promote_low_f32x4(bits<v128_t>(v))); }
 inline u32x4 min(u32x4 a, u32x4 b) { return bits<u32x4>(wasm_u32x4_min(bits<v128_t>(a), bits<v128_t>(b))); }
 inline u32x4 max(u32x4 a, u32x4 b) { return bits<u32x4>(wasm_u32x4_max(bits<v128_t>(a), bits<v128_t>(b))); }

@@ -680,6 +680,7 @@ template <int D> class Space {
   template <bool rounding> NOINLINE void put(const f64* entry, const u32* slots, u32 count) {
     f32* boxes = boxes_.data();
     bool notes = !changes_.all();
+    u32 shown = shown_count_, collapsed = 0;
     Changes::Notes changed = changes_.begin();
     for (u32 k = 0; k < count; k++, entry += Ring<D>::step) {
       const f64* box = entry + 1;
@@ -692,7 +693,7 @@ template <int D> class Space {
         f64* its = exact_.data() + u64(slot) * width;
         if (notes && differ<width * sizeof(f64)>(its, box)) changed.note(slot);
         __builtin_memcpy(its, box, width * sizeof(f64));
-        collapsed_ += collapses(box, first, last);
+        collapsed += collapses(box, first, last);
       } else if (notes) {
         i32x4 other = bits<i32x4>(first) ^ load<i32x4>(to);
         if constexpr (D == 3) other |= bits<i32x4>(last) ^ load<i32x4>(to + width - 4);
@@ -700,8 +701,9 @@ template <int D> class Space {
       }
       store(to, first);
       if constexpr (D == 3) store(to + width - 4, last);
-      if (slot < shown_count_) show(slot);
+      if (slot < shown) show(slot);
     }
+    collapsed_ += collapsed;
     if (notes) changes_.end(changed);
   }
 
