@@ -139,6 +139,10 @@ template <int D> class Incremental {
     if (watch_.is_new()) {
       for (int a = 0; a < D; a++) prospect_.sizes[a] = watch_.size(a, n);
     }
+    if (!watches()) {
+      pause_--;
+      return false;
+    }
     watch_.look(scene, size());
     if (count_ > 0 && !ended_ && follow(scene)) {
       report(scene, pairs, stats);
@@ -173,8 +177,11 @@ template <int D> class Incremental {
     f64 n = larger(1u, scene.count);
     prospect_.fresh = (tuning.entry * stats.entries + stats.tests) / n;
     prospect_.pairs = larger(pairs.count / n, 0.02);
-    if (scene.count >= tuning.few) watch_.begin_if_new(scene);
+    if (scene.count >= tuning.few && watches()) watch_.begin_if_new(scene);
   }
+
+  /// Whether boxes are watched: not in a long pause until shortly before its end.
+  bool watches() const { return pause_ <= Watch<D>::longest; }
 
   /// Gives up what is kept, but not the memory.
   COLD void forget() {
@@ -189,6 +196,7 @@ template <int D> class Incremental {
     forget();
     pause_ = pauses_;
     pauses_ = smaller(tuning.longest_pause, pauses_ * 2);
+    if (!watches()) watch_.release();
   }
 
   /// What the update has cost, and whether the list is worth going on with.

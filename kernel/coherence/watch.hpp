@@ -62,6 +62,8 @@ template <int D> class Watch {
   f32x4 total_ = {}, begun_ = {};  // common motion, since ever and until these samples were taken
 
  public:
+  static constexpr u32 longest = 1u << (horizons - 1);  // updates over which displacements are measured
+
   /// Common motion since ever, per axis.
   f32x4 common() const { return total_; }
   /// Of how many updates it is known how far boxes get.
