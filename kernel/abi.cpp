@@ -7,6 +7,7 @@
 // Next to one another, as the techniques are: see there.
 BOTH(Index)
 BOTH(Queries)
+BOTH(PlaneQuery)
 BOTH(Space)
 
 namespace {
@@ -14,7 +15,7 @@ namespace {
 // constinit: nothing runs when the module is instantiated.
 constinit Ids ids;
 constinit Settings options;
-f64 io[16];
+f64 io[48];
 #if defined(DIMENSIONS)
 constexpr bool is_flat = DIMENSIONS == 2;
 constinit Space<DIMENSIONS> only(ids, options);
@@ -187,8 +188,9 @@ EXPORT(answers_address)() -> u32* {
   return with_space([](auto& space) { return space.answers.data(); });
 }
 /// Questions. What they ask is in io: the box or twice the point, what it moves by, then at fixed places the radius
-/// (negative: none), the limit, the length of the way, and the rank of the hit to go on behind, whose id is `after`.
-enum : u32 { radius_at = 12, limit_at = 13, length_at = 14, after_at = 15, no_id = 0xffffffff };
+/// (negative: none), the limit, the length of the way, the rank of the hit to go on behind, whose id is `after`, and the
+/// planes, each a normal and an offset.
+enum : u32 { radius_at = 12, limit_at = 13, length_at = 14, after_at = 15, planes_at = 16, no_id = 0xffffffff };
 
 template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignored) {
   for (int a = 0; a < D; a++) {
@@ -208,6 +210,21 @@ EXPORT(ask_area)(u32 mask, u32 ignored, u32 from, u32 most) -> u32 {
   return with_space([&](auto& space) {
     read_question(space.question, mask, ignored);
     u32 count = space.ask_area(from, most);
+    io[0] = count < most || count == space.unknown ? -1 : f64(from);
+    return count;
+  });
+}
+/// The same for the boxes that are not behind one of so many planes; ids have PlaneQuery::inside with them.
+EXPORT(ask_planes)(u32 planes, u32 mask, u32 ignored, u32 from, u32 most) -> u32 {
+  return with_space([&]<int D>(Space<D>& space) {
+    read_question(space.question, mask, ignored);
+    space.planes.count = planes;
+    for (u32 p = 0; p < planes; p++) {
+      const f64* plane = io + planes_at + p * (D + 1);
+      for (int a = 0; a < D; a++) space.planes.normal[p][a] = plane[a];
+      space.planes.offset[p] = plane[D];
+    }
+    u32 count = space.ask_planes(from, most);
     io[0] = count < most || count == space.unknown ? -1 : f64(from);
     return count;
   });

@@ -23,6 +23,21 @@ template <int D> struct Question {
   u32 ignored = 0;             // an id
 };
 
+/// Which boxes a question is about, by its mask and by whom it ignores.
+template <int D> class Wanted {
+  const Index<D>& index_;
+  const u32 mask_, ignored_;
+
+ public:
+  Wanted(const Index<D>& index, const Question<D>& asked) : index_(index), mask_(asked.mask), ignored_(asked.ignored) {}
+
+  /// Whether no box is left out for its layer or its id.
+  bool all() const { return mask_ == 0xffffffff && ignored_ > slot_mask; }
+  bool operator()(u32 place) const {
+    return (mask_ == 0xffffffff || (index_.layer(place) & mask_)) && index_.id(place) != ignored_;
+  }
+};
+
 struct Hit {
   f64 rank;  // what the moving box has moved, or the distance
   u32 id;    // with `corner`
@@ -120,14 +135,13 @@ template <int D> class Queries {
   f64 squared_;                // the circle's radius
   f64 scale_ = 1;              // of what is estimated in place of ranks
   bool is_tame_ = true;        // whether times may be estimated
-  bool all_wanted_;            // no box is left out for its layer or its id
+  const Wanted<D> wanted_;
+  const bool all_wanted_;
   u32 from_ = 0, most_ = 0, found_ = 0;
 
  public:
-  Queries(const Index<D>& index, const Question<D>& asked) : index_(index), asked_(asked) {
-    squared_ = asked.radius * asked.radius;
-    all_wanted_ = asked.mask == 0xffffffff && asked.ignored > slot_mask;
-  }
+  Queries(const Index<D>& index, const Question<D>& asked)
+      : index_(index), asked_(asked), squared_(asked.radius * asked.radius), wanted_(index, asked), all_wanted_(wanted_.all()) {}
 
   /// Writes the ids of the boxes that touch the box or the circle, in the order of the index from place `from` on, at
   /// most so many. Returns how many; `from` becomes the place to go on from, or the number of boxes.
@@ -181,10 +195,7 @@ template <int D> class Queries {
  private:
   bool is_circle() const { return asked_.radius >= 0; }
 
-  bool wanted(u32 place) const {
-    return all_wanted_ || ((asked_.mask == 0xffffffff || (index_.layer(place) & asked_.mask)) &&
-                           index_.id(place) != asked_.ignored);
-  }
+  bool wanted(u32 place) const { return all_wanted_ || wanted_(place); }
 
   /// One bit for each of the eight that touch what is to be looked at.
   SHARED u32 touched(const Block& block) const {

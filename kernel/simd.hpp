@@ -63,6 +63,8 @@ inline i32x4 all_lanes(i32x4 a, i32x4 b, i32x4 c, i32x4 d) {
 }
 /// One bit a lane: whether a is at most b.
 inline u32 at_most(f64x2 a, f64x2 b) { return wasm_i64x2_bitmask(bits<v128_t>(a <= b)); }
+/// One bit a lane: whether a is below b.
+inline u32 below(f64x2 a, f64x2 b) { return wasm_i64x2_bitmask(bits<v128_t>(a < b)); }
 inline bool any(i32x4 v) { return wasm_v128_any_true(bits<v128_t>(v)); }
 /// Two doubles as float32 in the lower lanes, and back.
 inline f32x4 narrow(f64x2 v) {
@@ -91,6 +93,7 @@ inline i32x4 all_lanes(i32x4 a, i32x4 b, i32x4 c, i32x4 d) {
   return bits<i32x4>(_mm_packs_epi16(first, _mm_packs_epi32(bits<__m128i>(c), bits<__m128i>(d)))) == -1;
 }
 inline u32 at_most(f64x2 a, f64x2 b) { return u32(_mm_movemask_pd(bits<__m128d>(a <= b))); }
+inline u32 below(f64x2 a, f64x2 b) { return u32(_mm_movemask_pd(bits<__m128d>(a < b))); }
 inline bool any(i32x4 v) { return !_mm_testz_si128(bits<__m128i>(v), bits<__m128i>(v)); }
 inline f32x4 narrow(f64x2 v) { return bits<f32x4>(_mm_cvtpd_ps(bits<__m128d>(v))); }
 inline f64x2 widen(f32x4 v) { return bits<f64x2>(_mm_cvtps_pd(bits<__m128>(v))); }

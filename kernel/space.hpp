@@ -11,7 +11,7 @@
 #include "filters.hpp"
 #include "gap_map.hpp"
 #include "neighbours.hpp"
-#include "queries.hpp"
+#include "plane_query.hpp"
 #include "ring.hpp"
 #include "snapshot.hpp"
 #include "techniques.hpp"
@@ -78,6 +78,7 @@ template <int D> class Space {
   bool keeps_events = false;
   u32 updates = 0;
   Question<D> question;
+  Planes<D> planes;  // of a question about planes
   Buffer<u32> answers;  // ids, of the last question
   Hits hits;            // where the question asks for an order
   Stats stats;
@@ -408,6 +409,12 @@ template <int D> class Space {
   COLD u32 ask_area(u32& from, u32 most) {
     if (lost_) return unknown;
     return can_answer() ? Queries<D>(index_, question).area(from, most, answers) : 0;
+  }
+
+  /// Answers it with the boxes that are not behind one of the planes: see PlaneQuery::search.
+  COLD u32 ask_planes(u32& from, u32 most) {
+    if (lost_) return unknown;
+    return can_answer() ? PlaneQuery<D>(index_, question, planes).search(from, most, answers) : 0;
   }
 
   /// Answers it with what the moving box meets first, or with what is nearest, at most so many and behind `after`:

@@ -9,6 +9,7 @@ import {
   badQuestion,
   badValue,
   checkBits,
+  checkNumberArray,
   checkOptions,
   isId,
   maxId,
@@ -20,7 +21,7 @@ import type { Technique as LeanTechnique } from './generated/kernel-lean.ts';
 import { builtDimensions, builtTechniques } from './kernel.ts';
 import { Queries } from './queries.ts';
 import { badSnapshot, headerBytes, snapshotBytes } from './snapshot.ts';
-import { isFloat32Array, isFloat64Array } from './values.ts';
+import { isFloat32Array } from './values.ts';
 import { type Watcher, watch } from './watch.ts';
 
 /** Options of {@link BroadPhase}, all optional. */
@@ -423,7 +424,7 @@ export class BroadPhase<D extends Dimensions = 2> extends Queries<D> {
   setAll(boxes: Boxes, count?: number, where = 'setAll'): this {
     const width = this.width;
     const single = isFloat32Array(boxes);
-    checkBoxes(where, boxes);
+    checkNumberArray(where, boxes);
     if (count === undefined) count = countBoxes(where, boxes, this.dimensions);
     const { length } = boxes;
     // Told apart before the text is made: a string in each call would be garbage.
@@ -1129,12 +1130,6 @@ function checkBounds(bounds: readonly number[], dimensions: 2 | 3): void {
   let good = bounds.length === 2 * dimensions && bounds.every(Number.isFinite);
   for (let a = 0; a < dimensions; a++) good &&= bounds[a]! < bounds[a + dimensions]!;
   if (!good) badValue('bounds', bounds, expected);
-}
-
-/** Boxes come in one of three kinds of array. */
-export function checkBoxes(where: string, boxes: unknown): void {
-  if (isFloat32Array(boxes) || isFloat64Array(boxes) || Array.isArray(boxes)) return;
-  badValue(where, boxes, 'a Float32Array, a Float64Array or an array of numbers', true);
 }
 
 /** How many boxes an array holds, which must be a whole number of them. */

@@ -1,6 +1,8 @@
 // What bad input is told: what was asked, the value, what was expected. One function a kind of input; each
 // throws, and none is called before everything is still as it was.
 
+import { isFloat32Array, isFloat64Array } from './values.ts';
+
 /** Ids are integers from 0 to this. */
 export const maxId = 2 ** 24 - 1;
 
@@ -70,6 +72,12 @@ export function badCount(where: string, id: number, got: number, dimensions: 2 |
 export function badValue(where: string, value: unknown, expected: string, wrongType = false): never {
   const message = `${where}: got ${show(value)}, expected ${expected}`;
   throw wrongType ? new TypeError(message) : new RangeError(message);
+}
+
+/** Numbers come in one of three kinds of array. */
+export function checkNumberArray(where: string, numbers: unknown): void {
+  if (isFloat32Array(numbers) || isFloat64Array(numbers) || Array.isArray(numbers)) return;
+  badValue(where, numbers, 'a Float32Array, a Float64Array or an array of numbers', true);
 }
 
 /** Layers and masks are 32 bits. */

@@ -6,14 +6,13 @@ import {
   BroadPhase,
   type BroadPhaseOptions,
   beginAnew,
-  checkBoxes,
   countBoxes,
   fill,
   optionNames,
   splitColours,
 } from './broad-phase.ts';
 import type { Dimensions } from './dimensions.ts';
-import { checkOptions } from './errors.ts';
+import { checkNumberArray, checkOptions } from './errors.ts';
 import { builtDimensions } from './kernel.ts';
 import { isFloat32Array } from './values.ts';
 
@@ -82,8 +81,8 @@ export function findPairs(boxes: Boxes, options?: BroadPhaseOptions<Dimensions>)
  */
 export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOptions<Dimensions>): Uint32Array {
   const space = borrow('findPairsBetween', options);
-  checkBoxes('findPairsBetween: red', red);
-  checkBoxes('findPairsBetween: blue', blue);
+  checkNumberArray('findPairsBetween: red', red);
+  checkNumberArray('findPairsBetween: blue', blue);
   const reds = countBoxes('findPairsBetween: red', red, space.dimensions);
   countBoxes('findPairsBetween: blue', blue, space.dimensions);
   fill(space, join(red, blue), undefined, 'findPairsBetween');

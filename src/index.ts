@@ -20,6 +20,7 @@ export { init } from './kernel.ts';
 export type {
   IdsOptions,
   NearestOptions,
+  PlanesOptions,
   QueryOptions,
   RayAllOptions,
   RayHit,

@@ -49,6 +49,7 @@ export interface KernelExports {
   partners(id: number): number;
   answers_address(): number;
   ask_area(mask: number, ignored: number, from: number, most: number): number;
+  ask_planes(planes: number, mask: number, ignored: number, from: number, most: number): number;
   ask_order(kind: number, mask: number, ignored: number, after: number, most: number): number;
   hits_address(): number;
   updates(): number;

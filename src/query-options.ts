@@ -17,6 +17,16 @@ export interface IdsOptions extends QueryOptions {
   visit?: (id: number) => unknown;
 }
 
+/** Options of {@link BroadPhase.queryPlanes}. */
+export interface PlanesOptions extends QueryOptions {
+  /** Filled and returned, instead of a new array. */
+  out?: number[];
+  /**
+   * Called for each answer instead of collecting them, with whether the box is wholly inside; `false` ends the search.
+   */
+  visit?: (id: number, inside: boolean) => unknown;
+}
+
 /** Options of {@link BroadPhase.nearest}. */
 export interface NearestOptions extends QueryOptions {
   /** The largest distance, at least 0. Default: no limit. */

@@ -9,6 +9,8 @@ const viewsKept = 256;
 /** Numbers at the beginning of the ring, in which the kernel says what may wait there: see kernel/ring.hpp. */
 const ringHead = 3;
 const ringBoxes = 512;
+/** Numbers in the kernel's array: see kernel/abi.cpp. */
+export const ioLength = 48;
 /** Behind the last word of any memory. */
 const nowhere = 2 ** 30;
 
@@ -145,7 +147,9 @@ export abstract class Space<D extends Dimensions> {
 
   /** The kernel's array for numbers in and out. Growing memory cuts views off: their length is then 0. @internal */
   protected io(): Float64Array {
-    if (this.#io.length === 0) this.#io = new Float64Array(this.kernel.memory.buffer, this.kernel.io_address(), 16);
+    if (this.#io.length === 0) {
+      this.#io = new Float64Array(this.kernel.memory.buffer, this.kernel.io_address(), ioLength);
+    }
     return this.#io;
   }
 

@@ -3,7 +3,8 @@ import { BroadPhase, type QueryOptions, type RayHit } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../src/scenes/random.ts';
 import { type Entry, Modelled } from './model.ts';
-import { type Asked, ahead, type Entries, inBox, inCircle, near, type Ranked } from './query-reference.ts';
+import { type Asked, ahead, type Entries, inBox, inCircle, inPlanes, near, type Ranked } from './query-reference.ts';
+import { setBox } from './set-box.ts';
 import { readTrace, traceNames } from './traces.ts';
 
 type Loose = Record<string, (...given: unknown[]) => unknown>;
@@ -95,9 +96,51 @@ class Asker {
     options = this.#options();
     const round = dimensions === 2 ? 'queryCircle' : 'querySphere';
     this.#ids(round, [...point, radius], options, inCircle(entries, point, radius, options));
+    this.planes(entries);
     this.nearest(entries);
     this.ray(entries);
     this.sweep(entries);
+  }
+
+  /** Some along an axis, some through whole numbers, so that boxes touch them; a pair often bounds a slab. */
+  #planes(): number[][] {
+    const planes: number[][] = [];
+    const count = this.#pick(0, 1, 2, 6, 8, 8);
+    while (planes.length < count) {
+      const normal = this.#way();
+      const [place] = [this.#point()];
+      planes.push([...normal, -normal.reduce((sum, n, axis) => sum + n * place[axis], 0)].map((x) => x + 0));
+      const width = this.#world * this.#pick(0, 0.2, 1);
+      if (planes.length < count && this.#random() < 0.5)
+        planes.push(planes.at(-1)!.map((x, k) => (k < normal.length ? -x : -x + width)));
+    }
+    return planes;
+  }
+
+  planes(entries: Entries): void {
+    const given = this.#planes().flat();
+    const flat = this.#pick<Float32Array | Float64Array | number[]>(
+      Float32Array.from(given),
+      Float64Array.from(given),
+      given,
+    );
+    const width = this.#space.dimensions + 1;
+    const planes = Array.from({ length: flat.length / width }, (_, k) => [...flat.slice(k * width, (k + 1) * width)]);
+    if (!planes.flat().every(Number.isFinite)) return; // beyond float32
+    const options = this.#options();
+    const expected = inPlanes(entries, planes, options);
+    const ids = expected.map(({ id }) => id);
+    const found = this.#ask.queryPlanes(flat, options) as number[];
+    expect(ascending(found), `queryPlanes([${flat.join(', ')}], ${JSON.stringify(options)})`).toEqual(ids);
+    const out = [1, 2, 3];
+    expect(this.#ask.queryPlanes(flat, { ...options, out })).toBe(out);
+    expect(out).toEqual(found);
+    const visited: { id: number; inside: boolean }[] = [];
+    const stop = this.#pick(1, 70, Infinity);
+    const visit = (id: number, inside: boolean) => visited.push({ id, inside }) < stop;
+    expect(this.#ask.queryPlanes(flat, { ...options, visit })).toEqual([]);
+    expect(visited.map(({ id }) => id)).toEqual(found.slice(0, stop));
+    for (const each of visited) expect(each).toEqual(expected.find(({ id }) => id === each.id));
   }
 
   nearest(entries: Entries): void {
@@ -338,6 +381,64 @@ describe.each([2, 3] as const)('bad questions in %d dimensions', (dimensions) =>
   test('the round shape of the other world', () => {
     const wrong = dimensions === 2 ? 'querySphere' : 'queryCircle';
     expect(() => ask[wrong](...point, 1, 1)).toThrow(`${wrong}: this space has ${dimensions} dimensions`);
+  });
+});
+
+describe.each([2, 3] as const)('planes in %d dimensions', (dimensions) => {
+  const rest = Array.from({ length: dimensions - 1 }, () => 0);
+  const row = Array.from({ length: 1000 }, (_, k) => [k, ...rest, k + 1, ...rest]);
+  const fromTo = (from: number, to: number) => [1, ...rest, -from, -1, ...rest, to];
+
+  test('answers of any number are read in parts, while boxes move too', () => {
+    const space = new BroadPhase({ dimensions }).setAll(row.flat()).update();
+    for (let frame = 0; frame < 20; frame++) {
+      const inside: number[] = [];
+      const cut: number[] = [];
+      const visit = (id: number, whole: boolean) => void (whole ? inside : cut).push(id);
+      space.queryPlanes(fromTo(200, 800), { visit });
+      expect([inside.length, ascending(cut)]).toEqual([600, [199, 800]]);
+      // A box trades its place with another, as the index follows.
+      const [one, other] = [100 + frame, 500 + frame];
+      setBox(space, other, row[one]!);
+      setBox(space, one, row[other]!);
+      space.update();
+      expect(space.queryPlanes(fromTo(200, 800), { ignore: one }).length).toBe(601);
+      setBox(space, one, row[one]!);
+      setBox(space, other, row[other]!);
+      space.update();
+    }
+  });
+
+  test('what touches a plane is not behind it, in doubles too', () => {
+    const space = new BroadPhase({ dimensions }).setAll([0.1, ...rest, 0.2, ...rest]).update();
+    expect(space.queryPlanes([1, ...rest, -0.2])).toEqual([0]);
+    expect(space.queryPlanes([1, ...rest, -0.2 - 2 ** -54])).toEqual([]);
+    const seen: boolean[] = [];
+    const visit = (_: number, inside: boolean) => void seen.push(inside);
+    for (const d of [-0.1, -0.1 - 2 ** -56]) space.queryPlanes([1, ...rest, d], { visit });
+    expect(seen).toEqual([true, false]);
+  });
+
+  test('bad planes are refused by name, and a space that wraps', () => {
+    const space = new BroadPhase({ dimensions }).setAll(row.flat()).update();
+    const ask =
+      (...given: unknown[]) =>
+      () =>
+        (space as unknown as Loose).queryPlanes(...given);
+    const good = fromTo(0, 5);
+    for (const bad of [undefined, null, 7, 'all', {}, new Uint8Array(4)]) expect(ask(bad)).toThrow(TypeError);
+    expect(ask(good.slice(1))).toThrow(`queryPlanes: planes.length: got ${good.length - 1}, expected `);
+    expect(ask(Array.from({ length: 9 }, () => [1, ...rest, 0]).flat())).toThrow(RangeError);
+    for (const bad of [Number.NaN, Infinity]) {
+      expect(ask(good.with(2, bad))).toThrow(`queryPlanes: planes[2]: got ${bad}, expected a finite number`);
+      expect(ask(good.with(2, bad))).toThrow(RangeError);
+    }
+    expect(ask(good.with(1, '0' as never))).toThrow(TypeError);
+    expect(ask(good, { visitor: () => 1 })).toThrow('did you mean "visit"?');
+    expect(ask(good, { mask: -1 })).toThrow('queryPlanes: mask: got -1');
+    expect(ask(good, { out: 7 })).toThrow('queryPlanes: out: got 7');
+    const wrap = Array.from({ length: dimensions }, () => 10);
+    expect(() => new BroadPhase({ dimensions, wrap }).queryPlanes(good)).toThrow('this world wraps around');
   });
 });
 

@@ -30,6 +30,26 @@ export function inBox(entries: Entries, box: readonly number[], asked: Asked): n
   return ascending([...wanted(entries, asked)].filter(([, entry]) => touches(box, entry)).map(([id]) => id));
 }
 
+/** What is not wholly behind any of the planes, by id, and whether it is wholly inside. */
+export function inPlanes(
+  entries: Entries,
+  planes: readonly (readonly number[])[],
+  asked: Asked,
+): { id: number; inside: boolean }[] {
+  const far = (box: readonly number[], plane: readonly number[], foremost: boolean) => {
+    const dimensions = box.length / 2;
+    let sum = 0;
+    for (let a = 0; a < dimensions; a++) {
+      if (plane[a] !== 0) sum += plane[a] * box[plane[a] > 0 === foremost ? a + dimensions : a];
+    }
+    return sum + plane[dimensions];
+  };
+  return [...wanted(entries, asked)]
+    .filter(([, { box }]) => !planes.some((plane) => far(box, plane, true) < 0))
+    .map(([id, { box }]) => ({ id, inside: planes.every((plane) => far(box, plane, false) >= 0) }))
+    .sort((a, b) => a.id - b.id);
+}
+
 function squared(point: readonly number[], { box }: Entry): number {
   return point.reduce((sum, x, axis) => {
     const away = Math.max(box[axis] - x, x - box[axis + point.length], 0);

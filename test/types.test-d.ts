@@ -55,6 +55,10 @@ space2.queryPoint(0, 0);
 space3.queryPoint(0, 0, 0);
 space2.queryCircle(0, 0, 1);
 space3.querySphere(0, 0, 0, 1);
+space2.queryPlanes(new Float32Array(3), { visit: (id, inside) => inside && id > 3 });
+space3.queryPlanes([0, 0, 1, 0]).at(0);
+// @ts-expect-error: a plane is numbers, not an object
+space3.queryPlanes([{ normal: [0, 0, 1], constant: 0 }]);
 space2.rayCast(0, 0, 1, 0)?.distance.toFixed();
 space3.rayCastAll(0, 0, 0, 1, 0, 0, { out: [] }).at(0);
 space2.sweep(0, 0, 1, 1, 5, 5, { ignore: 1 })?.time.toFixed();

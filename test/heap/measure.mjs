@@ -58,6 +58,8 @@ const atPoint = {
 };
 const ray = { out: { id: 0, distance: 0, normal: [] } };
 const rays = { out: [] };
+const view = { out: [] };
+const planes = { 2: new Float32Array([1, 0, 1, -1, 0, 900]), 3: new Float64Array([1, 0, 0, 1, -1, 0, 0, 900]) };
 const swept = { out: { id: 0, time: 0, normal: [] } };
 
 function askFlat(space) {
@@ -69,6 +71,7 @@ function askFlat(space) {
   space.rayCastAll(0, 0, 1, 1, rays);
   space.setSwept(7, 0, 0, 9, 9, 900, 900);
   space.sweep(0, 0, 9, 9, 900, 900, swept);
+  space.queryPlanes(planes[2], view);
   space.isColliding(7, 8);
 }
 
@@ -77,6 +80,7 @@ function askSolid(space) {
   space.queryPoint(50, 50, 50, atPoint);
   space.querySphere(50, 50, 50, 500, inCircle);
   space.nearest(50, 50, 50, 10, near);
+  space.queryPlanes(planes[3], view);
   space.rayCast(0, 0, 0, 1, 1, 1, ray);
   space.rayCastAll(0, 0, 0, 1, 1, 1, rays);
   space.setSwept(7, 0, 0, 0, 9, 9, 9, 900, 900, 900);
