@@ -97,6 +97,25 @@ EXPORT(set_static)(u32 id, u32 on) -> u32 {
   with_space([&](auto& space) { space.exclude(slot, is_static, on != 0); });
   return 1;
 }
+/// In io: layer, mask, and whether it is static. 0 where there is no such box.
+EXPORT(get_rule)(u32 id) -> u32 {
+  u32 slot = ids.slot(id);
+  if (slot == Ids::none) return 0;
+  with_space([&](auto& space) {
+    Rule rule = space.rule(slot);
+    io[0] = rule.layer;
+    io[1] = rule.mask;
+    io[2] = (rule.excluded & is_static) != 0;
+  });
+  return 1;
+}
+/// Writes the ids to answers, in the order in which they came; returns how many.
+EXPORT(list_ids)() -> u32 {
+  return with_space([](auto& space) {
+    ids.in_order(space.answers);
+    return ids.count();
+  });
+}
 EXPORT(contents)() -> void {
   with_space([](auto& space) { space.contents(io); });
 }
@@ -188,7 +207,7 @@ EXPORT(answers_address)() -> u32* {
   return with_space([](auto& space) { return space.answers.data(); });
 }
 /// Questions. What they ask is in io: the box or twice the point, what it moves by, then at fixed places the radius
-/// (negative: none), the limit, the length of the way, the rank of the hit to go on behind, whose id is `after`, and the
+/// (negative: none; -2: boxes are to be within the box), the limit, the length of the way, the rank of the hit to go on behind, whose id is `after`, and the
 /// planes, each a normal and an offset.
 enum : u32 { radius_at = 12, limit_at = 13, length_at = 14, after_at = 15, planes_at = 16, no_id = 0xffffffff };
 

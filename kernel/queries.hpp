@@ -15,12 +15,14 @@
 template <int D> struct Question {
   f64 lo[D] = {}, hi[D] = {};  // the box, or twice the point
   f64 along[D] = {};           // what a moving box moves by
-  f64 radius = 0;              // of a circle; negative: none
+  f64 radius = 0;              // of a circle; negative: none, or `within`
   f64 limit = 0;               // the largest rank
   f64 length = 0;              // of the way, where its share is to be ranked by distance; else 1
   bool stops = false;          // times are to be stopped at: see meeting.hpp
   u32 mask = 0;                // layers; all bits: every box, even one without a layer
   u32 ignored = 0;             // an id
+
+  static constexpr f64 within = -2;  // in place of a radius: boxes are to be within the box, wholly
 };
 
 /// Which boxes a question is about, by its mask and by whom it ignores.
@@ -229,6 +231,8 @@ template <int D> class Queries {
   COLD u32 touching(u32 number, u32 left) const {
     f64 ranks[8];
     if (is_circle()) left &= distances(number, squared_, ranks);
+    bool whole = asked_.radius == Question<D>::within;
+    if (whole && !index_.rounded()) return left & within(index_.block(0, number));
     if (!index_.rounded() && squared_ < 1e300) return left;
     for (u32 all = left; all; all &= all - 1) {
       u32 lane = u32(__builtin_ctz(all));
@@ -236,7 +240,10 @@ template <int D> class Queries {
       index_.box(number * 8 + lane, box);
       bool touch = true;
       if (is_circle()) touch = squared_ < 1e300 ? ranks[lane] <= squared_ : distance(number * 8 + lane, ranks[lane]) <= asked_.radius;
-      for (int a = 0; a < D && !is_circle(); a++) touch &= box[a] <= asked_.hi[a] && asked_.lo[a] <= box[D + a];
+      for (int a = 0; a < D && !is_circle(); a++) {
+        touch &= whole ? asked_.lo[a] <= box[a] && box[D + a] <= asked_.hi[a]
+                       : box[a] <= asked_.hi[a] && asked_.lo[a] <= box[D + a];
+      }
       if (!touch) left &= ~(1u << lane);
     }
     return left;

@@ -1,7 +1,7 @@
 // A space as bytes, to go back to or to save: what its bytes say, and whether they are to be believed.
 // A header, then what stands in the space, in the order of the slots: the pairs of the last update, where events are
-// kept; the boxes, as float32 where that holds all of them; ids, layers, masks and exclusion bits, each only where it
-// says something. What techniques keep is not in it: it is built again, and the pairs and their order do not depend
+// kept; the boxes, as float32 where that holds all of them; ids, when boxes came, layers, masks and exclusion bits, each
+// only where it says something. What techniques keep is not in it: it is built again, and the pairs and their order do not depend
 // on it. The checksum turns 8 bytes at a time into another number, each of them into a different one, so that no
 // change within 8 bytes goes unseen, and others do once in 2^64.
 // From: the mixing of a multiplication and a shift is that of many fast hashes, such as MurmurHash (A. Appleby).
@@ -23,7 +23,7 @@ struct SnapshotHeader {
   static constexpr u8 newest = 1, automatic = 255;
 };
 
-enum SnapshotPart : u8 { has_ids = 1, has_doubles = 2, has_layers = 4, has_masks = 8, has_bits = 16, has_pairs = 32 };
+enum SnapshotPart : u8 { has_ids = 1, has_doubles = 2, has_layers = 4, has_masks = 8, has_bits = 16, has_pairs = 32, has_order = 64 };
 
 /// Why bytes are refused: src/snapshot.ts says it in words.
 enum class SnapshotFault : u32 { none, foreign, newer, length, damaged, dimensions, technique, content };
@@ -32,7 +32,7 @@ class Snapshot {
   Buffer<u64> words_;
   SnapshotHeader head_ = {};
   // Where each part begins, in bytes.
-  u32 pairs_ = 0, boxes_ = 0, ids_ = 0, layers_ = 0, masks_ = 0, bits_ = 0, end_ = 0;
+  u32 pairs_ = 0, boxes_ = 0, ids_ = 0, order_ = 0, layers_ = 0, masks_ = 0, bits_ = 0, end_ = 0;
 
   u8* at(u64 byte) const { return reinterpret_cast<u8*>(words_.data()) + byte; }
   bool has(u8 parts) const { return head_.parts & parts; }
@@ -48,6 +48,7 @@ class Snapshot {
     pairs_ = take(has(has_pairs), head_.pairs * u64(sizeof(u64)));
     boxes_ = take(true, count * 2 * head_.dimensions * (has(has_doubles) ? sizeof(f64) : sizeof(f32)));
     ids_ = take(has(has_ids), count * sizeof(u32));
+    order_ = take(has(has_order), (count + 1) * sizeof(u32));
     layers_ = take(has(has_layers), count * sizeof(u32));
     masks_ = take(has(has_masks), count * sizeof(u32));
     bits_ = take(has(has_bits), count);
@@ -78,7 +79,7 @@ class Snapshot {
   COLD void write(u32 dimensions, u8 technique, bool doubles, const Ids& ids, const Filters& filters, const Events* events) {
     u32 n = ids.count();
     const Rule* rules = filters.active() ? filters.rules() : nullptr;
-    u32 parts = (ids.same() ? 0 : has_ids) | (doubles ? has_doubles : 0) | (events ? has_pairs : 0);
+    u32 parts = (ids.same() ? 0 : has_ids) | (ids.since() ? has_order : 0) | (doubles ? has_doubles : 0) | (events ? has_pairs : 0);
     for (u32 s = 0; rules && s < n; s++) {
       if (~rules[s].layer) parts |= has_layers;
       if (~rules[s].mask) parts |= has_masks;
@@ -90,7 +91,9 @@ class Snapshot {
     words_.reserve(end_ / sizeof(u64));
     words_[end_ / sizeof(u64) - 1] = 0;  // what fills it up
     if (events) events->save(reinterpret_cast<u64*>(at(pairs_)));
+    if (has(has_order)) store(at(order_), ids.clock());
     for (u32 s = 0; s < n; s++) {
+      if (has(has_order)) store(at(order_ + (s + 1) * sizeof(u32)), ids.since()[s]);
       if (has(has_ids)) store(at(ids_ + s * sizeof(u32)), ids.id(s));
       if (has(has_layers)) store(at(layers_ + s * sizeof(u32)), rules[s].layer);
       if (has(has_masks)) store(at(masks_ + s * sizeof(u32)), rules[s].mask);
@@ -110,7 +113,7 @@ class Snapshot {
   COLD SnapshotFault stage(const SnapshotHeader& head, u32 size, u32 dimensions, u32 built) {
     if (size < sizeof(SnapshotHeader) || head.magic != SnapshotHeader::right_magic) return SnapshotFault::foreign;
     if (head.version > SnapshotHeader::newest) return SnapshotFault::newer;
-    bool good = head.version > 0 && head.count <= max_slots && head.parts < 2 * has_pairs;
+    bool good = head.version > 0 && head.count <= max_slots && head.parts < 2 * has_order;
     if (!good || (head.dimensions != 2 && head.dimensions != 3)) return SnapshotFault::damaged;
     head_ = head;
     if (!lay_out() || end_ != size) return SnapshotFault::length;
@@ -137,6 +140,10 @@ class Snapshot {
       rules[s].excluded = has(has_bits) ? u32(*at(bits_ + s)) << 24 : 0;
       if (rules[s].excluded & ~u32(is_static | is_red | is_blue)) return false;
     }
+    if (has(has_order) && !has(has_ids)) return false;
+    for (u32 s = 0; has(has_order) && s < head_.count; s++) {
+      if (load<u32>(at(order_ + (s + 1) * sizeof(u32))) >= load<u32>(at(order_))) return false;
+    }
     u32 last = 0;
     for (u32 place = pairs_; place < boxes_; place += sizeof(u64)) {
       u64 pair = load<u64>(at(place)) & ~pair_marks;
@@ -149,8 +156,9 @@ class Snapshot {
 
   /// Takes over all but the boxes, after `check`; false, and nothing has changed, where the ids are bad.
   COLD bool take(Ids& ids, Filters& filters, Events* events) const {
+    const u32* order = has(has_order) ? reinterpret_cast<const u32*>(at(order_)) : nullptr;
     if (!has(has_ids)) ids.reset(head_.count);
-    else if (!ids.replace(reinterpret_cast<const u32*>(at(ids_)), head_.count)) return false;
+    else if (!ids.replace(reinterpret_cast<const u32*>(at(ids_)), head_.count, order ? order + 1 : nullptr, order ? *order : 0)) return false;
     filters.clear();
     if (has(has_layers | has_masks | has_bits)) filters.replace();
     if (events) events->restore(reinterpret_cast<const u64*>(at(pairs_)), (boxes_ - pairs_) / sizeof(u64));

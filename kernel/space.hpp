@@ -245,6 +245,8 @@ template <int D> class Space {
     return boxes_.data();
   }
 
+  COLD Rule rule(u32 slot) const { return filters_.active() ? filters_.rules()[slot] : Rule{0xffffffff, 0xffffffff, 0}; }
+
   /// Sets the layer and the mask of a box.
   COLD void filter(u32 slot, u32 layer, u32 mask) {
     if (!holds_) hold();

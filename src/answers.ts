@@ -12,6 +12,7 @@ import {
   ignoredOf,
   maskOf,
   nobody,
+  othersIgnored,
   type PlanesOptions,
   type QueryOptions,
 } from './query-options.ts';
@@ -32,14 +33,22 @@ export const onWay = 2;
 /** In place of a number of planes: the box or circle that stands in the array. */
 const shape = -1;
 
-/** How many answers a visitor's search goes ahead. */
+/** How many answers a visitor's search goes ahead, and a search for the first that is accepted at first. */
 const part = 64;
+const firstPart = 4;
+
+/** What is met by a ray or by a moving box: one of both numbers is there. */
+type Hit = { id: number; distance?: number; time?: number; normal: number[] };
+export type Visitor = (id: number, rank: number, hit?: Hit) => unknown;
+export type Accept = (id: number, hit: Hit) => unknown;
 
 /** What is remembered of a question while its visitor is called, which may ask other questions. */
 class Visit {
   readonly question = new Float64Array(ioLength);
   readonly ids = new Uint32Array(part);
   readonly ranks = new Float64Array(part);
+  readonly sides = new Int32Array(part);
+  readonly hits = { [onRay]: { id: 0, distance: 0, normal: [] }, [onWay]: { id: 0, time: 0, normal: [] } };
 }
 
 /** The answer where a visitor got it. */
@@ -89,19 +98,25 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
   }
 
   /** Asks for the boxes that touch what stands in the kernel's array, or that are not behind so many planes there. @internal */
-  protected area(where: string, options: IdsOptions | PlanesOptions | undefined, planes = shape): number[] {
+  protected area(
+    where: string,
+    options: IdsOptions | PlanesOptions | undefined,
+    names: readonly string[] = idsOptions,
+    planes = shape,
+  ): number[] {
     if (this.wraps) noQueries(where);
-    checkOptions(where, options, idsOptions);
+    checkOptions(where, options, names);
     const mask = maskOf(where, options);
     const ignored = ignoredOf(where, options);
+    const others = othersIgnored(options);
     if (options?.visit !== undefined) {
-      this.#visitArea(where, planes, mask, ignored, options.visit);
+      this.#visitArea(where, planes, mask, ignored, others, options.visit);
       return none as number[];
     }
     const out = options?.out ?? [];
     checkOut(where, out);
     try {
-      return this.copyIds(this.#ids(where, planes, mask, ignored, 0, everything), out);
+      return this.copyIds(this.#ids(where, planes, mask, ignored, 0, everything), out, others);
     } catch (error) {
       this.recover(error, where);
     }
@@ -112,11 +127,26 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
     if (this.wraps) noQueries(where);
     const mask = maskOf(where, options);
     const ignored = ignoredOf(where, options);
+    const others = othersIgnored(options);
     try {
-      return known(where, this.kernel.ask_order(kind, mask, ignored, nobody, most));
+      const wanted = Math.min(most + (others?.length ?? 0), everything);
+      const count = known(where, this.kernel.ask_order(kind, mask, ignored, nobody, wanted));
+      return others === undefined ? count : this.#leaveOut(others, count, most);
     } catch (error) {
       this.recover(error, where);
     }
+  }
+
+  /** Takes boxes out of the kernel's hits; returns how many are left, at most so many. */
+  #leaveOut(others: readonly number[], count: number, most: number): number {
+    const words = this.wordView();
+    const first = this.kernel.hits_address() >>> 2;
+    let kept = 0;
+    for (let k = 0; k < count && kept < most; k++) {
+      if (others.includes(words[first + 4 * k + 2]! & maxId)) continue;
+      words.copyWithin(first + 4 * kept++, first + 4 * k, first + 4 * k + 4);
+    }
+    return kept;
   }
 
   /** How many ids the kernel has found, at most so many, beginning at place `from` of its index. */
@@ -134,9 +164,10 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
     planes: number,
     mask: number,
     ignored: number,
+    others: readonly number[] | undefined,
     visitor: (id: number, inside: boolean) => unknown,
   ): void {
-    checkVisitor(where, visitor);
+    checkVisitor(`${where}: visit`, visitor);
     const visit = this.#startVisit();
     try {
       for (let from = 0; from >= 0; ) {
@@ -149,6 +180,7 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
         const updates = this.kernel.updates();
         for (let k = 0; k < count; k++) {
           const id = visit.ids[k]!; // of planes: above it stands whether it is in front of all
+          if (others?.includes(id & maxId)) continue;
           if ((planes === shape ? (visitor as (id: number) => unknown)(id) : visitor(id & maxId, id > maxId)) === false)
             return;
           if (this.kernel.updates() !== updates) updatedInside(where);
@@ -161,45 +193,91 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
     }
   }
 
-  /** @internal */
-  protected visitOrder(
+  /** Calls a visitor for each answer, at most so many. @internal */
+  protected visitOrder(where: string, kind: number, options: QueryOptions, most: number, visitor: Visitor): void {
+    checkVisitor(`${where}: visit`, visitor);
+    this.#walk(where, kind, options, most, part, visitor);
+  }
+
+  /** Writes the first hit that is accepted to `hit`, as it does with all before; false where none is. @internal */
+  protected firstAccepted(where: string, kind: number, options: QueryOptions, hit: Hit, accept: Accept): boolean {
+    checkVisitor(`${where}: accept`, accept);
+    return this.#walk(where, kind, options, everything, firstPart, accept, hit);
+  }
+
+  /**
+   * Goes through the answers in order, beginning with so many at once. With `into`, where each hit is written, until one
+   * is accepted, which it tells; else until the visitor says `false`.
+   */
+  #walk(
     where: string,
     kind: number,
     options: QueryOptions,
     most: number,
-    visitor: (id: number, rank: number) => unknown,
-  ): void {
+    ahead: number,
+    call: Visitor | Accept,
+    into?: Hit,
+  ): boolean {
     if (this.wraps) noQueries(where);
     const mask = maskOf(where, options);
     const ignored = ignoredOf(where, options);
-    checkVisitor(where, visitor);
+    const others = othersIgnored(options);
     const visit = this.#startVisit();
+    const hit = into ?? (kind === near ? undefined : visit.hits[kind as typeof onRay]);
     try {
-      for (let left = most, after = nobody; left > 0; left -= part) {
-        const wanted = Math.min(left, part);
+      for (let left = most, after = nobody; left > 0; ahead = part) {
+        const wanted = Math.min(left + (others?.length ?? 0), ahead);
         this.io().set(visit.question);
         const count = known(where, this.kernel.ask_order(kind, mask, ignored, after, wanted));
-        const first = this.kernel.hits_address();
-        const words = this.wordView();
-        const doubles = this.doubleView();
-        for (let k = 0; k < count; k++) {
-          visit.ids[k] = words[(first >>> 2) + 4 * k + 2]!;
-          visit.ranks[k] = doubles[(first >>> 3) + 2 * k]!;
-        }
+        this.#keepHits(visit, count);
         const updates = this.kernel.updates();
-        for (let k = 0; k < count; k++) {
-          if (visitor(visit.ids[k]! & maxId, visit.ranks[k]!) === false) return;
+        for (let k = 0; k < count && left > 0; k++) {
+          const id = visit.ids[k]! & maxId;
+          if (others?.includes(id)) continue;
+          left--;
+          if (hit !== undefined) this.#writeHit(visit, k, kind, hit);
+          if (into !== undefined) {
+            if ((call as Accept)(id, into)) return true;
+          } else if ((call as Visitor)(id, visit.ranks[k]!, hit) === false) return true;
           if (this.kernel.updates() !== updates) updatedInside(where);
         }
-        if (count < wanted) return;
+        if (count < wanted) return false;
         after = visit.ids[count - 1]!;
         visit.question[afterAt] = visit.ranks[count - 1]!;
       }
+      return false;
     } catch (error) {
       this.recover(error, where);
     } finally {
       this.#visiting--;
     }
+  }
+
+  /** Copies the kernel's hits, which other questions will overwrite. */
+  #keepHits(visit: Visit, count: number): void {
+    const first = this.kernel.hits_address();
+    const words = this.wordView();
+    const doubles = this.doubleView();
+    for (let k = 0; k < count; k++) {
+      visit.ids[k] = words[(first >>> 2) + 4 * k + 2]!;
+      visit.sides[k] = words[(first >>> 2) + 4 * k + 3]!;
+      visit.ranks[k] = doubles[(first >>> 3) + 2 * k]!;
+    }
+  }
+
+  #writeHit(visit: Visit, k: number, kind: number, hit: Hit): void {
+    hit.id = visit.ids[k]! & maxId;
+    if (kind === onRay) hit.distance = visit.ranks[k]!;
+    else hit.time = visit.ranks[k]!;
+    this.#writeNormal(visit.sides[k]!, hit.normal);
+  }
+
+  /** The normal of the side that was hit, by the kernel's number of it. */
+  #writeNormal(side: number, normal: number[]): void {
+    for (let axis = 0; axis < this.dimensions; axis++) {
+      normal[axis] = side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0;
+    }
+    normal.length = this.dimensions;
   }
 
   /** Remembers the question that stands in the kernel's array. */
@@ -215,11 +293,15 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
   }
 
   /** Copies the first of the kernel's answers. @internal */
-  protected copyIds(count: number, out: number[]): number[] {
+  protected copyIds(count: number, out: number[], others?: readonly number[]): number[] {
     const words = this.wordView();
     const first = this.kernel.answers_address() >>> 2;
-    for (let k = 0; k < count; k++) out[k] = words[first + k]! & maxId;
-    out.length = count;
+    let kept = 0;
+    for (let k = 0; k < count; k++) {
+      const id = words[first + k]! & maxId;
+      if (!others?.includes(id)) out[kept++] = id;
+    }
+    out.length = kept;
     return out;
   }
 
@@ -228,11 +310,7 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
     const at = this.kernel.hits_address() + 16 * k;
     const words = this.wordView();
     hit.id = words[(at >>> 2) + 2]! & maxId; // above it stands whether it was met at a corner
-    const side = words[(at >>> 2) + 3]! | 0;
-    for (let axis = 0; axis < this.dimensions; axis++) {
-      hit.normal[axis] = side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0;
-    }
-    hit.normal.length = this.dimensions;
+    this.#writeNormal(words[(at >>> 2) + 3]! | 0, hit.normal);
     return at >>> 3;
   }
 

@@ -11,6 +11,11 @@ export type Box<D extends Dimensions> = D extends 2
 /** An id and the numbers of its box. */
 export type BoxOfId<D extends Dimensions> = D extends 2 ? [id: number, ...Box<2>] : [id: number, ...Box<3>];
 
+/** An id, the centre of its box, and half the size along each axis. */
+export type CentredBoxOfId<D extends Dimensions> = D extends 2
+  ? [id: number, ...Point<2>, halfWidth: number, halfHeight: number]
+  : [id: number, ...Point<3>, halfWidth: number, halfHeight: number, halfDepth: number];
+
 /** The numbers of a box and how far it moves along each axis. */
 export type MovingBox<D extends Dimensions> = D extends 2
   ? [...Box<2>, dx: number, dy: number]

@@ -12,6 +12,12 @@ export const corners = {
   3: ['minX', 'minY', 'minZ', 'maxX', 'maxY', 'maxZ'],
 } as const;
 
+/** The numbers of a box by its centre. */
+const centred = {
+  2: ['x', 'y', 'halfWidth', 'halfHeight'],
+  3: ['x', 'y', 'z', 'halfWidth', 'halfHeight', 'halfDepth'],
+} as const;
+
 /** The numbers of a moving box. */
 export const sweep2 = [...corners[2], 'dx', 'dy'];
 export const sweep3 = [...corners[3], 'dx', 'dy', 'dz'];
@@ -62,10 +68,32 @@ export function badBox(where: string, id: number, box: ArrayLike<unknown>, dimen
 }
 
 /** A call with too few or too many arguments. */
-export function badCount(where: string, id: number, got: number, dimensions: 2 | 3): never {
+export function badCount(
+  where: string,
+  id: number,
+  got: number,
+  dimensions: 2 | 3,
+  names: readonly string[] = corners[dimensions],
+): never {
   throw new TypeError(
-    `${where}: got ${got} arguments for box ${id}, expected ${1 + 2 * dimensions} in ${dimensions}D: id, ${corners[dimensions].join(', ')}`,
+    `${where}: got ${got} arguments for box ${id}, expected ${1 + 2 * dimensions} in ${dimensions}D: id, ${names.join(', ')}`,
   );
+}
+
+/** A box by centre and half size that is not one: says which of its numbers is wrong. */
+export function badCentred(where: string, given: ArrayLike<unknown>, dimensions: 2 | 3): never {
+  const id = given[0];
+  if (!isId(id)) badId(where, id);
+  const names = centred[dimensions];
+  if (given.length !== 1 + names.length) badCount(where, id, given.length, dimensions, names);
+  for (const [k, name] of names.entries()) {
+    const value = given[1 + k];
+    const what = `${where}: ${name} of box ${id}`;
+    const expected = k < dimensions ? 'a finite number' : 'a number, at least 0';
+    if (typeof value !== 'number') badValue(what, value, expected, true);
+    if (k < dimensions ? !Number.isFinite(value) : !(value >= 0)) badValue(what, value, expected);
+  }
+  throw new Error(`${where}: box ${id} was refused, but nothing is wrong with it: please report this`);
 }
 
 /** Any other argument or option. */

@@ -14,10 +14,12 @@ export {
   type Stats,
   type TechniqueName,
 } from './broad-phase.ts';
+export type { Filter } from './contents.ts';
 export type * from './dimensions.ts';
 export { findPairs, findPairsBetween } from './find-pairs.ts';
 export { init } from './kernel.ts';
 export type {
+  BoxOptions,
   IdsOptions,
   NearestOptions,
   PlanesOptions,

@@ -25,6 +25,8 @@ export interface KernelExports {
   clear(): void;
   set_filter(id: number, layer: number, mask: number): number;
   set_static(id: number, on: number): number;
+  get_rule(id: number): number;
+  list_ids(): number;
   contents(): void;
   stage(count: number): number;
   stage_exact(count: number): number;

@@ -1,8 +1,12 @@
 // The questions about places: who collides with whom, and what is in a box, at a point, or in a circle.
 import { Answers, isNumber, number, radiusAt } from './answers.ts';
 import type { BoxQuestion, Dimensions, PointQuestion, RoundQuestion } from './dimensions.ts';
-import { badId, badQuestion, checkOut, corners, isId } from './errors.ts';
-import { checkDistance, type IdsOptions } from './query-options.ts';
+import { badId, badQuestion, badValue, checkOut, corners, isId } from './errors.ts';
+import { type BoxOptions, boxOptions, checkDistance, type IdsOptions } from './query-options.ts';
+
+/** In place of a radius: see kernel/abi.cpp. */
+const noCircle = -1;
+const whole = -2;
 
 /** A space that says what is where. */
 export abstract class PlaceQueries<D extends Dimensions> extends Answers<D> {
@@ -65,6 +69,7 @@ export abstract class PlaceQueries<D extends Dimensions> extends Answers<D> {
    * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).setFilter(7, 1, 3).setFilter(9, enemy, 3).update();
    * space.queryBox(8, 8, 12, 12).sort(); // → [7, 9]
    * space.queryBox(8, 8, 12, 12, { mask: enemy }); // → [9]
+   * space.queryBox(4, 4, 15, 15, { within: true }); // → [9]
    * let hurt = 0;
    * space.queryBox(8, 8, 12, 12, { visit: () => hurt++ }); // → []
    * hurt; // → 2
@@ -74,14 +79,14 @@ export abstract class PlaceQueries<D extends Dimensions> extends Answers<D> {
    * space.set(7, 0, 0, 0, 1, 1, 1).update();
    * space.queryBox(1, 1, 1, 2, 2, 2); // → [7]
    */
-  queryBox(...question: BoxQuestion<D, IdsOptions>): number[];
-  queryBox(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: IdsOptions): number[] {
+  queryBox(...question: BoxQuestion<D, BoxOptions>): number[];
+  queryBox(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: BoxOptions): number[] {
     const io = this.io();
     if (this.width === 4) {
       if (!(isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d) || f !== undefined) {
         badQuestion('queryBox', [a, b, c, d, e, f, options], corners[2], number);
       }
-      options = e as IdsOptions | undefined;
+      options = e as BoxOptions | undefined;
     } else {
       const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && isNumber(e) && isNumber(f);
       if (!(good && a <= d && b <= e && c <= f)) {
@@ -94,8 +99,10 @@ export abstract class PlaceQueries<D extends Dimensions> extends Answers<D> {
     io[1] = b;
     io[2] = c;
     io[3] = d;
-    io[radiusAt] = -1;
-    return this.area('queryBox', options);
+    const within = options?.within ?? false;
+    if (typeof within !== 'boolean') badValue('queryBox: within', within, 'true or false', true);
+    io[radiusAt] = within ? whole : noCircle;
+    return this.area('queryBox', options, boxOptions);
   }
 
   /**
@@ -117,7 +124,7 @@ export abstract class PlaceQueries<D extends Dimensions> extends Answers<D> {
   queryPoint(...question: PointQuestion<D, IdsOptions>): number[];
   queryPoint(x: number, y: number, z?: unknown, options?: IdsOptions): number[] {
     options = this.point('queryPoint', x, y, z, options);
-    this.io()[radiusAt] = -1;
+    this.io()[radiusAt] = noCircle;
     return this.area('queryPoint', options);
   }
 

@@ -53,6 +53,6 @@ export abstract class PlaneQueries<D extends Dimensions> extends PlaceQueries<D>
       }
       io[planesAt + k] = planes[k]!;
     }
-    return this.area(where, options, (planes.length / width) | 0); // as an integer: a double would be garbage
+    return this.area(where, options, undefined, (planes.length / width) | 0); // as an integer: a double would be garbage
   }
 }

@@ -2,6 +2,7 @@
 // ahead, what is near. Everything is answered as of the last update; what the questions need is made at the first
 // after it. Here are what is ahead and what is near; the others are in plane-queries.ts and place-queries.ts.
 import {
+  type Accept,
   finite,
   isNumber,
   isPlace,
@@ -14,6 +15,7 @@ import {
   onWay,
   point2,
   point3,
+  type Visitor,
 } from './answers.ts';
 import type { Dimensions, NearestQuestion, RayQuestion, SweepQuestion } from './dimensions.ts';
 import { badHit, badQuestion, badValue, checkOptions, checkOut, isHit, sweep2, sweep3 } from './errors.ts';
@@ -22,14 +24,15 @@ import {
   checkDistance,
   everything,
   farOptions,
-  idsOptions,
   type NearestOptions,
+  nearestOptions,
   type RayAllOptions,
   type RayHit,
   type RayOptions,
   rayOptions,
   type SweepHit,
   type SweepOptions,
+  sweepOptions,
 } from './query-options.ts';
 
 const ray2 = [...point2, 'directionX', 'directionY'];
@@ -70,6 +73,8 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
    * space.set(me, -1, -1, 1, 1).set(7, 10, -5, 20, 5).update();
    * space.rayCast(0, 0, 1, 0, { ignore: me }); // → { id: 7, distance: 10, normal: [-1, 0] }
    * space.rayCast(0, 0, 1, 0, { ignore: me, maxDistance: 9 }); // → undefined
+   * space.rayCast(0, 0, 1, 0, { ignore: [me, 7] }); // → undefined
+   * space.rayCast(5, 0, -1, 0, { accept: (id, hit) => hit.normal[0] === 1 })?.id; // → 1
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
@@ -80,6 +85,10 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
   rayCast(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayOptions) {
     options = this.#ray('rayCast', rayOptions, a, b, c, d, e, f, options);
     if (options?.out !== undefined && !isHit(options.out)) badHit('rayCast: out', options.out, 'distance');
+    if (options?.accept !== undefined) {
+      const hit: RayHit = options.out ?? { id: 0, distance: 0, normal: [] };
+      return this.firstAccepted('rayCast', onRay, options, hit, options.accept as Accept) ? hit : undefined;
+    }
     if (this.order('rayCast', onRay, options, 1) === 0) return undefined;
     const hit: RayHit = options?.out ?? { id: 0, distance: 0, normal: [] };
     hit.distance = this.doubleView()[this.readHit(0, hit)]!;
@@ -107,7 +116,7 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
   rayCastAll(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayAllOptions): RayHit[] {
     options = this.#ray('rayCastAll', farOptions, a, b, c, d, e, f, options);
     if (options?.visit !== undefined) {
-      this.visitOrder('rayCastAll', onRay, options, everything, options.visit);
+      this.visitOrder('rayCastAll', onRay, options, everything, options.visit as Visitor);
       return none as RayHit[];
     }
     const out = options?.out ?? [];
@@ -141,6 +150,8 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
    * const bullet = 1;
    * space.set(bullet, 0, 0, 1, 1).set(7, 21, -5, 22, 5).update();
    * const hit = space.sweep(0, 0, 1, 1, 40, 0, { ignore: bullet }); // → { id: 7, time: 0.5, normal: [-1, 0] }
+   * const solid = (id: number) => id !== bullet && id !== 7;
+   * space.sweep(0, 0, 1, 1, 40, 0, { accept: solid }); // → undefined
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
@@ -185,12 +196,16 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
     io[5] = f;
     io[limitAt] = 1;
     io[lengthAt] = 1;
-    checkOptions('sweep', options, idsOptions);
+    checkOptions('sweep', options, sweepOptions);
     if (options?.visit !== undefined) {
-      this.visitOrder('sweep', onWay, options, everything, options.visit);
+      this.visitOrder('sweep', onWay, options, everything, options.visit as Visitor);
       return undefined;
     }
     if (options?.out !== undefined && !isHit(options.out)) badHit('sweep: out', options.out, 'time');
+    if (options?.accept !== undefined) {
+      const hit: SweepHit = options.out ?? { id: 0, time: 0, normal: [] };
+      return this.firstAccepted('sweep', onWay, options, hit, options.accept as Accept) ? hit : undefined;
+    }
     if (this.order('sweep', onWay, options, 1) === 0) return undefined;
     const hit: SweepHit = options?.out ?? { id: 0, time: 0, normal: [] };
     hit.time = this.doubleView()[this.readHit(0, hit)]!;
@@ -211,6 +226,9 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
    * space.set(7, 0, 0, 10, 10).set(9, 15, 0, 20, 5).update();
    * space.nearest(13, 2, 2); // → [9, 7]
    * space.nearest(13, 2, 2, { maxDistance: 2 }); // → [9]
+   * const distances: number[] = [];
+   * space.nearest(13, 2, 2, { distances });
+   * distances; // → [2, 3]
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
@@ -233,7 +251,7 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
       badValue('nearest: k', most, 'an integer from 1 on, or Infinity');
     }
     const wanted = Math.min(most, everything);
-    checkOptions('nearest', options, farOptions);
+    checkOptions('nearest', options, nearestOptions);
     const { maxDistance = Number.POSITIVE_INFINITY } = options ?? {};
     checkDistance('nearest: maxDistance', maxDistance);
     this.io()[limitAt] = maxDistance;
@@ -243,11 +261,19 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
     }
     const out = options?.out ?? [];
     checkOut('nearest', out);
+    const distances = options?.distances;
+    if (distances !== undefined && !Array.isArray(distances))
+      badValue('nearest: distances', distances, 'an array', true);
     const count = this.order('nearest', near, options, wanted);
     const words = this.wordView();
-    const first = this.kernel.hits_address() >>> 2;
-    for (let n = 0; n < count; n++) out[n] = words[first + 4 * n + 2]!;
+    const first = this.kernel.hits_address();
+    for (let n = 0; n < count; n++) out[n] = words[(first >>> 2) + 4 * n + 2]!;
     out.length = count;
+    if (distances !== undefined) {
+      const doubles = this.doubleView();
+      for (let n = 0; n < count; n++) distances[n] = doubles[(first >>> 3) + 2 * n]!;
+      distances.length = count;
+    }
     return out;
   }
 

@@ -5,8 +5,8 @@ import { badId, badValue, checkBits, isId } from './errors.ts';
 export interface QueryOptions {
   /** Only boxes with a layer in it: 32 bits, as for `setFilter`. Default: all boxes. */
   mask?: number;
-  /** A box that is left out: most often the one that asks. */
-  ignore?: number;
+  /** A box that is left out, most often the one that asks, or several: a few, for each is compared with each answer. */
+  ignore?: number | readonly number[];
 }
 
 /** Options of questions answered by ids. */
@@ -15,6 +15,12 @@ export interface IdsOptions extends QueryOptions {
   out?: number[];
   /** Called for each answer instead of collecting them; `false` ends the search. The answer is then empty. */
   visit?: (id: number) => unknown;
+}
+
+/** Options of {@link BroadPhase.queryBox}. */
+export interface BoxOptions extends IdsOptions {
+  /** Whether boxes have to be wholly inside; they may touch the sides. Default false. */
+  within?: boolean;
 }
 
 /** Options of {@link BroadPhase.queryPlanes}. */
@@ -33,6 +39,8 @@ export interface NearestOptions extends QueryOptions {
   maxDistance?: number;
   /** Filled and returned, instead of a new array. */
   out?: number[];
+  /** Filled with the distance of each answer, in the order of these. */
+  distances?: number[];
   /** Called for each answer, the nearest first, instead of collecting them; `false` ends the search. */
   visit?: (id: number, distance: number) => unknown;
 }
@@ -51,6 +59,8 @@ export interface RayHit {
 export interface RayOptions extends QueryOptions {
   /** How far the ray reaches, at least 0. Default: no limit. */
   maxDistance?: number;
+  /** Whether a hit counts: asked of each, the first first, until one does. The hit is the one that will be returned. */
+  accept?: (id: number, hit: Readonly<RayHit>) => boolean;
   /** Filled and returned, instead of a new object. */
   out?: RayHit;
 }
@@ -61,8 +71,11 @@ export interface RayAllOptions extends QueryOptions {
   maxDistance?: number;
   /** Filled and returned instead of a new array; the objects in it are used again. */
   out?: RayHit[];
-  /** Called for each answer, the first first, instead of collecting them; `false` ends the search. */
-  visit?: (id: number, distance: number) => unknown;
+  /**
+   * Called for each answer, the first first, instead of collecting them; `false` ends the search. The hit is the same
+   * object each time.
+   */
+  visit?: (id: number, distance: number, hit: Readonly<RayHit>) => unknown;
 }
 
 /** What a moving box meets. */
@@ -80,10 +93,15 @@ export interface SweepHit {
 
 /** Options of {@link BroadPhase.sweep}. */
 export interface SweepOptions extends QueryOptions {
+  /** Whether a hit counts: asked of each, by time, until one does. The hit is the one that will be returned. */
+  accept?: (id: number, hit: Readonly<SweepHit>) => boolean;
   /** Filled and returned, instead of a new object. */
   out?: SweepHit;
-  /** Called for each box on the way, by time, instead of the first being returned; `false` ends the search. */
-  visit?: (id: number, time: number) => unknown;
+  /**
+   * Called for each box on the way, by time, instead of the first being returned; `false` ends the search. The hit is the
+   * same object each time.
+   */
+  visit?: (id: number, time: number, hit: Readonly<SweepHit>) => unknown;
 }
 
 /** As a mask: all boxes. */
@@ -98,20 +116,34 @@ export function maskOf(where: string, options: QueryOptions | undefined): number
   return mask;
 }
 
+/** The one box that is left out; `nobody` where none is, or several are: see `othersIgnored`. */
 export function ignoredOf(where: string, options: QueryOptions | undefined): number {
-  const id = options?.ignore;
-  if (id === undefined) return nobody;
-  if (!isId(id)) badId(`${where}: ignore`, id);
-  return id;
+  const ignore = options?.ignore;
+  if (ignore === undefined) return nobody;
+  if (!Array.isArray(ignore)) {
+    if (!isId(ignore)) badId(`${where}: ignore`, ignore);
+    return ignore;
+  }
+  for (let k = 0; k < ignore.length; k++) if (!isId(ignore[k])) badId(`${where}: ignore[${k}]`, ignore[k]);
+  return ignore.length === 1 ? ignore[0] : nobody;
+}
+
+/** The boxes that are left out where these are several. */
+export function othersIgnored(options: QueryOptions | undefined): readonly number[] | undefined {
+  const ignore = options?.ignore;
+  return typeof ignore === 'object' && ignore.length > 1 ? ignore : undefined;
 }
 
 /** The options of each kind of question. */
 export const idsOptions = ['mask', 'ignore', 'out', 'visit'] as const;
-export const rayOptions = ['mask', 'ignore', 'maxDistance', 'out'] as const;
-export const farOptions = [...rayOptions, 'visit'] as const;
+export const boxOptions = [...idsOptions, 'within'] as const;
+export const farOptions = ['mask', 'ignore', 'maxDistance', 'out', 'visit'] as const;
+export const nearestOptions = [...farOptions, 'distances'] as const;
+export const rayOptions = ['mask', 'ignore', 'maxDistance', 'out', 'accept'] as const;
+export const sweepOptions = [...idsOptions, 'accept'] as const;
 
 export function checkVisitor(where: string, visitor: unknown): void {
-  if (typeof visitor !== 'function') badValue(`${where}: visit`, visitor, 'a function', true);
+  if (typeof visitor !== 'function') badValue(where, visitor, 'a function', true);
 }
 
 export function checkDistance(where: string, distance: number): number {

@@ -11,6 +11,10 @@ type Loose = Record<string, (...given: unknown[]) => unknown>;
 
 const ascending = (ids: readonly number[]) => ids.toSorted((a, b) => a - b);
 
+/** What a ray or a moving box is told that it meets. */
+const hitOf = (name: string, { id, rank, normal }: Ranked) =>
+  name === 'sweep' ? { id, time: rank, normal } : { id, distance: rank, normal };
+
 /** Asks a space every question there is, at random places, and compares. */
 class Asker {
   readonly #space: BroadPhase<2 | 3>;
@@ -59,8 +63,13 @@ class Asker {
   #options(): Asked {
     return {
       ...(this.#random() < 0.3 && { mask: this.#pick(1, 2, 6, 0xffffffff, 0, 0x80000000) }),
-      ...(this.#random() < 0.3 && { ignore: Math.floor(this.#random() * 80) }),
+      ...(this.#random() < 0.3 && { ignore: this.#ignored() }),
     };
+  }
+
+  #ignored(): number | number[] {
+    const any = () => Math.floor(this.#random() * 80);
+    return this.#random() < 0.5 ? any() : Array.from({ length: this.#pick(0, 1, 2, 12) }, any);
   }
 
   #ids(name: string, given: readonly number[], options: Asked, expected: readonly number[]): void {
@@ -79,15 +88,37 @@ class Asker {
   #visits(name: string, given: readonly number[], options: Asked, expected: readonly Ranked[]): void {
     const visited: { id: number; rank: number }[] = [];
     const stop = this.#pick(1, 70, Infinity);
-    const visit = (id: number, rank: number) => visited.push({ id, rank }) < stop;
+    const visit = (id: number, rank: number, hit?: object) => {
+      if (name === 'nearest') expect(hit).toBeUndefined();
+      else expect(hit).toEqual(hitOf(name, expected[visited.length]!));
+      return visited.push({ id, rank }) < stop;
+    };
     this.#ask[name](...given, { ...options, visit });
     expect(visited).toEqual(expected.slice(0, stop).map(({ id, rank }) => ({ id, rank })));
+  }
+
+  /** The first that is accepted, by some rule, after those before it were refused. */
+  #accepts(name: string, given: readonly number[], options: Asked, expected: readonly Ranked[]): void {
+    const rest = this.#pick(0, 1, 3, 20, 100);
+    const asked: number[] = [];
+    const accept = (id: number, hit: object) => {
+      expect(hit).toEqual(hitOf(name, expected[asked.length]!));
+      return asked.push(id) > rest;
+    };
+    const first = expected[rest] && hitOf(name, expected[rest]!);
+    expect(this.#ask[name](...given, { ...options, accept })).toEqual(first);
+    expect(asked).toEqual(expected.slice(0, rest + 1).map(({ id }) => id));
+    const out = { id: 0, [name === 'sweep' ? 'time' : 'distance']: 0, normal: [] };
+    expect(this.#ask[name](...given, { ...options, accept: () => true, out })).toBe(
+      expected.length > 0 ? out : undefined,
+    );
+    if (expected.length > 0) expect(out).toEqual(hitOf(name, expected[0]!));
   }
 
   everything(entries: Entries): void {
     const { dimensions } = this.#space;
     const box = this.#box();
-    let options = this.#options();
+    let options: Asked = { ...this.#options(), ...(this.#random() < 0.5 && { within: this.#random() < 0.7 }) };
     this.#ids('queryBox', box, options, inBox(entries, box, options));
     const point = this.#point();
     options = this.#options();
@@ -153,6 +184,9 @@ class Asker {
     const out = [1, 2, 3];
     expect(this.#ask.nearest(...point, k, { ...options, out })).toBe(out);
     expect(out).toEqual(ids);
+    const distances = [1, 2, 3];
+    this.#ask.nearest(...point, k, { ...options, distances });
+    expect(distances).toEqual(expected.map(({ rank }) => rank));
     this.#visits('nearest', [...point, k], options, expected);
   }
 
@@ -175,6 +209,7 @@ class Asker {
     expect(this.#ask.rayCast(...given, options)).toEqual(hits[0]);
     expect(this.#ask.rayCast(...given, { ...options, out: kept })).toBe(hits.length > 0 ? kept : undefined);
     this.#visits('rayCastAll', given, options, expected);
+    this.#accepts('rayCast', given, options, expected);
   }
 
   sweep(entries: Entries): void {
@@ -189,6 +224,7 @@ class Asker {
     expect(this.#ask.sweep(...given, { ...options, out })).toBe(hit && out);
     if (hit) expect(out).toEqual(hit);
     this.#visits('sweep', given, options, expected);
+    this.#accepts('sweep', given, options, expected);
   }
 }
 
@@ -352,9 +388,13 @@ describe.each([2, 3] as const)('bad questions in %d dimensions', (dimensions) =>
     const given = (options: Record<string, unknown>) => () => ask[name](...good, options as QueryOptions);
     for (const mask of [-1, 2 ** 32, 1.5, Number.NaN]) expect(given({ mask })).toThrow(`${name}: mask: got ${mask}`);
     expect(given({ mask: '1' })).toThrow(TypeError);
+    expect(given({ ignore: [3, -1] })).toThrow(`${name}: ignore[1]: the id is -1`);
     for (const ignore of [-1, 2 ** 24, 0.5, null]) expect(given({ ignore })).toThrow(`${name}: ignore: the id is`);
     expect(given({ mask: undefined, ignore: undefined, out: undefined, visit: undefined })).not.toThrow();
     if (name !== 'rayCast' && name !== 'sweep') expect(given({ out: new Uint32Array(3) })).toThrow(`${name}: out`);
+    if (name === 'rayCast' || name === 'sweep') expect(given({ accept: 7 })).toThrow(`${name}: accept: got 7`);
+    if (name === 'queryBox') expect(given({ within: 1 })).toThrow('queryBox: within: got 1, expected true or false');
+    if (name === 'nearest') expect(given({ distances: 1 })).toThrow('nearest: distances: got 1, expected an array');
     if (name !== 'rayCast') expect(given({ visit: 7 })).toThrow(`${name}: visit`);
     if (/ray|nearest/.test(name)) {
       for (const maxDistance of [-1, Number.NaN]) expect(given({ maxDistance })).toThrow(`${name}: maxDistance: got`);

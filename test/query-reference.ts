@@ -5,7 +5,8 @@ export type Entries = ReadonlyMap<number, Entry>;
 
 export interface Asked {
   mask?: number;
-  ignore?: number;
+  ignore?: number | readonly number[];
+  within?: boolean;
   maxDistance?: number;
 }
 
@@ -17,7 +18,12 @@ export interface Ranked {
 
 function* wanted(entries: Entries, { mask, ignore }: Asked): Generator<[number, Entry]> {
   for (const [id, entry] of entries) {
-    if (id === ignore || (mask !== undefined && mask !== 0xffffffff && (entry.layer & mask) === 0)) continue;
+    if (
+      id === ignore ||
+      (typeof ignore === 'object' && ignore.includes(id)) ||
+      (mask !== undefined && mask !== 0xffffffff && (entry.layer & mask) === 0)
+    )
+      continue;
     yield [id, entry];
   }
 }
@@ -27,7 +33,10 @@ const ascending = (ids: number[]) => ids.sort((a, b) => a - b);
 const inOrder = (hits: Ranked[]) => hits.sort((a, b) => a.rank - b.rank || a.id - b.id);
 
 export function inBox(entries: Entries, box: readonly number[], asked: Asked): number[] {
-  return ascending([...wanted(entries, asked)].filter(([, entry]) => touches(box, entry)).map(([id]) => id));
+  const d = box.length / 2;
+  const holds = (inner: readonly number[]) => inner.every((x, k) => (k < d ? box[k] <= x : x <= box[k]));
+  const found = [...wanted(entries, asked)].filter(([, e]) => (asked.within ? holds(e.box) : touches(box, e)));
+  return ascending(found.map(([id]) => id));
 }
 
 /** What is not wholly behind any of the planes, by id, and whether it is wholly inside. */
