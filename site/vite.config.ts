@@ -23,7 +23,7 @@ export default defineConfig({
   // The same in pages and workers, in development and built: every technique, in the script, as users have it.
   plugins: [addresses, api, documents, frame, sources, everyTechnique],
   resolve: {
-    dedupe: ['react', 'react-dom', '@xyflow/react', 'd3-force', 'd3-quadtree', 'rbush', 'flatbush'],
+    dedupe: ['react', 'react-dom', '@xyflow/react', 'd3-force', 'd3-quadtree', 'rbush', 'flatbush', 'three'],
     alias: {
       'broadphase/ro': path('../src/ro/index.ts'),
       'broadphase/shard': path('../src/shard/index.ts'),
@@ -39,7 +39,7 @@ export default defineConfig({
     outDir: path('dist'),
     emptyOutDir: true,
     assetsInlineLimit: 0,
-    chunkSizeWarningLimit: 600, // three.js, which only the lab's solid scenes fetch
+    chunkSizeWarningLimit: 600, // three.js, which only the lab's solid scenes and one showcase fetch
     rolldownOptions: {
       input: {
         index: path('index.html'),

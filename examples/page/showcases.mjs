@@ -4,4 +4,5 @@ export const showcases = {
   chart: async () => (await import('../force-d3/rectangles.mjs')).rectanglesDemo('chart'),
   cloud: async () => (await import('../force-d3/rectangles.mjs')).rectanglesDemo('cloud'),
   map: async () => (await import('../force-d3/map.mjs')).mapDemo,
+  belt: async () => (await import('../culling-three/demo.mjs')).beltDemo(500_000),
 };

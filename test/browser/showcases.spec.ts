@@ -98,6 +98,26 @@ test('nodes: one that is dragged stays with the pointer, and the others make roo
   await expect.poll(async () => overlaps(await nodeBoxes(page)), patient).toBe(0);
 });
 
+test('belt: everyone sees about as many of the stones, and the one in the middle is picked by keys', async ({
+  page,
+}) => {
+  const section = await open(page, 'belt');
+  const status = section.locator('p[role=status]');
+  await expect(status).toContainText('of 500,000 stones in view, 5,000 move', patient);
+  const inView = async () => Number((await status.textContent())!.split(' ')[0]!.replaceAll(',', ''));
+  const ours = await inView();
+  expect(ours).toBeGreaterThan(1000);
+  for (const name of ['each, as BatchedMesh does', 'a loop over spheres', 'broadphase']) {
+    await section.getByRole('radio', { name }).check();
+    await expect.poll(async () => Math.abs((await inView()) / ours - 1) < 0.1, patient).toBe(true);
+  }
+  await section.locator('.stage').focus();
+  await page.keyboard.press('Enter');
+  await expect(status).toContainText('is under the pointer', patient);
+  await page.keyboard.press('ArrowLeft');
+  await expect.poll(inView, patient).not.toBe(ours);
+});
+
 for (const [id, things] of [
   ['chart', 'rectangles'],
   ['cloud', 'words'],

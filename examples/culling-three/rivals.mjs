@@ -1,0 +1,68 @@
+// What people use today, under the same names: they move instances and say what a camera sees.
+import { Frustum, Matrix4, Sphere } from 'three';
+
+const frustum = new Frustum();
+const matrix = new Matrix4();
+const sphere = new Sphere();
+
+function frustumOf(camera) {
+  matrix.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+  return frustum.setFromProjectionMatrix(matrix, camera.coordinateSystem, camera.reversedDepth);
+}
+
+/** As BatchedMesh does it in each frame: the sphere of the geometry by the matrix of each, against the frustum. */
+export class EachByThree {
+  constructor(geometry, matrices) {
+    geometry.computeBoundingSphere();
+    this.sphere = geometry.boundingSphere;
+    this.matrices = matrices;
+    this.seen = [];
+  }
+
+  move() {}
+
+  visible(camera) {
+    const { matrices, seen } = this;
+    const view = frustumOf(camera);
+    seen.length = 0;
+    for (let id = 0; 16 * id < matrices.length; id++) {
+      sphere.copy(this.sphere).applyMatrix4(matrix.fromArray(matrices, 16 * id));
+      if (view.intersectsSphere(sphere)) seen.push(id);
+    }
+    return seen;
+  }
+}
+
+/** The loop that one writes when that is too slow: spheres in a flat array, kept up to date. */
+export class FlatSpheres {
+  constructor(geometry, matrices) {
+    geometry.computeBoundingSphere();
+    this.sphere = geometry.boundingSphere;
+    this.matrices = matrices;
+    this.spheres = new Float32Array(matrices.length / 4);
+    this.planes = new Float64Array(24);
+    this.seen = [];
+    for (let id = 0; 16 * id < matrices.length; id++) this.move(id);
+  }
+
+  move(id) {
+    sphere.copy(this.sphere).applyMatrix4(matrix.fromArray(this.matrices, 16 * id));
+    sphere.center.toArray(this.spheres, 4 * id)[4 * id + 3] = sphere.radius;
+  }
+
+  visible(camera) {
+    const { spheres, planes, seen } = this;
+    for (const [k, { normal, constant }] of frustumOf(camera).planes.entries()) {
+      normal.toArray(planes, 4 * k)[4 * k + 3] = constant;
+    }
+    seen.length = 0;
+    next: for (let k = 0; k < spheres.length; k += 4) {
+      const [x, y, z, radius] = [spheres[k], spheres[k + 1], spheres[k + 2], spheres[k + 3]];
+      for (let p = 0; p < 24; p += 4) {
+        if (planes[p] * x + planes[p + 1] * y + planes[p + 2] * z + planes[p + 3] < -radius) continue next;
+      }
+      seen.push(k / 4);
+    }
+    return seen;
+  }
+}
