@@ -36,8 +36,10 @@ export abstract class Contents<D extends Dimensions> extends Queries<D> {
    * an `out` makes none.
    *
    * @example
-   * const space = new BroadPhase().set(7, 0, 0, 1, 2);
-   * for (const [id, [minX, minY, maxX, maxY]] of space) console.assert(id === 7 && maxX - minX < maxY - minY);
+   * const space = new BroadPhase().set(9, 0, 0, 1, 2).set(7, 0, 0, 3, 3);
+   * const large: number[] = [];
+   * for (const [id, [minX, , maxX]] of space) if (maxX - minX > 2) large.push(id);
+   * large; // → [7]
    */
   *[Symbol.iterator](): IterableIterator<[id: number, box: Float64Array]> {
     for (const id of this.keys()) yield [id, this.get(id)!];
