@@ -43,7 +43,9 @@ function resultsOf(place) {
   if (existsSync(place)) return read(place);
   try {
     const file = `bench/results/${machineName}.json`;
-    return JSON.parse(execFileSync('git', ['show', `${place}:${file}`], { cwd: here, maxBuffer: 2 ** 28, stdio: 'pipe' }));
+    return JSON.parse(
+      execFileSync('git', ['show', `${place}:${file}`], { cwd: here, maxBuffer: 2 ** 28, stdio: 'pipe' }),
+    );
   } catch {
     console.error(`--compare: ${place} is no file, and no branch or commit with results of this machine.`);
     process.exit(1);

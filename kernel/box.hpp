@@ -87,21 +87,6 @@ inline bool same(const Item<3>& a, const Item<3>& b) {
   return !any((bits<i32x4>(a.low) ^ bits<i32x4>(b.low)) | (bits<i32x4>(a.high) ^ bits<i32x4>(b.high)));
 }
 
-/// Whether two items overlap.
-inline bool overlap(const Item<2>& a, const Item<2>& b) {
-  f32x4 turned = __builtin_shufflevector(b.box, b.box, 2, 3, 0, 1);
-  return (bitmask(a.box <= turned) & 3) == 3 && (bitmask(a.box >= turned) & 12) == 12;
-}
-inline bool overlap(const Item<3>& a, const Item<3>& b) {
-  return (bitmask((a.low <= b.high) & (b.low <= a.high)) & 7) == 7;
-}
-
-/// The bounds of two items, of which the second may be NaN, and so nothing.
-inline Item<2> both(const Item<2>& a, const Item<2>& b) {
-  return {__builtin_shufflevector(min(b.box, a.box), max(b.box, a.box), 0, 1, 6, 7), 0};
-}
-inline Item<3> both(const Item<3>& a, const Item<3>& b) { return {min(b.low, a.low), max(b.high, a.high)}; }
-
 /// Items read straight from the scene.
 template <int D> struct SceneItems {
   Scene<D> scene;

@@ -77,18 +77,6 @@ template <int D> class SweptList {
     long_sweep_.template find<false>(lanes_, world, 0, count, pairs, end_.data());
   }
 
-  /// Puts some of the ordered items into `out`; gives their bounds.
-  Item<D> bounds(u32 from, u32 until, const ItemsAt<D>& out) const {
-    ItemsAt<D> ordered(ordered_, 0);
-    Item<D> all = ordered[from];
-    for (u32 k = from; k < until; k++) {
-      Item<D> item = ordered[k];
-      all = both(all, item);
-      out.put(k, item);
-    }
-    return all;
-  }
-
   /// Of the tests that the sweep is about to make, which share would hit, by a sample of them.
   COLD f64 hits(u32 count) const {
     LaneView<D> view = lanes_.view();

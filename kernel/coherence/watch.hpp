@@ -2,11 +2,28 @@
 // Idea: for each box of the sample, the largest displacement after 1, 2, 4 … 64 updates is measured. Nothing is
 // extrapolated. A list with a margin m that lives for so many updates then costs: its candidates, the share of its
 // making, and whatever it takes to serve the boxes that were further away than m. The cheapest is chosen.
-// Motion that most boxes have in common (a world that scrolls) is taken out first.
+// Motion that most boxes have in common (a world that scrolls or zooms) is taken out first.
 #pragma once
 #include "../box_tests.hpp"
 #include "../statistics.hpp"
 #include "tuning.hpp"
+
+/// A motion that boxes have in common: along each axis, in the lanes of the first numbers of a box, they are scaled and
+/// moved. Rounding is monotone, so boxes that overlap do so after it.
+struct Shift {
+  f32x4 scale = {1, 1, 1, 1}, offset = {};
+
+  f32x4 operator()(f32x4 x) const { return x * scale + offset; }
+  Shift after(const Shift& first) const { return {scale * first.scale, (*this)(first.offset)}; }
+  Shift back() const { return {splat(1.0f) / scale, f32x4{} - offset / scale}; }
+  bool differs(const Shift& other) const {
+    return any((bits<i32x4>(scale) ^ bits<i32x4>(other.scale)) | (bits<i32x4>(offset) ^ bits<i32x4>(other.offset)));
+  }
+  /// Whether no number becomes NaN by it.
+  bool is_sound() const {
+    return bitmask((scale > splat(0.25f)) & (scale < splat(4.0f)) & (offset - offset == f32x4{})) == 15;
+  }
+};
 
 /// What is known of the lists to come, for each box, in tests of strip sweep.
 template <int D> struct Prospect {
@@ -46,7 +63,7 @@ template <int D> class Watch {
   static constexpr u32 width = 2 * D, most = 256, horizons = 7, buckets = 24, voters = 31;
 
   struct Sample {
-    f32x4 at[2], last[2], far;  // the first and the last four numbers of the box
+    f32x4 at[2], last[2], far;  // the minima and the maxima of the box, and what stands behind them
     u32 slot, jumps;
   };
   /// How far the samples got in so many updates, and how often they jumped.
@@ -59,15 +76,17 @@ template <int D> class Watch {
   Buffer<Horizon> horizons_;
   u32 many_ = 0, age_ = 0, known_ = 0;
   bool common_ = false;
-  f32x4 total_ = {}, begun_ = {};  // common motion, since ever and until these samples were taken
+  Shift total_, begun_;  // since ever, and until these samples were taken
 
  public:
-  static constexpr u32 longest = 1u << (horizons - 1);  // updates over which displacements are measured
+  static constexpr u32 longest = 1u << (horizons - 1);  // updates
 
-  /// Common motion since ever, per axis.
-  f32x4 common() const { return total_; }
+  /// Common motion since ever.
+  const Shift& common() const { return total_; }
   /// Of how many updates it is known how far boxes get.
   u32 known() const { return known_ ? 1u << (known_ - 1) : 0; }
+  /// The next look is the first one of new samples.
+  void forget() { many_ = 0; }
   COLD void release() {
     many_ = known_ = 0;
     samples_.release();
@@ -77,7 +96,7 @@ template <int D> class Watch {
   /// The share of boxes that have not moved for as long as is known.
   f64 resting() const {
     u32 count = 0;
-    for (u32 k = 0; known_ > 0 && k < many_; k++) count += horizons_[known_ - 1].reach[k] == 0 && horizons_[known_ - 1].jumps[k] == 0;
+    for (u32 k = 0; known_ > 0 && !common_ && k < many_; k++) count += horizons_[known_ - 1].reach[k] == 0 && horizons_[known_ - 1].jumps[k] == 0;
     return count ? f64(count) / many_ : 0;
   }
 
@@ -87,43 +106,19 @@ template <int D> class Watch {
     return more > 0 && (share + more == 1 || more * more * many_ > 4 * share * (1 - share));
   }
 
-  /// The size along an axis that half of the boxes do not exceed, or an eighth of what they are apart.
-  COLD f64 size(int a, u32 boxes) const {
-    f32 sizes[most];
-    f32 least = __builtin_inff(), most_of_all = -least;
-    u32 count = 0;
-    for (u32 k = 0; k < many_; k++) {
-      f32 low = samples_[k].last[0][a], size = samples_[k].last[1][4 - D + a] - low;
-      if (!detail::is_finite(size)) continue;
-      sizes[count++] = size;
-      least = smaller(least, low);
-      most_of_all = larger(most_of_all, low);
-    }
-    if (count == 0) return 0;
-    f64 apart = (f64(most_of_all) - least) / (D == 2 ? __builtin_sqrt(f64(boxes)) : cube_root(boxes));
-    return larger(f64(detail::select(sizes, i32(count), i32(count / 2))), apart / 8);
-  }
-
-  /// Whether a sample was taken in the last update.
-  bool is_new() const { return many_ > 0 && age_ == 0; }
-
-  COLD void begin_if_new(const Scene<D>& scene) {
-    if (many_ == 0) begin(scene);
-  }
-
   /// Sees where the boxes are in this update. `size`: of a box; what moves by more at once jumps.
   COLD void look(const Scene<D>& scene, f32 size) {
     bool fits = many_ > 0 && scene.count >= smallest_;
     if (!fits) return begin(scene);
     age_++;
-    f32x4 shift = f32x4{};
+    Shift since;
     bool judged = (age_ & (age_ - 1)) == 0;
-    if (common_ || judged) shift = vote(scene);
-    if (judged && judge(scene, shift, size)) return begin(scene);
-    if (!common_) shift = f32x4{};
-    f32x4 now = begun_ + shift, step = now - total_;
+    if (common_ || judged) since = vote(scene);
+    if (judged && judge(scene, since, size)) return begin(scene);
+    if (!common_) since = {};
+    Shift now = since.after(begun_), step = now.after(total_.back());
     total_ = now;
-    for (u32 k = 0; k < many_; k++) follow(samples_[k], scene.box(samples_[k].slot), shift, step, size);
+    for (u32 k = 0; k < many_; k++) follow(samples_[k], scene.box(samples_[k].slot), since, step, size);
     for (u32 h = 0; h < horizons; h++) {
       if (age_ != 1u << h) continue;
       for (u32 k = 0; k < many_; k++) {
@@ -133,7 +128,7 @@ template <int D> class Watch {
       }
       known_ = larger(known_, h + 1);
     }
-    if (age_ == 1u << (horizons - 1)) begin(scene);
+    if (age_ == longest) begin(scene);
   }
 
   /// The margin of least work.
@@ -147,12 +142,11 @@ template <int D> class Watch {
  private:
   u32 smallest_ = 0;  // boxes without which the sample is none
 
-  static f32x4 first(const f32* box) { return load<f32x4>(box); }
-  static f32x4 last(const f32* box) { return load<f32x4>(box + width - 4); }
-  static f32x4 magnitude(f32x4 v) { return bits<f32x4>(bits<u32x4>(v) & splat(0x7fffffffu)); }
-  /// A motion along the axes, for the first and for the last four numbers of a box.
-  static f32x4 for_first(f32x4 v) { return D == 2 ? __builtin_shufflevector(v, v, 0, 1, 0, 1) : __builtin_shufflevector(v, v, 0, 1, 2, 0); }
-  static f32x4 for_last(f32x4 v) { return D == 2 ? for_first(v) : __builtin_shufflevector(v, v, 2, 0, 1, 2); }
+  /// The magnitudes of numbers along the axes, and 0 in the other lanes.
+  static f32x4 magnitude(f32x4 v) {
+    constexpr u32 most = 0x7fffffff;
+    return bits<f32x4>(bits<u32x4>(v) & u32x4{most, most, D == 2 ? 0 : most, 0});
+  }
 
   COLD void begin(const Scene<D>& scene) {
     samples_.reserve(most);
@@ -165,8 +159,8 @@ template <int D> class Watch {
       sample.slot = sampling.next();
       smallest_ = larger(smallest_, sample.slot + 1);
       const f32* box = scene.box(sample.slot);
-      sample.at[0] = sample.last[0] = first(box);
-      sample.at[1] = sample.last[1] = last(box);
+      sample.at[0] = sample.last[0] = load<f32x4>(box);
+      sample.at[1] = sample.last[1] = load<f32x4>(box + D);
       sample.far = f32x4{};
       sample.jumps = 0;
     }
@@ -174,42 +168,57 @@ template <int D> class Watch {
     begun_ = total_;
   }
 
-  static void follow(Sample& sample, const f32* box, f32x4 shift, f32x4 step, f32 size) {
-    f32x4 one = first(box), two = last(box);
-    f32x4 move = one - sample.last[0] - for_first(step);
-    if ((bitmask(magnitude(move) > splat(size)) & (D == 2 ? 3 : 7)) != 0) {  // the sample goes on from where it jumped to
-      sample.at[0] += one - sample.last[0] - for_first(step);
-      sample.at[1] += two - sample.last[1] - for_last(step);
+  static void follow(Sample& sample, const f32* box, const Shift& shift, const Shift& step, f32 size) {
+    f32x4 low = load<f32x4>(box), high = load<f32x4>(box + D), move = low - step(sample.last[0]);
+    if (bitmask(magnitude(move) > splat(size))) {  // the sample goes on from where it jumped to
+      sample.at[0] += move;
+      sample.at[1] += high - step(sample.last[1]);
       sample.jumps++;
     }
-    sample.last[0] = one;
-    sample.last[1] = two;
-    f32x4 far = max(magnitude(one - sample.at[0] - for_first(shift)), magnitude(two - sample.at[1] - for_last(shift)));
+    sample.last[0] = low;
+    sample.last[1] = high;
+    f32x4 far = max(magnitude(low - shift(sample.at[0])), magnitude(high - shift(sample.at[1])));
     sample.far = max(far, sample.far);
   }
 
-  /// The median displacement of some of the sample, per axis.
-  COLD f32x4 vote(const Scene<D>& scene) const {
-    f32 moves[D][voters];
-    u32 step = larger(1u, many_ / voters), votes = 0;
-    for (u32 k = 0; k < many_ && votes < voters; k += step, votes++) {
-      const f32* box = scene.box(samples_[k].slot);
-      for (int a = 0; a < D; a++) moves[a][votes] = box[a] - samples_[k].at[0][a];
-    }
-    f32x4 median = {};
+  /// Where some of the sample have gone: the median of the lower half along each axis, and that of the upper half.
+  COLD Shift vote(const Scene<D>& scene) const {
+    Shift found;
+    u32 step = larger(1u, many_ / voters);
     for (int a = 0; a < D; a++) {
-      f32 m = detail::select(moves[a], i32(votes), i32(votes / 2));
-      median[a] = m - m == 0 ? m : 0;
+      f32 all[voters + 1], places[2][voters + 1], moves[2][voters + 1];
+      i32 count = 0, votes[2] = {};
+      for (u32 k = 0; k < many_ && count < i32(voters); k += step) all[count++] = samples_[k].at[0][a];
+      f32 middle = detail::select(all, count, count / 2);
+      for (i32 k = 0; k < count; k++) {
+        const Sample& sample = samples_[u32(k) * step];
+        f32 place = sample.at[0][a], move = scene.box(sample.slot)[a] - place;
+        if (!detail::is_finite(move)) continue;
+        bool upper = place > middle;
+        places[upper][votes[upper]] = place;
+        moves[upper][votes[upper]++] = move;
+      }
+      f64 place[2], move[2];
+      for (int k = 0; k < 2; k++) {
+        i32 odd = (votes[k] - 1) | 1;  // so that both medians are of one box where all move alike
+        place[k] = votes[k] ? detail::select(places[k], odd, odd / 2) : 0;
+        move[k] = votes[k] ? detail::select(moves[k], odd, odd / 2) : 0;
+      }
+      f64 slope = votes[1] && place[1] > place[0] ? (move[1] - move[0]) / (place[1] - place[0]) : 0;
+      for (int k = a; k < 4; k += D) {
+        found.scale[k] = f32(1 + slope);
+        found.offset[k] = f32(move[0] - slope * place[0]);
+      }
     }
-    return median;
+    return found;
   }
 
   /// Whether it changes that common motion is taken out.
-  COLD bool judge(const Scene<D>& scene, f32x4 shift, f32 size) {
+  COLD bool judge(const Scene<D>& scene, const Shift& shift, f32 size) {
     f64 with = 0, without = 0;
     for (u32 k = 0; k < many_; k++) {
-      f32x4 move = first(scene.box(samples_[k].slot)) - samples_[k].at[0], most = splat(4 * size);
-      f32x4 all = min(magnitude(move), most), own = min(magnitude(move - shift), most);
+      f32x4 at = samples_[k].at[0], now = load<f32x4>(scene.box(samples_[k].slot)), most = splat(4 * size);
+      f32x4 all = min(magnitude(now - at), most), own = min(magnitude(now - shift(at)), most);
       for (int a = 0; a < D; a++) {
         without += all[a];
         with += own[a];
@@ -240,11 +249,12 @@ template <int D> class Watch {
       if (2 * its >= updates) steady++;
       else jumps += its;
     }
-    // A box is late once, and once more for each two buckets that it is further away: its margin doubles.
-    f64 events[buckets + 3] = {}, beyond = 0;
+    // A box is late once, and once more for each further margin of the late.
+    f64 events[buckets + 1] = {}, beyond = 0, sum = 0;
     for (u32 m = buckets + 1; m-- > 0;) {
-      events[m] = beyond + events[m + 2];
+      events[m] = beyond + (sum - beyond * edge(m)) / tuning.late_margin;
       beyond += tail[m];
+      sum += tail[m] * edge(m);
     }
     f64 far = prospect.farness(tuning), late = tuning.late * far / many_;
     for (u32 m = 0; m < buckets - 2; m++) {

@@ -24,7 +24,6 @@ template <int D> class StripSweep {
   static constexpr f64 least_items = 100;  // in a strip, on average: shorter ones cost more than they save
   static constexpr u32 few = 2000;  // boxes that are one strip where they have no more candidates than a strip may have
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
-  static constexpr u32 block_items = 16;  // entries whose bounds are kept together
   static constexpr u32 deepest = 6;
   // A strip is cut again where it has this many candidates an item, and this many in all.
   static constexpr u64 again_factor = D == 2 ? 24 : 48, again_least = 8192;
@@ -76,8 +75,7 @@ template <int D> class StripSweep {
   }
 
   Items<D> entries_;       // by strip; deeper cuts stack theirs on top
-  SweptList<D> own_;
-  SweptList<D>& swept_;    // the items of one strip
+  SweptList<D> swept_;     // the items of one strip
   Buffer<Range> ranges_;   // per item that is being cut
   Buffer<u32> offsets_[deepest + 1];  // per cut: where each strip's entries begin
   Buffer<Region> leaves_;  // the strips in use
@@ -85,16 +83,9 @@ template <int D> class StripSweep {
   Cut cut_ = {};     // the outermost
   u32 boxes_ = 0;
   u32 entered_ = 0;  // entries of the outermost cut
-  bool searched_ = false;  // `each_near` is going to be asked
-  Items<D> blocks_;        // ... for which these are the bounds of each few entries
   Stats* stats_ = nullptr;
 
  public:
-  constexpr StripSweep() : swept_(own_) {}
-  /// In memory of another one, for what is needed only while a strip is swept.
-  constexpr explicit StripSweep(SweptList<D>& swept) : swept_(swept) {}
-  constexpr SweptList<D>& swept() const { return swept_; }
-
   COLD void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     stats_ = &stats;
     boxes_ = entered_ = scene.count;
@@ -110,19 +101,6 @@ template <int D> class StripSweep {
     list(all, scene.count, tests, everywhere(), scene.count, cuts ? deepest : 0, pairs);
   }
 
-  /// The same, and afterwards `each_near` answers: the entries stand in the order they were swept in, and of each few
-  /// the bounds are known.
-  COLD void update_searched(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
-    searched_ = true;
-    stats_ = &stats;
-    boxes_ = entered_ = scene.count;
-    bool cuts = cut_up(scene);
-    SceneItems<D> items{scene, order_};
-    if (cuts && divide(items, scene.count, cut_, everywhere(), 0, 0, pairs)) return;
-    leave_whole();
-    divide(items, scene.count, cut_, everywhere(), 0, 0, pairs);
-  }
-
   /// Calls `what` with the slot of each box that is as it was in the last update.
   template <class What> COLD void each_same(const Scene<D>& scene, What what) const {
     SceneItems<D> items{scene, order_};
@@ -133,37 +111,13 @@ template <int D> class StripSweep {
     }
   }
 
-  /// The bounds of the lower corners of the last update, along the world's axes.
-  COLD void bounds(f64* low, f64* high) const {
+  /// The bounds of the lower corners of the last update's boxes, and their sizes on average, along the world's axes.
+  COLD void bounds(f64* low, f64* high, f64* sizes) const {
     for (int a = 0; a < D; a++) {
       low[order_.axis[a]] = cut_.world.low[a];
       high[order_.axis[a]] = cut_.world.high[a];
+      sizes[order_.axis[a]] = cut_.world.size[a];
     }
-  }
-
-  /// Calls `what` with the slot of each box of the last update that overlaps this one, which may be any; each once.
-  /// Returns how many bounds were looked at.
-  template <class What> u32 each_near(const f32* box, What what) const {
-    Item<D> mine = SceneItems<D>{Scene<D>{box, 1, nullptr}, order_}[0];
-    Range range = range_of(lanes_of(cut_), mine);
-    const u32* ends = offsets_[0].data();
-    ItemsAt<D> entries(entries_, 0), bounds(blocks_, 0);
-    u32 first_2 = D == 2 ? 0 : range.first(2), last_2 = D == 2 ? 0 : range.last(2), looked = 0;
-    for (u32 s = range.first(1); s <= range.last(1); s++) {
-      for (u32 t = first_2; t <= last_2; t++) {
-        u32 l = s * cut_.across() + t, end = ends[l];
-        u32 met = (s > range.first(1) ? u32(continues_1) : 0) | (t > first_2 ? u32(continues_2) : 0);
-        u32 begin = l > 0 ? ends[l - 1] : 0, block = block_of(begin, l);
-        looked += (end - begin) / block_items + 1;
-        for (; begin < end; begin += block_items, block++) {
-          if (!overlap(bounds[block], mine)) continue;
-          for (u32 k = begin; k < smaller(begin + block_items, end); k++) {
-            if (overlap(entries[k], mine) && !(tag_at(k) & met)) what(tag_at(k) & slot_mask);
-          }
-        }
-      }
-    }
-    return looked;
   }
 
   /// The strips of the last update, as boxes in the world's axes; unbounded sides are infinite.
@@ -180,11 +134,10 @@ template <int D> class StripSweep {
 
   COLD void release() {
     entries_.release();
-    own_.release();
+    swept_.release();
     ranges_.release();
     for (auto& offsets : offsets_) offsets.release();
     leaves_.release();
-    blocks_.release();
   }
 
  private:
@@ -285,7 +238,6 @@ template <int D> class StripSweep {
     entries_.grow(total, base);
     move(items, source);
     enter(items, size, cut, depth);
-    if (searched_ && base == 0) blocks_.grow(block_of(entered_, cut.rows()) + 1, 0);
     stats_->entries += f64(total - base);
     sweep(cut, region, depth, u32(total), base, pairs);
     return true;
@@ -382,7 +334,6 @@ template <int D> class StripSweep {
       if constexpr (D == 3) narrow(part, 2, cut, l % across);
       ItemsAt<D> items(entries_, begin);
       u64 tests = swept_.order(items, end - begin);
-      if (searched_ && depth == 0) bound(items, end - begin, block_of(begin, l));
       list(items, end - begin, tests, part, total, depth + 1, pairs);
       begin = end;
     }
@@ -431,17 +382,6 @@ template <int D> class StripSweep {
       if (hits < rare) return swept_.find_few(part, count, pairs);
     }
     swept_.find(count, pairs);
-  }
-
-  /// The first block of a strip: no two strips share one.
-  static u32 block_of(u32 begin, u32 strip) { return begin / block_items + strip; }
-
-  /// Keeps the items of a strip in the order they are swept in, and the bounds of each few.
-  NOINLINE void bound(const ItemsAt<D>& items, u32 count, u32 block) {
-    ItemsAt<D> bounds(blocks_, 0);
-    for (u32 from = 0; from < count; from += block_items, block++) {
-      bounds.put(block, swept_.bounds(from, smaller(from + block_items, count), items));
-    }
   }
 
   COLD void note(const Region& region) {

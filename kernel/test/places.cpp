@@ -1,0 +1,67 @@
+// What is found where regions stand.
+#include "coherence/places.hpp"
+
+#include <algorithm>
+
+#include "box_tests.hpp"
+#include "check.hpp"
+#include "random.hpp"
+
+namespace {
+
+/// Boxes that stand the closer the further along each axis, small ones and large ones; some are half outside the world.
+template <int D> std::vector<f32> crowd(Random& random, u32 count, bool in_a_row, f64 huge) {
+  std::vector<f32> boxes(count * 2 * D + 4);
+  for (u32 k = 0; k < count; k++) {
+    bool is_huge = random.fraction() < huge;
+    for (u32 a = 0; a < D; a++) {
+      f64 at = random.fraction();
+      boxes[k * 2 * D + a] = in_a_row && a > 0 ? 0 : f32(440 * (1 - at * at) - 20);
+      boxes[k * 2 * D + D + a] = boxes[k * 2 * D + a] + f32((is_huge ? 390 : 3) * random.fraction());
+    }
+    if (is_huge && random.fraction() < 0.1) boxes[k * 2 * D] = -__builtin_inff();
+  }
+  return boxes;
+}
+
+template <int D> void check_near(u32 count, bool in_a_row, f64 huge) {
+  Random random(17);
+  std::vector<f32> boxes = crowd<D>(random, count, in_a_row, huge), others = crowd<D>(random, count, in_a_row, huge);
+  f64 low[3] = {}, high[3] = {400, 400, 400};
+  Places<D> places;
+  places.divide(low, high, count);
+  places.make_room(count, 0);
+  for (u32 slot = 0; slot < count; slot++) places.put(boxes.data() + slot * 2 * D, slot);
+  std::vector<bool> stands(count, true);
+  for (u32 slot = 0; slot < count; slot += 3) {
+    places.remove(slot);
+    stands[slot] = slot % 2;
+    if (!stands[slot]) continue;  // the others are put where they have gone
+    std::copy_n(others.data() + slot * 2 * D, 2 * D, boxes.data() + slot * 2 * D);
+    places.put(boxes.data() + slot * 2 * D, slot);
+  }
+  for (u32 k = 0; k < 200; k++) {
+    const f32* box = others.data() + k * 2 * D;
+    std::vector<u32> near, touching;
+    places.each_near(box, [&](u32 slot) {
+      if (boxes_touch<D>(box, boxes.data() + slot * 2 * D)) near.push_back(slot);
+    });
+    for (u32 slot = 0; slot < count; slot++) {
+      if (stands[slot] && boxes_touch<D>(box, boxes.data() + slot * 2 * D)) touching.push_back(slot);
+    }
+    std::sort(near.begin(), near.end());
+    CHECK(near == touching);
+  }
+}
+
+}  // namespace
+
+TEST("each region that touches one is found among the places, once") {
+  for (bool in_a_row : {false, true}) {
+    for (f64 huge : {0.0, 0.01, 1.0}) {
+      check_near<2>(1500, in_a_row, huge);
+      check_near<3>(1500, in_a_row, huge);
+      check_near<2>(300, in_a_row, huge);
+    }
+  }
+}
