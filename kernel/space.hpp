@@ -854,24 +854,21 @@ template <int D> class Space {
   i32 round_staged(u32 count, bool& rounded) {
     const f64* from = staged_exact_.data();
     f32* to = staged_.data();
-    i32x4 inexact = {};
+    bool inexact = false;
     u32 collapsed = 0;
     for (u32 s = 0; s < count; s++) {
       const f64* box = from + u64(s) * width;
       bool good = at_most(load<f64x2>(box), load<f64x2>(box + D)) == 3;
       if constexpr (D == 3) good &= box[2] <= box[5];
       if (!good) return i32(s);
-      for (u32 a = 0; a < D; a++) {
-        f64x2 numbers = load<f64x2>(box + 2 * a);
-        inexact |= bits<i32x4>(widen(narrow(numbers)) != numbers);
-      }
+      inexact = inexact || !are_floats(box, 1, width);
       f32x4 first, last;
       map_.round(box, first, last);
       store(to + u64(s) * width, first);
       if constexpr (D == 3) store(to + u64(s) * width + width - 4, last);
       collapsed += collapses(box, first, last);
     }
-    rounded = any(inexact);
+    rounded = inexact;
     if (!rounded) {
       for (u64 k = 0; k < u64(count) * width; k++) to[k] = f32(from[k]);
     }
