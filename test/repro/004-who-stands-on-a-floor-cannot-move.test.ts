@@ -115,7 +115,7 @@ describe('a ray from a touch', () => {
     space.rayCastAll(0, 5, 0, 1, { visit: (...hit) => heard.push(hit) });
     space.sweep(-5, 0, 0, 5, 0, 9, { visit: (...hit) => heard.push(hit) });
     expect(heard).toEqual([]);
-    space.rayCastAll(0, 0, 1, 1, { visit: (...hit) => heard.push(hit) });
+    space.rayCastAll(0, 0, 1, 1, { visit: (id, distance) => heard.push([id, distance]) });
     expect(heard).toEqual([[1, 0]]);
   });
   test('in 3D', () => {
