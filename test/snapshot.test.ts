@@ -359,6 +359,23 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     expect(space.update().stats.bytes).toBeLessThan(bytes + 2 ** 16);
   });
 
+  test('forged: boxes that came later than the next one will', () => {
+    const space = full(2);
+    const ordered = new BroadPhase();
+    for (const id of [1, 2, 3]) ordered.set(id, 0, 0, 1, 1);
+    ordered.delete(1);
+    const [boxes, ids] = [2 * 16, 2 * 4];
+    const forge = (at: number, value: number) => {
+      const bytes = ordered.snapshot();
+      new DataView(bytes.buffer).setUint32(24 + boxes + ids + at, value, true);
+      refused(space, sealed(bytes), 'holds what no space holds');
+    };
+    forge(0, 0); // there is no next one
+    forge(0, 2); // the second box came as number 2
+    forge(4, 3);
+    expect([...new BroadPhase().restore(sealed(ordered.snapshot())).keys()]).toEqual([2, 3]);
+  });
+
   test('forged: right checksum, wrong content', () => {
     const plain = new BroadPhase().set(5, 0, 0, 1, 1).set(7, 0, 0, 1, 1);
     plain.setStatic(5);
