@@ -53,7 +53,7 @@ describe('forceCollideRect', () => {
     const nodes = heap(count);
     const force = forceCollideRect(width, height, 3).iterations(2);
     force.initialize(nodes);
-    for (let tick = 0; tick < 1500; tick++) {
+    for (let tick = 0; tick < 3000; tick++) {
       force();
       for (const node of nodes) {
         node.x += node.vx;
