@@ -4,7 +4,11 @@ import { DuckDBInstance } from '@duckdb/node-api';
 
 const [extension, boxes, pairs, memory] = process.argv.slice(2);
 try {
-  const instance = await DuckDBInstance.create(':memory:', { memory_limit: memory, allow_unsigned_extensions: 'true' });
+  const instance = await DuckDBInstance.create(':memory:', {
+    memory_limit: memory,
+    temp_directory: `${pairs}.tmp`,
+    allow_unsigned_extensions: 'true',
+  });
   const connection = await instance.connect();
   await connection.run(`load '${extension}'`);
   await connection.run(`

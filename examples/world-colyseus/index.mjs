@@ -114,7 +114,7 @@ function startServer(number, rooms) {
       text: `the process at port ${port + number} ended (${signal ?? code}): another is started in ${restartTime} ms`,
       died: child.pid,
     });
-    setTimeout(() => startServer(number, []), restartTime);
+    setTimeout(() => !ending && startServer(number, []), restartTime);
   });
   say({ text: `started at port ${port + number}`, process: child.pid, started: rooms });
 }

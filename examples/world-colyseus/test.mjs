@@ -98,8 +98,10 @@ class World {
   wholeAfter = (tick) => this.until(`all zones after tick ${tick}`, () => this.whole?.[0].tick > tick && this.whole);
 
   async end() {
+    const { stdout, stderr } = this.child;
     this.child.kill();
-    if (this.child.exitCode === null && this.child.signalCode === null) await once(this.child, 'close');
+    if (this.child.exitCode === null && this.child.signalCode === null) await once(this.child, 'exit');
+    for (const stream of [stdout, stderr]) stream.destroy();
   }
 }
 
