@@ -187,7 +187,7 @@ template <int D> class Incremental {
     age_++;
     ended_ |= smooth_ * age_ > build + lateness_;
     // Boxes have come to rest: a new list will not test their pairs.
-    bool judged = (age_ & (age_ - 1)) == 0;
+    bool judged = (age_ & (age_ - 1)) == 0 || watch_.is_new();
     ended_ |= judged && age_ >= tuning.watched && candidates_.count + extra_.count > 0 && watch_.more_rest(resting_ / n);
     if (age_ >= 4 && (ended_ || age_ % 32 == 0) && life_ + build > tuning.worth * prospect_.fresh * age_) give_up();
     else if (ended_ && age_ >= 8) pauses_ = tuning.watched;

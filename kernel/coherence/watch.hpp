@@ -85,6 +85,8 @@ template <int D> class Watch {
   const Shift& common() const { return total_; }
   /// Of how many updates it is known how far boxes get.
   u32 known() const { return known_ ? 1u << (known_ - 1) : 0; }
+  /// Whether samples were taken in this update: what is known is new.
+  bool is_new() const { return many_ > 0 && age_ == 0; }
   /// The next look is the first one of new samples.
   void forget() { many_ = 0; }
   COLD void release() {
