@@ -198,6 +198,7 @@ test('a race goes on after a recording that was long in coming', async ({ page }
     await expect(page).toHaveURL(/scene=crowd/, { timeout: 20_000 });
     await expect(page.getByRole('button', { name: 'Pause' })).toBeVisible();
   }
+  await expect(shown(page, 'frame')).not.toContainText('/'); // as a recording's does
   const frame = await number(page, 'frame');
   await expect.poll(() => number(page, 'frame'), { timeout: 20_000 }).toBeGreaterThan(frame);
 });
@@ -226,6 +227,7 @@ test('a race whose scene is changed again and again goes on, and leaves no worke
   await expect(page.locator('#race-note')).toContainText('all find the same', { timeout: 20_000 });
   await expect(menu).toHaveValue('crowd');
   await expect(page.locator('.tile.out')).toHaveCount(0);
+  await expect(shown(page, 'frame')).not.toContainText('/'); // as a recording's does
   const frame = await number(page, 'frame');
   await expect.poll(() => number(page, 'frame'), { timeout: 20_000 }).toBeGreaterThan(frame);
   await expect.poll(() => page.workers().length, { timeout: 20_000 }).toBe(8 + 1);
