@@ -22,7 +22,9 @@ export async function run({ kinds, everything, json, selection }) {
   const added = !everything && isWhole(kinds, selection) && existsSync(resultsFile);
   const output = json ?? (everything || added ? resultsFile : undefined);
   const fresh = { date: new Date().toISOString(), commit: commit(), machine, versions: versions(), rows: [] };
-  const record = added ? withoutKinds(read(resultsFile), kinds) : fresh;
+  const record = added
+    ? { ...withoutKinds(read(resultsFile), kinds), native: { date: fresh.date, commit: fresh.commit } }
+    : fresh;
   const end = everything && !selection.full ? performance.now() + mostMinutes * 60_000 : Infinity;
   console.log(`${machine.cpu}, ${machine.cores} cores, ${machine.system}, Node ${machine.node}; milliseconds.`);
   for (const kind of kinds) {

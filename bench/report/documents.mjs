@@ -75,7 +75,8 @@ export function figuresPage(record) {
   );
 }
 
-const versionsOf = ({ rows }) => [...new Set(rows.flatMap(({ versions = [] }) => versions))].join('; ');
+const versionsOf = ({ rows, native }) =>
+  `${[...new Set(rows.flatMap(({ versions = [] }) => versions))].join('; ')}.${native ? ` ${native.date.slice(0, 10)}, ours of commit ${native.commit}.` : ''}`;
 
 const goalTable = (reached) =>
   markdownTable(
