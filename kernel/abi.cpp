@@ -207,8 +207,8 @@ EXPORT(answers_address)() -> u32* {
   return with_space([](auto& space) { return space.answers.data(); });
 }
 /// Questions. What they ask is in io: the box or twice the point, what it moves by, then at fixed places the radius
-/// (negative: none; -2: boxes are to be within the box), the limit, the length of the way, the rank of the hit to go on behind, whose id is `after`, and the
-/// planes, each a normal and an offset.
+/// (negative: none; -2: boxes are to be within the box), the limit, the length of the way, the rank of the hit to go on
+/// behind, whose id is `after`, and the planes, each a normal and an offset.
 enum : u32 { radius_at = 12, limit_at = 13, length_at = 14, after_at = 15, planes_at = 16, no_id = 0xffffffff };
 
 template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignored) {

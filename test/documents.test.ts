@@ -50,7 +50,7 @@ const paragraphs = (text: string) =>
     .replaceAll(/^```[\s\S]*?^```/gm, '')
     .split(/\n\s*\n|\n(?=\s*(?:[-*]|\d+\.) )/)
     .filter((paragraph) => !/^\s*[|#<]/.test(paragraph) && paragraph.trim() !== '');
-const sentences = (paragraph: string) => paragraph.split(/(?<=[.!?:])\s+/);
+const sentences = (paragraph: string) => paragraph.split(/(?<=[.!?])\s+/);
 const words = (text: string) => text.trim().split(/\s+/).length;
 
 describe('prose', () => {
