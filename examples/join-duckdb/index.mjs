@@ -5,7 +5,7 @@
 //
 // With --spatial <file>, DuckDB's own spatial join runs on the same file, with the same memory, and has to find the same
 // pairs. The file is the spatial extension for the DuckDB that is installed; the wheel of duckdb-extension-spatial on
-// PyPI holds it.
+// PyPI holds it. With --no-spill it may not write to disk what does not fit, and with --limit <seconds> it is ended then.
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -19,6 +19,8 @@ const { values } = parseArgs({
     memory: { type: 'string', default: '1GB' },
     density: { type: 'string', default: '1' },
     spatial: { type: 'string' },
+    'no-spill': { type: 'boolean', default: false },
+    limit: { type: 'string', default: '300' },
   },
 });
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
@@ -38,16 +40,24 @@ const [boxes, ours, theirs] = ['boxes', 'ours', 'theirs'].map((name) => join(fol
 const seconds = (since) => `${((performance.now() - since) / 1000).toFixed(1)} s`;
 
 /** Runs a part of this program in a process of its own, so that its memory can be told. */
-function alone(file, ...args) {
-  const { status, stdout, stderr } = spawnSync(process.execPath, [file, ...args], { cwd: path('.'), encoding: 'utf8' });
-  return { status, stdout, stderr };
+function alone(timeout, file, ...args) {
+  return spawnSync(process.execPath, [file, ...args], { cwd: path('.'), encoding: 'utf8', timeout });
 }
 
 try {
   console.log(`${Number(values.boxes).toLocaleString('en')} boxes:`);
   await writeBoxes(boxes, Number(values.boxes), { density: Number(values.density) });
   const started = performance.now();
-  const { stdout, stderr, status } = alone(command, 'join', boxes, ours, '--memory', values.memory, '--json');
+  const { stdout, stderr, status } = alone(
+    undefined,
+    command,
+    'join',
+    boxes,
+    ours,
+    '--memory',
+    values.memory,
+    '--json',
+  );
   if (status !== 0) throw new Error(stderr);
   const { pairs, tiles, peak } = JSON.parse(stdout);
   const facts = `${pairs.toLocaleString('en')} pairs in ${tiles} tiles, at most ${(peak / 1e6).toFixed(0)} MB`;
@@ -55,8 +65,11 @@ try {
 
   if (values.spatial) {
     const began = performance.now();
-    const { status, stdout, stderr } = alone(path('spatial.mjs'), values.spatial, boxes, theirs, values.memory);
-    if (status !== 0) console.log(`  DuckDB's spatial join: failed after ${seconds(began)}: ${stderr.trim()}`);
+    const spill = values['no-spill'] ? '' : `${theirs}.tmp`;
+    const args = [values.spatial, boxes, theirs, values.memory, spill];
+    const { status, stdout, stderr, error } = alone(1000 * values.limit, path('spatial.mjs'), ...args);
+    if (error) console.log(`  DuckDB's spatial join: no answer in ${seconds(began)}`);
+    else if (status !== 0) console.log(`  DuckDB's spatial join: failed after ${seconds(began)}: ${stderr.trim()}`);
     else {
       console.log(`  DuckDB's spatial join: ${seconds(began)}, at most ${(Number(stdout) / 1e6).toFixed(0)} MB`);
       const [[missing, extra]] = await ask(

@@ -1,12 +1,12 @@
 // The same by DuckDB alone: its SPATIAL_JOIN of the extension spatial. Prints the most memory it had.
-// node spatial.mjs <extension> <boxes> <pairs> <memory>
+// node spatial.mjs <extension> <boxes> <pairs> <memory> <folder to spill to, or nothing for none>
 import { DuckDBInstance } from '@duckdb/node-api';
 
-const [extension, boxes, pairs, memory] = process.argv.slice(2);
+const [extension, boxes, pairs, memory, spill] = process.argv.slice(2);
 try {
   const instance = await DuckDBInstance.create(':memory:', {
     memory_limit: memory,
-    temp_directory: `${pairs}.tmp`,
+    temp_directory: spill,
     allow_unsigned_extensions: 'true',
   });
   const connection = await instance.connect();

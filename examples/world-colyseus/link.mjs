@@ -196,15 +196,19 @@ export class Link {
     this.#drop(zone);
     this.#asked.delete(zone);
     if (there) this.#send(zone, { type: 'dropped' });
-    this.#bringBack(zone, info);
+    this.#bringBack(zone, info, !there);
   }
 
-  /** Until a zone is there again: once its process has died, one of those that are left makes its room anew. */
-  async #bringBack(zone, info) {
+  /**
+   * Until a zone is there again: once its process has died, one of those that are left makes its room anew. Who is dead
+   * stays so and is not asked again: on a machine with much to do an answer may come too late, and four seconds are lost.
+   */
+  async #bringBack(zone, info, wasDead) {
     if (this.#stopped || this.#peers.has(zone) || this.#coming.has(zone)) return;
     const isMine = [...this.#peers.keys()].every((peer) => peer > this.#zone);
     const comes = performance.now() - (this.#asked.get(zone) ?? -Infinity) < retryTime;
-    if (isMine && !comes && !(await isThere(info))) {
+    const isDead = wasDead || !(await isThere(info));
+    if (isMine && !comes && isDead) {
       // Only one does, should another zone think that it is its turn.
       const turn = await this.#presence.hincrbyex('zones:replaced', String(zone), 1, retryTime / 1000 - 1);
       if (turn === 1) {
@@ -212,7 +216,7 @@ export class Link {
         await this.#calls.lost(zone, info);
       }
     }
-    setTimeout(() => this.#bringBack(zone, info), retryTime);
+    setTimeout(() => this.#bringBack(zone, info, isDead), retryTime);
   }
 
   #drop(zone) {

@@ -20,8 +20,12 @@ const runs = [
   { zones: 1, clients: 300 },
   { zones: 2, clients: 300 },
   { zones: 3, clients: 300 },
+  { zones: 1, clients: 100 },
+  { zones: 1, clients: 150 },
+  { zones: 1, clients: 200 },
   { zones: 3, clients: 600 },
-  { zones: 3, clients: 900 },
+  { zones: 1, clients: 5, everything: true },
+  { zones: 1, clients: 30, everything: true },
   { zones: 3, clients: 30, everything: true },
   { zones: 3, clients: 300, everything: true },
 ];

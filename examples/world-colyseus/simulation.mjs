@@ -3,7 +3,10 @@ import { BroadPhase } from 'broadphase';
 import { Shard } from 'broadphase/shard';
 import { boxOf, isAvatar, move, sight } from './world.mjs';
 
-/** For so many ticks it is known who was handed over, should the other zone be lost meanwhile; then until it is back. */
+/**
+ * For so many ticks it is known who was handed over, should the other zone be lost; and from when it is back as long
+ * again, since it may be lost before its next snapshot.
+ */
 const remembered = 60;
 
 export class Simulation {
@@ -11,7 +14,7 @@ export class Simulation {
   entities = new Map();
   shard;
   #zones;
-  /** Who was handed over lately: the entity, to which zone, and when. */
+  /** Who was handed over lately: the entity, to which zone, when, and until when that is known. */
   #handedOver = [];
 
   constructor(zones, zone) {
@@ -44,11 +47,12 @@ export class Simulation {
       this.shard.set(entity.id, ...boxOf(entity));
     }
     const deltas = this.shard.exchange();
-    this.#handedOver = this.#handedOver.filter((given) => given.tick > tick - remembered || !isOpen(given.to));
+    for (const given of this.#handedOver) if (!isOpen(given.to)) given.until = tick + remembered;
+    this.#handedOver = this.#handedOver.filter(({ until }) => until > tick);
     const given = this.shard.given.map((id) => {
       const entity = this.entities.get(id);
       this.entities.delete(id);
-      return { entity, to: this.#zones.ownerOf(boxOf(entity)), tick };
+      return { entity, to: this.#zones.ownerOf(boxOf(entity)), tick, until: tick + remembered };
     });
     this.#handedOver.push(...given);
     return { deltas, given };

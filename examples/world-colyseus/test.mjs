@@ -164,7 +164,8 @@ async function isKilled(world) {
     return connected === clients && world.clients.lost > lost && found === world.clients.lost;
   });
   console.log(`clients: all back, ${world.clients.lost - lost} had lost their room`);
-  ok(took < 2000, `taken over after ${took} ms, expected less than 2000`);
+  const said = world.events.filter(({ at }) => at >= killed).map(({ at, text }) => `${at - killed} ms: ${text}`);
+  ok(took < 2000, `taken over after ${took} ms, expected less than 2000\n${said.join('\n')}`);
 }
 
 /** A zone cannot be reached for a while, though its process is there: the others go on, and it finds back. */

@@ -76,7 +76,7 @@ export class ZoneRoom extends Room {
     return { tick: -1, entities: all.filter((entity) => zoneOf(zones, entity) === this.zone) };
   }
 
-  /** Makes the room of a zone whose process has died, in the process with the fewest rooms. */
+  /** Makes the room of a zone whose process has died, in the process with the fewest rooms: this one, if it has no more. */
   async #makeAnew(zone, { processId }) {
     try {
       await matchMaker.driver.cleanup(processId);
@@ -88,7 +88,9 @@ export class ZoneRoom extends Room {
 
   async #createOn(zone, processId) {
     const all = (await matchMaker.stats.fetchAll()).filter((process) => process.processId !== processId);
-    all.sort((a, b) => a.roomCount - b.roomCount);
+    // Another process would have to be asked first, and may be slow to answer.
+    const isOther = (process) => Number(process.processId !== matchMaker.processId);
+    all.sort((a, b) => a.roomCount - b.roomCount || isOther(a) - isOther(b));
     const peers = Array.from({ length: this.#setup.zones }, (_, peer) => peer).filter(
       (peer) => peer === this.zone || this.#link.isOpen(peer),
     );
