@@ -23,6 +23,8 @@ import { Belt } from './belt.mjs';
 import { Culler } from './culler.mjs';
 import { EachByThree, FlatSpheres, InstancedMeshTree, tell } from './rivals.mjs';
 
+/** The tree of instanced-mesh takes seconds to make of more, and to move them. */
+const mostInTree = 20_000;
 /** How far the camera sees. */
 const sight = 320;
 /** More are not drawn. */
@@ -170,7 +172,7 @@ export const beltDemo =
         broadphase: 'broadphase',
         each: 'each, as BatchedMesh does',
         flat: 'a loop over spheres',
-        tree: 'the tree of instanced-mesh',
+        ...(count <= mostInTree && { tree: 'the tree of instanced-mesh' }),
       },
       use(key) {
         user = key === 'broadphase' ? culler : new makers[key](stone, belt.matrices);
