@@ -26,7 +26,7 @@ template <int D> class PlaneQuery {
   const Planes<D>& planes_;
   const Wanted<D> wanted_;
   const bool takes_all_;  // what is inside, without a look at each box
-  u32 from_ = 0, most_ = 0, found_ = 0;
+  u32 from_ = 0, most_ = 0, found_ = 0, looks_ = 0;
 
  public:
   /// With the ids of boxes that are in front of all planes.
@@ -34,6 +34,8 @@ template <int D> class PlaneQuery {
 
   PlaneQuery(const Index<D>& index, const Question<D>& asked, const Planes<D>& planes)
       : index_(index), planes_(planes), wanted_(index, asked), takes_all_(wanted_.all() && !index.holes()) {}
+
+  u32 looks() const { return looks_; }
 
   /// Writes the ids of the boxes that are not behind a plane: as Queries::area.
   COLD u32 search(u32& from, u32 most, Buffer<u32>& answers) {
@@ -94,6 +96,7 @@ template <int D> class PlaneQuery {
   /// Adds the answers from place `from_` on; false where there are more than are wanted: `from_` is then the next.
   bool walk(u32 level, u32 number, u32 planes, Buffer<u32>& answers) {
     u32 front[Planes<D>::most];
+    looks_++;
     u32 left = look(index_.block(level, number), planes, front);
     if (level == 0) {
       if (from_ > number * 8) left &= 0xff << (from_ - number * 8);

@@ -139,11 +139,14 @@ template <int D> class Queries {
   bool is_tame_ = true;        // whether times may be estimated
   const Wanted<D> wanted_;
   const bool all_wanted_;
-  u32 from_ = 0, most_ = 0, found_ = 0;
+  u32 from_ = 0, most_ = 0, found_ = 0, looks_ = 0;
 
  public:
   Queries(const Index<D>& index, const Question<D>& asked)
       : index_(index), asked_(asked), squared_(asked.radius * asked.radius), wanted_(index, asked), all_wanted_(wanted_.all()) {}
+
+  /// How many blocks have been looked at.
+  u32 looks() const { return looks_; }
 
   /// Writes the ids of the boxes that touch the box or the circle, in the order of the index from place `from` on, at
   /// most so many. Returns how many; `from` becomes the place to go on from, or the number of boxes.
@@ -252,6 +255,7 @@ template <int D> class Queries {
   /// Adds the answers from place `from_` on; false where there are more than are wanted: `from_` is then the next.
   bool walk(u32 level, u32 number, Buffer<u32>& answers) {
     const Block& block = index_.block(level, number);
+    looks_++;
     u32 left = touched(block);
     if (level == 0) {
       if (from_ > number * 8) left &= 0xff << (from_ - number * 8);
@@ -339,8 +343,9 @@ template <int D> class Queries {
   }
 
   /// Offers the boxes of a block to `hits`, what promises the least rank first.
-  template <bool moving> void search(u32 level, u32 number, Hits& hits) const {
+  template <bool moving> void search(u32 level, u32 number, Hits& hits) {
     const Block& block = index_.block(level, number);
+    looks_++;
     u32 least[8], order[8], n = 0;
     if (level == 0) return moving ? offer_ahead(number, least_times(block, hits.limit, least), hits) : offer_near(number, hits);
     u32 left = moving ? least_times(block, hits.limit, least) : least_distances(block, hits.limit, least);

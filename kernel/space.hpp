@@ -296,6 +296,7 @@ template <int D> class Space {
     technique = head.technique == SnapshotHeader::automatic ? Technique::automatic : Technique(head.technique);
     restored_ = ordered_ = renamed_ = true;
     holds_ = lost_ = false;
+    index_.forget();  // of the order of boxes before nothing is to be seen
     find();
     changes_.note_all();  // the next update finds out what begins and ends
     return SnapshotFault::none;
@@ -410,13 +411,21 @@ template <int D> class Space {
   /// Answers the question with the boxes that touch its box or circle: see Queries::area.
   COLD u32 ask_area(u32& from, u32 most) {
     if (lost_) return unknown;
-    return can_answer() ? Queries<D>(index_, question).area(from, most, answers) : 0;
+    if (!can_answer()) return 0;
+    Queries<D> queries(index_, question);
+    u32 found = queries.area(from, most, answers);
+    index_.looked_at(queries.looks());
+    return found;
   }
 
   /// Answers it with the boxes that are not behind one of the planes: see PlaneQuery::search.
   COLD u32 ask_planes(u32& from, u32 most) {
     if (lost_) return unknown;
-    return can_answer() ? PlaneQuery<D>(index_, question, planes).search(from, most, answers) : 0;
+    if (!can_answer()) return 0;
+    PlaneQuery<D> query(index_, question, planes);
+    u32 found = query.search(from, most, answers);
+    index_.looked_at(query.looks());
+    return found;
   }
 
   /// Answers it with what the moving box meets first, or with what is nearest, at most so many and behind `after`:
@@ -428,6 +437,7 @@ template <int D> class Space {
     Queries<D> queries(index_, question);
     if (moving) queries.cast(hits);
     else queries.near(hits);
+    index_.looked_at(queries.looks());
     return hits.finish();
   }
 
@@ -597,7 +607,7 @@ template <int D> class Space {
     if (options_.wrap[0] > 0) return;
     const f64* exact = rounding_ ? exact_.data() : nullptr;
     const Rule* rules = filters_.active() ? filters_.rules() : nullptr;
-    u32 few = larger(ids_.count() / 8, 8u);
+    u32 few = larger(ids_.count() / 32, 8u);  // more are dearer to follow than the index is to make
     holds_ = holds_ && !changes_.all() && changes_.count() <= few &&
              index_.follow(boxes_.data(), exact, ids_, rules, changes_.list(), changes_.count());
     // Who writes in place does not say when.

@@ -56,7 +56,7 @@ export abstract class PlaceQueries<D extends Dimensions> extends Answers<D> {
 
   /**
    * The ids of the boxes that overlap or touch a box, which may be infinite: in no particular order, but the same one
-   * for the same boxes. 2D: `queryBox(minX, minY, maxX, maxY, options?)`, 3D:
+   * until the next update. 2D: `queryBox(minX, minY, maxX, maxY, options?)`, 3D:
    * `queryBox(minX, minY, minZ, maxX, maxY, maxZ, options?)`.
    *
    * @param question the least coordinates, in the units of your world: any numbers but NaN; then the largest ones, not

@@ -89,8 +89,8 @@ export class Modelled {
   }
 
   /** Ids 0 … count - 1, given at once. */
-  replace(count: number, shared: boolean): void {
-    const boxes = Array.from({ length: count }, () => (shared ? this.box().map(Math.fround) : this.box()));
+  replace(count: number, shared: boolean, boxOf: (id: number) => number[] = () => this.box()): void {
+    const boxes = Array.from({ length: count }, (_, id) => (shared ? boxOf(id).map(Math.fround) : boxOf(id)));
     if (shared) this.space.boxes(count).set(boxes.flat());
     else this.space.setAll(boxes.flat());
     for (const id of [...this.entries.keys()]) {

@@ -2,7 +2,7 @@
 import { BroadPhase, type QueryOptions, type RayHit } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../src/scenes/random.ts';
-import { type Entry, Modelled } from './model.ts';
+import { anyPlace, type Entry, Modelled } from './model.ts';
 import { type Asked, ahead, type Entries, inBox, inCircle, inPlanes, near, type Ranked } from './query-reference.ts';
 import { setBox } from './set-box.ts';
 import { readTrace, traceNames } from './traces.ts';
@@ -245,6 +245,41 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
         // Seen no sooner than with the next update.
         for (let k = 0; k < 5; k++) model.step();
       }
+    }
+  });
+});
+
+// Few questions an update, so that the index keeps its order while boxes drift, come and go.
+describe.each([2, 3] as const)('among many boxes in %d dimensions', (dimensions) => {
+  test.each([1, 2, 3, 4, 5, 6])('answers while most of them move, seed %i', (seed) => {
+    const model = new Modelled({ dimensions }, seed, anyPlace, 200, 700);
+    const { space, random, entries } = model;
+    const asker = new Asker(space, random, 200);
+    const pick = <T>(...from: T[]): T => from[model.integer(from.length)]!;
+    const shifted = (box: readonly number[], by: number) => box.map((x) => x + by);
+    const allAtOnce = (by: number) => {
+      model.replace(model.entries.size, random() < 0.5, (id) => shifted(entries.get(id)?.box ?? model.box(), by));
+    };
+    model.replace(600, true);
+    for (let round = 0; round < 40; round++) {
+      const by = pick(0, 0.5, -1, 3);
+      const how = random();
+      if (how < 0.3) allAtOnce(by);
+      else if (how < 0.7) for (const [id, { box }] of entries) random() < 0.9 && model.set(id, shifted(box, by));
+      else if (how < 0.8)
+        for (const id of [...entries.keys()]) model.set(id); // all anywhere
+      else for (let call = 0; call < 150; call++) model.step();
+      if (random() < 0.3)
+        for (let call = 0; call < 60; call++)
+          pick(
+            () => model.delete(model.id()),
+            () => model.set(model.id()),
+          )();
+      space.update();
+      const seen = copyOf(entries);
+      const kind = pick('planes', 'nearest', 'ray', 'sweep', 'everything', 'planes', 'planes') as 'planes';
+      for (let call = pick(0, 1, 1, 2); call > 0; call--) asker[kind](seen);
+      if (random() < 0.1) space.restore(space.snapshot());
     }
   });
 });

@@ -4,15 +4,22 @@ import { IcosahedronGeometry, PerspectiveCamera } from 'three';
 import { Belt } from './belt.mjs';
 import { Culler } from './culler.mjs';
 import { missing } from './missing.mjs';
-import { EachByThree, FlatSpheres } from './rivals.mjs';
+import { EachByThree, FlatSpheres, InstancedMeshTree, tell } from './rivals.mjs';
 
-const makers = { broadphase: Culler, 'each, as BatchedMesh does': EachByThree, 'a loop over spheres': FlatSpheres };
+const makers = {
+  broadphase: Culler,
+  'each, as BatchedMesh does': EachByThree,
+  'a loop over spheres': FlatSpheres,
+  'the tree of instanced-mesh': InstancedMeshTree,
+};
+/** Of more that move the tree of instanced-mesh, which moves one by one, takes seconds a frame. */
+const mostInTree = 20_000;
 const frames = 15;
 const warmUp = 5;
 const median = (times) => times.sort((a, b) => a - b)[times.length >> 1];
 
 console.log(`| stones | move | in view | ${Object.keys(makers).join(' | ')} |`);
-console.log('| --- | --- | --- | --- | --- | --- |');
+console.log('| --- | --- | --- | --- | --- | --- | --- |');
 for (const count of [20_000, 100_000, 500_000]) {
   const stone = new IcosahedronGeometry(1, 0);
   const belt = new Belt(count);
@@ -27,17 +34,18 @@ for (const count of [20_000, 100_000, 500_000]) {
       camera.updateMatrixWorld();
       const { first, many } = belt.move(share);
       for (const [k, contender] of contenders.entries()) {
+        if (contender instanceof InstancedMeshTree && many > mostInTree) continue;
         const started = performance.now();
-        for (let n = 0; n < many; n++) contender.move((first + n) % count);
+        tell(contender, first, many);
         const seen = contender.visible(camera);
         if (frame >= warmUp) times[k].push(performance.now() - started);
         if (k === 0) inView = seen.length;
         if (frame === warmUp && share === 1 && missing(seen, stone, belt.matrices, camera).length > 0)
-          throw new Error('a stone is missing');
+          throw new Error(`${contender.constructor.name}: a stone is missing`);
       }
     }
     const taken = times.map(median);
-    const cells = taken.map((each) => `${each.toPrecision(3)} (${(each / taken[0]).toFixed(1)}x)`);
+    const cells = taken.map((each) => (each ? `${each.toPrecision(3)} (${(each / taken[0]).toFixed(1)}x)` : '–'));
     console.log(`| ${[count, `${100 * share} %`, inView, ...cells].join(' | ')} |`);
   }
 }

@@ -1,12 +1,14 @@
 // What a camera of three.js sees of many instances, and which of them a ray meets first. One box is kept for each; those
-// that move are told one by one, and the rest cost nothing.
+// that move are told one by one, and the rest cost nothing. Where most move, all are told at once.
 import { BroadPhase } from 'broadphase';
 import { Frustum, Matrix4, Vector3 } from 'three';
 
-const { abs, fround: single } = Math; // float32 is as exact as the matrices are, and half the memory of doubles
+const { abs } = Math;
 
 export class Culler {
   #space = new BroadPhase({ dimensions: 3 });
+  #box = new Float32Array(6); // as exact as the matrices are, and half the memory of doubles
+  #boxes;
   #planes = new Float64Array(24);
   #seen = { out: [] };
   #near = { out: [] };
@@ -19,23 +21,32 @@ export class Culler {
     this.middle = geometry.boundingBox.getCenter(new Vector3());
     this.half = geometry.boundingBox.getSize(new Vector3()).multiplyScalar(0.5);
     this.matrices = matrices;
-    for (let id = 0; 16 * id < matrices.length; id++) {
-      this.move(id);
-      this.#space.setFilter(id, 1, 0); // no pairs are wanted, so none are looked for
-    }
+    this.#boxes = new Float32Array((6 * matrices.length) / 16);
+    this.moveAll();
+    for (let id = 0; 16 * id < matrices.length; id++) this.#space.setFilter(id, 1, 0); // no pairs are looked for
   }
 
   /** Instance `id` has got another matrix. */
   move(id) {
+    const box = this.#box;
+    this.#write(id, box, 0);
+    this.#space.set(id, box[0], box[1], box[2], box[3], box[4], box[5]);
+  }
+
+  /** Most of them have. */
+  moveAll() {
+    for (let id = 0; 16 * id < this.matrices.length; id++) this.#write(id, this.#boxes, 6 * id);
+    this.#space.setAll(this.#boxes);
+  }
+
+  #write(id, to, at) {
     const { matrices: m, middle: c, half: h } = this;
-    const k = 16 * id;
-    const x = m[k] * c.x + m[k + 4] * c.y + m[k + 8] * c.z + m[k + 12];
-    const y = m[k + 1] * c.x + m[k + 5] * c.y + m[k + 9] * c.z + m[k + 13];
-    const z = m[k + 2] * c.x + m[k + 6] * c.y + m[k + 10] * c.z + m[k + 14];
-    const w = abs(m[k]) * h.x + abs(m[k + 4]) * h.y + abs(m[k + 8]) * h.z;
-    const t = abs(m[k + 1]) * h.x + abs(m[k + 5]) * h.y + abs(m[k + 9]) * h.z;
-    const d = abs(m[k + 2]) * h.x + abs(m[k + 6]) * h.y + abs(m[k + 10]) * h.z;
-    this.#space.set(id, single(x - w), single(y - t), single(z - d), single(x + w), single(y + t), single(z + d));
+    for (let k = 16 * id; k < 16 * id + 3; k++, at++) {
+      const middle = m[k] * c.x + m[k + 4] * c.y + m[k + 8] * c.z + m[k + 12];
+      const half = abs(m[k]) * h.x + abs(m[k + 4]) * h.y + abs(m[k + 8]) * h.z;
+      to[at] = middle - half;
+      to[at + 3] = middle + half;
+    }
   }
 
   /** The ids of what a camera sees: an array that is used again. */

@@ -5,7 +5,7 @@ import { describe, expect, test } from 'vitest';
 import { Belt, seeded } from './belt.mjs';
 import { Culler } from './culler.mjs';
 import { missing } from './missing.mjs';
-import { EachByThree, FlatSpheres } from './rivals.mjs';
+import { EachByThree, FlatSpheres, InstancedMeshTree, tell } from './rivals.mjs';
 
 const count = 1000;
 /** Not about its own middle, so that this is seen to. */
@@ -33,13 +33,14 @@ describe.each([0, 0.01, 0.1, 1])('a share of %d moves', (share) => {
   test('all see what shows; ours sees exactly the boxes that three.js does', () => {
     const random = seeded(3);
     const belt = new Belt(count);
-    const contenders = [Culler, EachByThree, FlatSpheres].map((Maker) => new Maker(brick, belt.matrices));
+    const makers = [Culler, EachByThree, FlatSpheres, InstancedMeshTree];
+    const contenders = makers.map((Maker) => new Maker(brick, belt.matrices));
     let shown = 0;
     for (let frame = 0; frame < 8; frame++) {
       const camera = look(belt, random);
       const { first, many } = belt.move(share);
       for (const contender of contenders) {
-        for (let k = 0; k < many; k++) contender.move((first + k) % count);
+        tell(contender, first, many);
         expect(missing(contender.visible(camera), brick, belt.matrices, camera)).toEqual([]);
       }
       const matrix = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);

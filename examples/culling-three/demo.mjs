@@ -21,8 +21,10 @@ import { time } from '../page/showcase.mjs';
 import { moveView } from '../page/view.mjs';
 import { Belt } from './belt.mjs';
 import { Culler } from './culler.mjs';
-import { EachByThree, FlatSpheres } from './rivals.mjs';
+import { EachByThree, FlatSpheres, InstancedMeshTree, tell } from './rivals.mjs';
 
+/** The tree of instanced-mesh takes seconds to make of more, and to move them. */
+const mostInTree = 20_000;
 /** How far the camera sees. */
 const sight = 320;
 /** More are not drawn. */
@@ -33,7 +35,7 @@ const [closest, widest] = [15, 75];
 const mapSize = 148;
 
 const whole = new Intl.NumberFormat('en');
-const makers = { broadphase: Culler, each: EachByThree, flat: FlatSpheres };
+const makers = { broadphase: Culler, each: EachByThree, flat: FlatSpheres, tree: InstancedMeshTree };
 
 /** The scene, without what is drawn in it: see `beltDemo`. */
 function makeScene() {
@@ -87,11 +89,8 @@ export const beltDemo =
     }
     function move() {
       const { first, many } = belt.move(share);
-      for (let k = 0; k < many; k++) {
-        const id = (first + k) % count;
-        culler.move(id);
-        if (user !== culler) user.move(id);
-      }
+      tell(culler, first, many);
+      if (user !== culler) tell(user, first, many);
     }
     function drawMap(seen) {
       const dot = (id) => {
@@ -169,7 +168,12 @@ export const beltDemo =
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawSoon);
     return {
       legend: 'A frame’s culling, without the drawing, by',
-      contenders: { broadphase: 'broadphase', each: 'each, as BatchedMesh does', flat: 'a loop over spheres' },
+      contenders: {
+        broadphase: 'broadphase',
+        each: 'each, as BatchedMesh does',
+        flat: 'a loop over spheres',
+        ...(count <= mostInTree && { tree: 'the tree of instanced-mesh' }),
+      },
       use(key) {
         user = key === 'broadphase' ? culler : new makers[key](stone, belt.matrices);
         drawSoon();
@@ -179,10 +183,10 @@ export const beltDemo =
         let moved;
         const prepare = () => {
           moved = belt.move(share);
-          for (let k = 0; contender !== culler && k < moved.many; k++) culler.move((moved.first + k) % count);
+          if (contender !== culler) tell(culler, moved.first, moved.many);
         };
         return time(() => {
-          for (let k = 0; k < moved.many; k++) contender.move((moved.first + k) % count);
+          tell(contender, moved.first, moved.many);
           contender.visible(camera);
         }, prepare);
       },

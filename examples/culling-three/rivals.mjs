@@ -1,9 +1,18 @@
 // What people use today, under the same names: they move instances and say what a camera sees.
-import { Frustum, Matrix4, Sphere } from 'three';
+import { BVH, HybridBuilder, WebGLCoordinateSystem } from 'bvh.js';
+import { Box3, Frustum, Matrix4, Sphere } from 'three';
+
+/** Tells that so many have moved, from the first one on: all at once where most have, and one can. */
+export function tell(contender, first, many) {
+  const count = contender.matrices.length / 16;
+  if (2 * many > count && contender.moveAll) contender.moveAll();
+  else for (let k = 0; k < many; k++) contender.move((first + k) % count);
+}
 
 const frustum = new Frustum();
 const matrix = new Matrix4();
 const sphere = new Sphere();
+const box = new Box3();
 
 function frustumOf(camera) {
   matrix.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
@@ -64,5 +73,43 @@ export class FlatSpheres {
       seen.push(k / 4);
     }
     return seen;
+  }
+}
+
+/** The tree of @three.ez/instanced-mesh, which is the package bvh.js, made and kept as it does: those that move are moved. */
+export class InstancedMeshTree {
+  constructor(geometry, matrices) {
+    geometry.computeBoundingBox();
+    this.box = geometry.boundingBox;
+    this.matrices = matrices;
+    this.tree = new BVH(new HybridBuilder(), WebGLCoordinateSystem);
+    this.nodes = [];
+    this.seen = [];
+    const ids = Uint32Array.from({ length: matrices.length / 16 }, (_, id) => id);
+    const boxes = Array.from(ids, (id) => this.boxOf(id, new Float32Array(6)));
+    this.tree.createFromArray(ids, boxes, (node) => {
+      this.nodes[node.object] = node;
+    });
+  }
+
+  boxOf(id, to) {
+    const { min, max } = box.copy(this.box).applyMatrix4(matrix.fromArray(this.matrices, 16 * id));
+    for (let axis = 0; axis < 3; axis++) {
+      to[2 * axis] = min.getComponent(axis);
+      to[2 * axis + 1] = max.getComponent(axis);
+    }
+    return to;
+  }
+
+  move(id) {
+    this.boxOf(id, this.nodes[id].box);
+    this.tree.move(this.nodes[id], 0);
+  }
+
+  visible(camera) {
+    this.seen.length = 0;
+    matrix.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    this.tree.frustumCulling(matrix.elements, (node) => this.seen.push(node.object));
+    return this.seen;
   }
 }

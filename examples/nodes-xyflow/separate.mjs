@@ -7,8 +7,8 @@ const few = 48;
 const near = 2;
 /** Kept from call to call. Made when there are first more than a few nodes. */
 let space;
-let place; // for each node: the middle of its box, then half its width and height
-let state; // for each node: 1 once it has been pushed, 2 where it is fixed
+let place = new Float64Array(4 * few); // for each node: the middle of its box, then half its width and height
+let state = new Uint8Array(few); // for each node: 0 where it is fixed, 1, or 2 once it has been pushed
 
 /**
  * Pushes overlapping nodes apart: each by half of the overlap, along the axis where that takes less. Does so until no
@@ -23,50 +23,39 @@ let state; // for each node: 1 once it has been pushed, 2 where it is fixed
  */
 export function separate(nodes, { padding = 0, threshold = 0.5, maxIterations = 50, fixed } = {}) {
   const apart = nodes.filter((node) => !node.hidden && !node.parentId);
-  place = new Float64Array(4 * apart.length);
-  state = new Uint8Array(apart.length);
-  for (let k = 0; k < apart.length; k++) {
-    const node = apart[k];
+  const count = apart.length;
+  if (count > state.length) [place, state] = [new Float64Array(4 * count), new Uint8Array(count)];
+  for (const [k, node] of apart.entries()) {
     const halfWidth = (node.measured?.width ?? node.width ?? 0) / 2;
     const halfHeight = (node.measured?.height ?? node.height ?? 0) / 2;
     place[4 * k] = node.position.x + halfWidth;
     place[4 * k + 1] = node.position.y + halfHeight;
     place[4 * k + 2] = halfWidth + padding;
     place[4 * k + 3] = halfHeight + padding;
-    state[k] = fixed?.(node) ? 2 : 0;
+    state[k] = fixed?.(node) ? 0 : 1;
   }
-  const pushAll = apart.length > few ? pushPairs : pushEveryTwo;
   let turns = 0;
-  while (turns < maxIterations && pushAll(threshold)) turns++;
+  while (turns < maxIterations && pushAll(count, threshold)) turns++;
   if (turns === 0) return nodes;
   let next = 0;
   return nodes.map((node) => {
     const k = node === apart[next] ? next++ : -1;
-    if (state[k] !== 1) return node;
+    if (state[k] !== 2) return node;
     const x = place[4 * k] - place[4 * k + 2] + padding;
     return { ...node, position: { x, y: place[4 * k + 1] - place[4 * k + 3] + padding } };
   });
 }
 
-function pushEveryTwo(threshold) {
+function pushAll(count, threshold) {
   let pushed = false;
-  for (let a = 0; a < state.length; a++) {
-    for (let b = a + 1; b < state.length; b++) pushed = push(a, b, threshold) || pushed;
+  for (let a = 0; count <= few && a < count; a++) {
+    for (let b = a + 1; b < count; b++) pushed = push(a, b, threshold) || pushed;
   }
-  return pushed;
-}
-
-function pushPairs(threshold) {
-  const boxes = new Float64Array(place.length);
-  for (let k = 0; k < place.length; k += 4) {
-    boxes[k] = place[k] - place[k + 2] - near;
-    boxes[k + 1] = place[k + 1] - place[k + 3] - near;
-    boxes[k + 2] = place[k] + place[k + 2] + near;
-    boxes[k + 3] = place[k + 1] + place[k + 3] + near;
-  }
+  if (count <= few) return pushed;
+  const boxes = new Float64Array(4 * count);
+  for (let k = 0; k < boxes.length; k++) boxes[k] = place[k & ~2] + (k & 2 ? 1 : -1) * (place[k | 2] + near); // minima, maxima
   space ??= new BroadPhase();
   const { pairs } = space.setAll(boxes).update();
-  let pushed = false;
   for (let k = 0; k < pairs.length; k += 2) pushed = push(pairs[k], pairs[k + 1], threshold) || pushed;
   for (let k = pairs.length - 2; pushed && k >= 0; k -= 2) push(pairs[k + 1], pairs[k], threshold);
   return pushed;
@@ -78,13 +67,13 @@ function push(a, b, threshold) {
   const dy = place[4 * a + 1] - place[4 * b + 1];
   const overX = place[4 * a + 2] + place[4 * b + 2] - Math.abs(dx);
   const overY = place[4 * a + 3] + place[4 * b + 3] - Math.abs(dy);
-  if (!(overX > threshold && overY > threshold) || state[a] & state[b] & 2) return false;
-  const share = state[a] === 2 ? 0 : state[b] === 2 ? 1 : 0.5;
+  if (!(overX > threshold && overY > threshold) || !(state[a] || state[b])) return false;
+  const share = state[a] ? (state[b] ? 0.5 : 1) : 0;
   const axis = overX < overY ? 0 : 1; // the one that takes less
   const way = axis ? (dy > 0 ? overY : -overY) : dx > 0 ? overX : -overX;
   place[4 * a + axis] += share * way;
   place[4 * b + axis] -= (1 - share) * way;
-  state[a] |= 1;
-  state[b] |= 1;
+  state[a] &&= 2;
+  state[b] &&= 2;
   return true;
 }

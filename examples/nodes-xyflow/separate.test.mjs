@@ -68,6 +68,15 @@ test('two nodes share the way, and a fixed one leaves it to the other', () => {
     { x: 10, y: 1 },
   ]);
   expect(separate(nodes, { fixed: () => true })).toBe(nodes);
+  const crowded = [node('a', 0, 0), node('b', 6, 1), node('c', -5, -2), node('d', 1, 7)];
+  const around = separate(crowded, { ...whole, fixed: ({ id }) => id === 'a' });
+  expect(around[0]).toBe(crowded[0]);
+  expect(
+    overlapping(
+      around.map(({ position }) => ({ position, width: 10, height: 10 })),
+      0.5,
+    ),
+  ).toBe(0);
   expect(separate(nodes, { threshold: 4 })).toBe(nodes);
 });
 
