@@ -117,7 +117,13 @@ template <int D> class Index {
       }
       if (named_) ids_[s] = ids.id(s);
       if (filtered_) rules_[s] = rules[s];
-      if (built_) move(s);
+      if (!built_) continue;
+      if (!is_off(s)) {
+        move(s);
+      } else {
+        vacate(places_[s]);
+        places_[s] = nowhere;
+      }
     }
     return true;
   }
@@ -129,7 +135,6 @@ template <int D> class Index {
       boxes_.reserve(u64(count_) * width + 4);
       for (u64 s = 0; s < count_; s++) round_outward<D>(&exact_[s * width], &boxes_[s * width]);
     }
-    sorted_ = used_ = count_;
     room_ = count_ + count_ / 32 + 64;
     holes_ = false;
     put_in_order();
@@ -141,14 +146,15 @@ template <int D> class Index {
       if (n <= 8) break;
     }
     blocks_.reserve(total);
-    __builtin_memset(&blocks_[count_ / 8], 0xff, (first_[1] - count_ / 8) * sizeof(Block));
+    __builtin_memset(&blocks_[sorted_ / 8], 0xff, (first_[1] - sorted_ / 8) * sizeof(Block));
     fill();
     for (u32 level = 1; level < levels_; level++) {
       u32 below = first_[level] - first_[level - 1];
       __builtin_memset(&blocks_[first_[level] + (below - 1) / 8], 0xff, sizeof(Block));
       for (u32 k = 0; k < below; k++) bound(level, k);
     }
-    for (u32 place = 0; place < count_; place++) places_[slots_[place]] = place;
+    if (sorted_ < count_) __builtin_memset(places_.data(), 0xff, count_ * sizeof(u32));
+    for (u32 place = 0; place < sorted_; place++) places_[slots_[place]] = place;
     built_ = true;
   }
 
@@ -255,11 +261,11 @@ template <int D> class Index {
   /// The blocks of boxes.
   SHARED void fill() {
     const f32* boxes = boxes_.data();
-    for (u32 k = 0; k < count_; k += 4) {
+    for (u32 k = 0; k < sorted_; k += 4) {
       // Boxes as rows; the second half of 3D's begins with the last minimum.
       f32x4 rows[D - 1][4];
       ROLLED for (u32 lane = 0; lane < 4; lane++) {
-        bool is_box = k + lane < count_;
+        bool is_box = k + lane < sorted_;
         const f32* box = boxes + u64(slots_[is_box ? k + lane : k]) * width;
         for (int half = 0; half < D - 1; half++) {
           rows[half][lane] = is_box ? load<f32x4>(box + 2 * half) : splat(nothing);
@@ -271,14 +277,17 @@ template <int D> class Index {
         for (u32 n = 0; n < 4; n++) store(to + 8 * (2 * half + n), rows[half][n]);
       }
     }
-    if ((count_ - 1) % 8 < 4) {
-      for (u32 n = 0; n < width; n++) store(reinterpret_cast<f32*>(&blocks_[(count_ - 1) / 8]) + 8 * n + 4, splat(nothing));
+    if ((sorted_ - 1) % 8 < 4) {
+      for (u32 n = 0; n < width; n++) store(reinterpret_cast<f32*>(&blocks_[(sorted_ - 1) / 8]) + 8 * n + 4, splat(nothing));
     }
   }
 
-  /// Fills slots_.
+  bool is_off(u32 slot) const { return filtered_ && rules_[slot].is_off(); }
+
+  /// Fills slots_ with those that are not off.
   SHARED void put_in_order() {
     u32 n = count_;
+    sorted_ = used_ = 0;
     u32* slots = slots_.reserve(room_);
     places_.reserve(room_);
     if (named_) placed_ids_.reserve(room_);
@@ -286,13 +295,20 @@ template <int D> class Index {
     SceneItems<D> items{{boxes_.data(), n, nullptr}, AxisOrder<D>::make(0)};
     HilbertCurve<D> curve(measure<D>(items, n));
     sort_.begin(n);
+    u32* sorts = places_.data();  // until places are known: whose key is the k-th
+    u32 some = 0;
     for (u32 s = 0; s < n; s += 4) {
       u32 key[4], last = n - 1;
       store(key, curve(items, {s, smaller(s + 1, last), smaller(s + 2, last), smaller(s + 3, last)}));
-      ROLLED for (u32 lane = 0; lane < smaller(n - s, 4u); lane++) sort_.put_bits(s + lane, key[lane]);
+      ROLLED for (u32 lane = 0; lane < smaller(n - s, 4u); lane++) {
+        if (is_off(s + lane)) continue;
+        sorts[some] = s + lane;
+        sort_.put_bits(some++, key[lane]);
+      }
     }
-    sort_.sort(n);
-    for (u32 k = 0; k < n; k++) slots[k] = sort_.index(k);
-    for (u32 k = 0; named_ && k < n; k++) placed_ids_[k] = ids_[slots[k]];
+    sorted_ = used_ = some;
+    if (some) sort_.sort(some);
+    for (u32 k = 0; k < some; k++) slots[k] = sorts[sort_.index(k)];
+    for (u32 k = 0; named_ && k < some; k++) placed_ids_[k] = ids_[slots[k]];
   }
 };
