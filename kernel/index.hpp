@@ -2,6 +2,7 @@
 // Idea: boxes in the order of their centres along the Hilbert curve, eight to a block, and blocks of eight blocks above them, to one root:
 // an R-tree without pointers. A block is read as vectors, eight boxes at a time. The order is laid over the extents
 // without outliers, so that one far box does not spoil it.
+// Boxes that are off have no place in it.
 // Where an update knows which few boxes changed, the index follows: a box that stays within the bounds of its block is
 // written there, and one that leaves them, or is new, goes to the spare blocks behind the others. What it left is a
 // hole. When no place is spare any more, the next question builds anew.
