@@ -117,11 +117,16 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
     for (let id = 0; id < 20; id++) space.setEnabled(id, false);
     space.update();
     expect(all(space)).toEqual([]);
-    expect((space as unknown as Loose).nearest!(...unit.slice(dimensions), 3)).toEqual([]);
+    const plane = [1, ...unit.slice(1, dimensions), 5]; // all are wholly in front of it
+    const loose = space as unknown as Loose;
+    expect(loose.queryPlanes!(plane)).toEqual([]);
+    expect(loose.nearest!(...unit.slice(dimensions), 3)).toEqual([]);
+    expect(loose.rayCastAll!(...unit)).toEqual([]);
     const fresh = new BroadPhase({ dimensions }).restore(space.snapshot());
     expect(all(fresh)).toEqual([]);
     expect([fresh.size, fresh.has(3), fresh.isEnabled(3)]).toEqual([20, true, false]);
     fresh.setEnabled(3, true).update();
+    expect((fresh as unknown as Loose).queryPlanes!(plane)).toEqual([3]);
     expect(all(fresh)).toEqual([3]);
   });
 
