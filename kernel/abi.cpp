@@ -84,7 +84,7 @@ EXPORT(clear)() -> void {
   with_space([](auto& space) { space.clear(); });
 }
 
-/// Both return 0 where there is no such box.
+/// These return 0 where there is no such box.
 EXPORT(set_filter)(u32 id, u32 layer, u32 mask) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
@@ -97,7 +97,13 @@ EXPORT(set_static)(u32 id, u32 on) -> u32 {
   with_space([&](auto& space) { space.exclude(slot, is_static, on != 0); });
   return 1;
 }
-/// In io: layer, mask, and whether it is static. 0 where there is no such box.
+EXPORT(set_enabled)(u32 id, u32 on) -> u32 {
+  u32 slot = ids.slot(id);
+  if (slot == Ids::none) return 0;
+  with_space([&](auto& space) { space.enable(slot, on != 0); });
+  return 1;
+}
+/// In io: layer, mask, whether it is static, and whether it is enabled. 0 where there is no such box.
 EXPORT(get_rule)(u32 id) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
@@ -106,6 +112,7 @@ EXPORT(get_rule)(u32 id) -> u32 {
     io[0] = rule.layer;
     io[1] = rule.mask;
     io[2] = (rule.excluded & is_static) != 0;
+    io[3] = !rule.is_off();
   });
   return 1;
 }

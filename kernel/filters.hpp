@@ -1,7 +1,7 @@
 // Who may meet whom: layers, masks and exclusion bits, turned into as little search as possible.
 // Idea: boxes with the same layer, mask and bits are one class, and games have a handful of classes. Which classes
 // ignore each other is looked up once after a change, and spares the search three ways. Boxes that can meet nobody
-// are not searched at all. Classes of which each ignores itself and all the others share an exclusion bit, which
+// are not searched at all; those that are off are a class of such. Classes of which each ignores itself and all the others share an exclusion bit, which
 // every technique tests along with the boxes. What is left, say two classes that meet themselves but not each
 // other, is taken out of the pairs found.
 // Cost: nothing while no box has a filter; O(boxes + classes squared) in the update after a change; a copy of the
@@ -14,6 +14,10 @@
 /// share no exclusion bit.
 struct Rule {
   u32 layer, mask, excluded;
+
+  /// A mark beside the exclusion bits: the box is out of all pairs and questions.
+  static constexpr u32 off = 2;
+  bool is_off() const { return excluded & off; }
 };
 
 inline bool meet(const Rule& a, const Rule& b) {
@@ -21,7 +25,7 @@ inline bool meet(const Rule& a, const Rule& b) {
 }
 
 class Filters {
-  static constexpr Rule everybody{0xffffffff, 0xffffffff, 0};
+  static constexpr Rule everybody{0xffffffff, 0xffffffff, 0}, nobody{0, 0, 0};
   static constexpr u32 most_classes = 64, table_size = 4 * most_classes;
   static constexpr u32 rest = most_classes;        // stands for all classes beyond: they may meet anybody
   static constexpr u32 spare_bits = 0x0f000000;    // of the tag: those that no box has set are for classes
@@ -162,14 +166,20 @@ class Filters {
     }
   }
 
+  static u32 home(const Rule& rule) {
+    return (rule.layer * 0x9e3779b1u ^ rule.mask * 0x85ebca6bu ^ rule.excluded) >> 24;
+  }
+
   COLD void find_classes(u32 count) {
     class_of_.reserve(count);
     __builtin_memset(table_, 0, sizeof(table_));
-    class_count_ = 0;
+    // The first class is that of boxes that are off: there is room for it however many others there are.
+    classes_[0] = {nobody, 0, 0, 0, false};
+    class_count_ = table_[home(nobody)] = 1;
     classes_[rest] = {everybody, 0, 0, 0, false};
     for (u32 s = 0; s < count; s++) {
-      const Rule& rule = rules_[s];
-      u32 at = (rule.layer * 0x9e3779b1u ^ rule.mask * 0x85ebca6bu ^ rule.excluded) >> 24;
+      const Rule& rule = rules_[s].is_off() ? nobody : rules_[s];
+      u32 at = home(rule);
       for (;; at = (at + 1) % table_size) {
         u32 found = table_[at];
         if (found == 0) {

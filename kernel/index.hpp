@@ -2,6 +2,7 @@
 // Idea: boxes in the order of their centres along the Hilbert curve, eight to a block, and blocks of eight blocks above them, to one root:
 // an R-tree without pointers. A block is read as vectors, eight boxes at a time. The order is laid over the extents
 // without outliers, so that one far box does not spoil it.
+// Boxes that are off have no place in it.
 // Where an update knows which few boxes changed, the index follows: a box that stays within the bounds of its block is
 // written there, and one that leaves them, or is new, goes to the spare blocks behind the others. What it left is a
 // hole. When no place is spare any more, or many boxes changed, the next question builds anew: in the order of before,
@@ -128,7 +129,13 @@ template <int D> class Index {
       }
       if (named_) ids_[s] = ids.id(s);
       if (filtered_) rules_[s] = rules[s];
-      if (built_) move(s);
+      if (!built_) continue;
+      if (!is_off(s)) {
+        move(s);
+      } else {
+        vacate(places_[s]);
+        places_[s] = nowhere;
+      }
     }
     return true;
   }
@@ -145,7 +152,7 @@ template <int D> class Index {
     }
     room_ = count_ + count_ / 32 + 64;
     if (known_ == 0 || looks_ >= count_ || !keep_order()) put_in_order();
-    sorted_ = used_ = count_;
+    used_ = sorted_;
     holes_ = false;
     u32 total = 0;
     levels_ = 0;
@@ -155,14 +162,14 @@ template <int D> class Index {
       if (n <= 8) break;
     }
     blocks_.reserve(total);
-    __builtin_memset(&blocks_[count_ / 8], 0xff, (first_[1] - count_ / 8) * sizeof(Block));
+    __builtin_memset(&blocks_[sorted_ / 8], 0xff, (first_[1] - sorted_ / 8) * sizeof(Block));
     fill();
     for (u32 level = 1; level < levels_; level++) {
       u32 below = first_[level] - first_[level - 1];
       __builtin_memset(&blocks_[first_[level] + (below - 1) / 8], 0xff, sizeof(Block));
       for (u32 k = 0; k < below; k++) bound(level, k);
     }
-    for (u32 k = 0; named_ && k < count_; k++) placed_ids_[k] = ids_[slots_[k]];
+    for (u32 k = 0; named_ && k < sorted_; k++) placed_ids_[k] = ids_[slots_[k]];
     built_ = true;
   }
 
@@ -270,11 +277,11 @@ template <int D> class Index {
   /// The blocks of boxes.
   SHARED void fill() {
     const f32* boxes = boxes_.data();
-    for (u32 k = 0; k < count_; k += 4) {
+    for (u32 k = 0; k < sorted_; k += 4) {
       // Boxes as rows; the second half of 3D's begins with the last minimum.
       f32x4 rows[D - 1][4];
       ROLLED for (u32 lane = 0; lane < 4; lane++) {
-        bool is_box = k + lane < count_;
+        bool is_box = k + lane < sorted_;
         const f32* box = boxes + u64(slots_[is_box ? k + lane : k]) * width;
         for (int half = 0; half < D - 1; half++) {
           rows[half][lane] = is_box ? load<f32x4>(box + 2 * half) : splat(nothing);
@@ -286,57 +293,71 @@ template <int D> class Index {
         for (u32 n = 0; n < 4; n++) store(to + 8 * (2 * half + n), rows[half][n]);
       }
     }
-    if ((count_ - 1) % 8 < 4) {
-      for (u32 n = 0; n < width; n++) store(reinterpret_cast<f32*>(&blocks_[(count_ - 1) / 8]) + 8 * n + 4, splat(nothing));
+    if ((sorted_ - 1) % 8 < 4) {
+      for (u32 n = 0; n < width; n++) store(reinterpret_cast<f32*>(&blocks_[(sorted_ - 1) / 8]) + 8 * n + 4, splat(nothing));
     }
   }
 
-  /// Fills slots_ anew.
+  bool is_off(u32 slot) const { return filtered_ && rules_[slot].is_off(); }
+
+  /// Fills slots_ anew, with those that are not off.
   SHARED void put_in_order() {
-    u32 n = count_;
-    looks_ = 0;
+    u32 n = count_, some = 0;
+    looks_ = sorted_ = 0;
     make_room(0);
+    if (n == 0) return;
     SceneItems<D> items{{boxes_.data(), n, nullptr}, AxisOrder<D>::make(0)};
     HilbertCurve<D> curve(measure<D>(items, n));
     sort_.begin(n);
+    u32* sorts = places_.data();  // until places are known: whose key is the k-th
     for (u32 s = 0; s < n; s += 4) {
       u32 key[4], last = n - 1;
       store(key, curve(items, {s, smaller(s + 1, last), smaller(s + 2, last), smaller(s + 3, last)}));
-      ROLLED for (u32 lane = 0; lane < smaller(n - s, 4u); lane++) sort_.put_bits(s + lane, key[lane]);
+      ROLLED for (u32 lane = 0; lane < smaller(n - s, 4u); lane++) {
+        if (is_off(s + lane)) continue;
+        sorts[some] = s + lane;
+        sort_.put_bits(some++, key[lane]);
+      }
     }
-    sort_.sort(n);
-    for (u32 k = 0; k < n; k++) slots_[k] = sort_.index(k);
-    find_places();
+    if (some) sort_.sort(some);
+    for (u32 k = 0; k < some; k++) slots_[k] = sorts[sort_.index(k)];
+    find_places(some);
     width_ = group_width();
   }
 
-  void find_places() {
-    for (u32 place = 0; place < count_; place++) places_[slots_[place]] = place;
+  /// So many have a place.
+  void find_places(u32 some) {
+    sorted_ = some;
     known_ = count_;
+    if (some < count_) __builtin_memset(places_.data(), 0xff, count_ * sizeof(u32));
+    for (u32 place = 0; place < some; place++) places_[slots_[place]] = place;
   }
 
   /// Fills slots_ with those that are in the order, as they stand there, and then with the others. False where boxes
   /// that stand together there no longer do in space.
   COLD bool keep_order() {
     make_room(used_);
-    if (known_ == count_ && used_ == count_ && !holes_) return holds_together();
+    bool same = known_ == count_ && used_ == count_ && !holes_ && !filtered_;
+    if (same) sorted_ = count_;
+    else fill_up();
+    return group_width() <= most_wider * width_;
+  }
+
+  COLD void fill_up() {
     u32 kept = 0;
     for (u32 place = 0; place < used_; place++) {
       u32 slot = slots_[place];
-      if (slot < known_ && places_[slot] == place) slots_[kept++] = slot;
+      if (slot < known_ && places_[slot] == place && !is_off(slot)) slots_[kept++] = slot;
     }
-    for (u32 s = 0; kept < count_ && s < count_; s++) {
-      if (s >= known_ || places_[s] == nowhere) slots_[kept++] = s;
+    for (u32 s = 0; s < count_; s++) {
+      if ((s >= known_ || places_[s] == nowhere) && !is_off(s)) slots_[kept++] = s;
     }
-    find_places();
-    return holds_together();
+    find_places(kept);
   }
-
-  bool holds_together() const { return group_width() <= most_wider * width_; }
 
   /// How wide groups of eight are in the order, on average of a sample. What is infinite does not count.
   COLD f32 group_width() const {
-    u32 groups = count_ / 8, step = groups / sampled + 1, seen = 0;
+    u32 groups = sorted_ / 8, step = groups / sampled + 1, seen = 0;
     f32 sum = 0;
     for (u32 g = 0; g < groups; g += step, seen++) {
       for (u32 a = 0; a < D; a++) {

@@ -97,7 +97,7 @@ class Snapshot {
       if (has(has_ids)) store(at(ids_ + s * sizeof(u32)), ids.id(s));
       if (has(has_layers)) store(at(layers_ + s * sizeof(u32)), rules[s].layer);
       if (has(has_masks)) store(at(masks_ + s * sizeof(u32)), rules[s].mask);
-      if (has(has_bits)) *at(bits_ + s) = u8(rules[s].excluded >> 24);
+      if (has(has_bits)) *at(bits_ + s) = u8(rules[s].excluded >> 24 | rules[s].excluded);
     }
   }
 
@@ -137,8 +137,9 @@ class Snapshot {
     for (u32 s = 0; rules && s < head_.count; s++) {
       rules[s].layer = has(has_layers) ? load<u32>(at(layers_ + s * sizeof(u32))) : ~0u;
       rules[s].mask = has(has_masks) ? load<u32>(at(masks_ + s * sizeof(u32))) : ~0u;
-      rules[s].excluded = has(has_bits) ? u32(*at(bits_ + s)) << 24 : 0;
-      if (rules[s].excluded & ~u32(is_static | is_red | is_blue)) return false;
+      u32 bits = has(has_bits) ? *at(bits_ + s) : 0;
+      rules[s].excluded = (bits & ~Rule::off) << 24 | (bits & Rule::off);
+      if (rules[s].excluded & ~(is_static | is_red | is_blue | Rule::off)) return false;
     }
     if (has(has_order) && !has(has_ids)) return false;
     for (u32 s = 0; has(has_order) && s < head_.count; s++) {

@@ -256,11 +256,19 @@ template <int D> class Space {
     rule.mask = mask;
   }
 
-  /// Sets or clears an exclusion bit of a box.
+  /// Sets or clears an exclusion bit of a box, or the mark that it is off.
   COLD void exclude(u32 slot, u32 bit, bool on) {
     if (!on && !filters_.active()) return;
     Rule& rule = rule_of(slot);
     rule.excluded = on ? rule.excluded | bit : rule.excluded & ~bit;
+  }
+
+  /// Takes a box out of pairs and questions, or back in.
+  COLD void enable(u32 slot, bool on) {
+    if (on != rule(slot).is_off()) return;
+    if (!holds_) hold();
+    changes_.note(slot);  // for the index
+    exclude(slot, Rule::off, !on);
   }
 
   /// Writes what stands in the space to `snapshot`. Returns the first bad id among boxes written in place, or -1.

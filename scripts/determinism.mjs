@@ -42,6 +42,9 @@ for (const dimensions of [2, 3]) {
     tapes[`calls${dimensions}d-${seed}`] = randomTape(dimensions, techniques.length, seed, callsPlayed);
   }
 }
+for (const dimensions of [2, 3]) {
+  tapes[`switched${dimensions}d`] = randomTape(dimensions, techniques.length, 4, callsPlayed, true);
+}
 for (const [name, file] of Object.entries(recordings)) {
   const recording = readRecording(gunzipSync(readFileSync(join(root, file))));
   const frames = Array.from({ length: Math.min(framesPlayed, recording.frames) }, (_, k) => recording.frame(k));

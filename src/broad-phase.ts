@@ -624,6 +624,32 @@ export class BroadPhase<D extends Dimensions = 2> extends Contents<D> {
   }
 
   /**
+   * Switches box `id` off, or on again. A box that is off keeps its numbers and its filter, and can be set, moved and
+   * deleted; it is in no pair and in no answer from the next update on, which ends its pairs. Belongs to the id, as
+   * filters do. While some box is off, an update looks at all boxes and pairs, also where little changes.
+   *
+   * @param id an integer from 0 to 2^24 - 1, of a box that is there
+   * @param enabled whether it takes part
+   * @throws RangeError for a bad id or one that has no box; TypeError for other than a boolean
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(0, 0, 0, 9, 9).set(1, 1, 1, 2, 2).setEnabled(1, false);
+   * space.update().pairCount; // → 0
+   * space.setEnabled(1, true).update().pairCount; // → 1
+   */
+  setEnabled(id: number, enabled: boolean): this {
+    if (!isId(id)) badId('setEnabled', id);
+    if (typeof enabled !== 'boolean') badValue('setEnabled: enabled', enabled, 'true or false', true);
+    try {
+      if (this.kernel.set_enabled(id, enabled ? 1 : 0) === 0) noBox('setEnabled', id);
+    } catch (error) {
+      this.recover(error, 'setEnabled');
+    }
+    return this;
+  }
+
+  /**
    * Takes all boxes away, with their filters.
    *
    * @example

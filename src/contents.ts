@@ -77,6 +77,19 @@ export abstract class Contents<D extends Dimensions> extends Queries<D> {
   }
 
   /**
+   * Whether box `id` takes part, as `setEnabled` has it: not where there is none.
+   * @param id an integer from 0 to 2^24 - 1
+   * @throws RangeError for a bad id
+   *
+   * @example
+   * new BroadPhase().set(7, 0, 0, 1, 1).setEnabled(7, false).isEnabled(7); // → false
+   */
+  isEnabled(id: number): boolean {
+    if (!isId(id)) badId('isEnabled', id);
+    return this.kernel.get_rule(id) === 1 && this.io()[3] === 1;
+  }
+
+  /**
    * Adds box `id`, or moves it, by its centre and half its size, such as the box of a circle:
    * `setCentred(id, x, y, radius, radius)`. 2D `setCentred(id, x, y, halfWidth, halfHeight)`, 3D
    * `setCentred(id, x, y, z, halfWidth, halfHeight, halfDepth)`. The box is that of the four (six) sums, each rounded as

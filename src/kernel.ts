@@ -25,6 +25,7 @@ export interface KernelExports {
   clear(): void;
   set_filter(id: number, layer: number, mask: number): number;
   set_static(id: number, on: number): number;
+  set_enabled(id: number, on: number): number;
   get_rule(id: number): number;
   list_ids(): number;
   contents(): void;

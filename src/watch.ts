@@ -6,8 +6,8 @@ export const watch: unique symbol = Symbol.for('broadphase.watch') as never;
 
 /**
  * Called after each update with the boxes in the kernel's order, float32 where that holds all of them exactly; the id
- * of each, or nothing where the ids are 0, 1, 2, …; and layer, mask and a number other than 0 where it is static of
- * each, or nothing where no box was ever given such. All are views, valid during the call.
+ * of each, or nothing where the ids are 0, 1, 2, …; and layer, mask and marks of each, or
+ * nothing where no box was ever given such: 2 among the marks says that it is off, any other that it is static. All are views, valid during the call.
  */
 export type Watcher = (
   boxes: Float32Array | Float64Array,

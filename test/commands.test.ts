@@ -262,6 +262,15 @@ function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>
         else expect(() => space.setStatic(id, isStatic)).toThrow(`setStatic: there is no box ${id}`);
       }),
     ),
+    fc.tuple(anId, fc.boolean()).map(([id, enabled]) =>
+      call(`setEnabled(${id}, ${enabled})`, (model, space) => {
+        const known = model.entries.get(id);
+        if (known) known.isOff = !enabled;
+        if (known) expect(space.setEnabled(id, enabled)).toBe(space);
+        else expect(() => space.setEnabled(id, enabled)).toThrow(`setEnabled: there is no box ${id}`);
+        expect(space.isEnabled(id)).toBe(known !== undefined && enabled);
+      }),
+    ),
     fc.constantFrom(...BroadPhase.techniques).map((technique) =>
       call(`technique = ${technique}`, (_, space) => {
         space.technique = technique;
@@ -383,6 +392,10 @@ function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>
     bad('setFilter', fc.tuple(noId, bits, bits)),
     bad('setFilter', spoilt(fc.tuple(anId, bits, bits), 1, noBits)),
     bad('setStatic', fc.oneof(tuple(noId, 1), fc.tuple(anId, fc.constantFrom<unknown>(1, 'yes', null, {})))),
+    bad(
+      'setEnabled',
+      fc.oneof(fc.tuple(noId, fc.boolean()), fc.tuple(anId, fc.constantFrom<unknown>(1, undefined, null))),
+    ),
     bad('isColliding', fc.oneof(fc.tuple(noId, anId), fc.tuple(anId, noId))),
     bad('collisionsOf', fc.oneof(tuple(noId, 1), fc.tuple(anId, fc.constantFrom<unknown>(5, 'out', null, {})))),
     bad('queryBox', spoilt(aBox, 0, noNumber)),

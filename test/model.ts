@@ -1,5 +1,5 @@
 // A space and a plain model of it, driven together by random calls: what the tests of filters, events and queries
-// compare. The model holds each box's numbers, layer, mask and whether it is static; its pairs are the reference's.
+// compare. The model holds each box's numbers, layer, mask and whether it is static or off; its pairs are the reference's.
 import { BroadPhase, type BroadPhaseOptions } from 'broadphase';
 import { createRandom } from '../src/scenes/random.ts';
 import { overlap, pairOf, referencePairs } from './reference.ts';
@@ -10,12 +10,13 @@ export interface Entry {
   layer: number;
   mask: number;
   isStatic: boolean;
+  isOff?: boolean;
 }
 
 const all = 0xffffffff;
 
 export const meet = (a: Entry, b: Entry): boolean =>
-  (a.layer & b.mask) !== 0 && (b.layer & a.mask) !== 0 && !(a.isStatic && b.isStatic);
+  !a.isOff && !b.isOff && (a.layer & b.mask) !== 0 && (b.layer & a.mask) !== 0 && !(a.isStatic && b.isStatic);
 
 /** The keys of all pairs of the entries that overlap and meet, sorted. */
 export function pairsOf(entries: ReadonlyMap<number, Entry>, dimensions: number): Float64Array {
@@ -86,6 +87,12 @@ export class Modelled {
     if (!this.entries.has(id)) return;
     this.space.setStatic(id, isStatic);
     this.entries.get(id)!.isStatic = isStatic;
+  }
+
+  setEnabled(id: number, enabled: boolean): void {
+    if (!this.entries.has(id)) return;
+    this.space.setEnabled(id, enabled);
+    this.entries.get(id)!.isOff = !enabled;
   }
 
   /** Ids 0 … count - 1, given at once. */

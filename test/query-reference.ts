@@ -19,6 +19,7 @@ export interface Ranked {
 function* wanted(entries: Entries, { mask, ignore }: Asked): Generator<[number, Entry]> {
   for (const [id, entry] of entries) {
     if (
+      entry.isOff ||
       id === ignore ||
       (typeof ignore === 'object' && ignore.includes(id)) ||
       (mask !== undefined && mask !== 0xffffffff && (entry.layer & mask) === 0)

@@ -112,6 +112,7 @@ template <int D> class Calls {
       for (u32 bit : {u32(is_static), u32(is_red), u32(is_blue)}) {
         fresh->space.exclude(fresh->ids.slot(id), bit, rule.excluded & bit);
       }
+      fresh->space.enable(fresh->ids.slot(id), !rule.is_off());
     }
     CHECK(fresh->space.update() == -1);
     return sorted_pairs(fresh->space);
@@ -323,9 +324,13 @@ template <int D> class Calls {
   void exclude() {
     if (model_.count() == 0) return;
     std::vector<u32> all = model_.ids();
-    u32 id = all[bytes_.next16() % all.size()], bit = u32(is_static) >> bytes_.below(3);
+    u32 id = all[bytes_.next16() % all.size()], which = bytes_.below(4), bit = which < 3 ? u32(is_static) >> which : Rule::off;
     bool on = bytes_.below(4) > 0;
-    if (made([&] { space_.exclude(ids_.slot(id), bit, on); })) model_.exclude(id, bit, on);
+    auto exclude = [&] {
+      if (bit == Rule::off) space_.enable(ids_.slot(id), !on);
+      else space_.exclude(ids_.slot(id), bit, on);
+    };
+    if (made(exclude)) model_.exclude(id, bit, on);
   }
 
   void clear() {
@@ -426,6 +431,7 @@ template <int D> class Calls {
     for (u32 id : model_.ids()) {
       space_.filter(ids_.slot(id), ~0u, ~0u);
       for (u32 bit : {u32(is_static), u32(is_red), u32(is_blue)}) space_.exclude(ids_.slot(id), bit, false);
+      space_.enable(ids_.slot(id), true);
     }
     CHECK(space_.update() == -1);
     updated_ = true;
@@ -503,7 +509,7 @@ template <int D> class Calls {
     if (!seen_) return ids;
     for (u32 id : seen_->ids()) {
       bool wanted = question.mask == ~0u || (seen_->rule(id).layer & question.mask);
-      if (wanted && id != question.ignored) ids.push_back(id);
+      if (wanted && id != question.ignored && !seen_->rule(id).is_off()) ids.push_back(id);
     }
     return ids;
   }

@@ -2,7 +2,7 @@
 // taken only for boxes whose numbers are there, at most some 100 bytes for each byte of the file. Time goes with the bytes
 // too: of what stays as it was nothing is touched, however many boxes there are.
 import { Cursor } from './bytes.ts';
-import { doublesFlag, type Frame, frameKind, maxBoxes, ruleBits, rulesFlag } from './format.ts';
+import { doublesFlag, type Frame, frameKind, marks, maxBoxes, ruleBits, rulesFlag } from './format.ts';
 import { predict, takeDistance } from './numbers.ts';
 import { all, grown, IdSet, TraceState } from './state.ts';
 
@@ -157,7 +157,7 @@ export class FrameDecoder {
       this.#ruled -= Number(isOwn(state.rules, place));
       state.rules[3 * place] = filtered ? cursor.varint('', all) : all;
       state.rules[3 * place + 1] = filtered ? cursor.varint('', all) : all;
-      state.rules[3 * place + 2] = bits & ruleBits.still ? 1 : 0;
+      state.rules[3 * place + 2] = (bits & ruleBits.still ? marks.still : 0) | (bits & ruleBits.off ? marks.off : 0);
       this.#ruled += Number(isOwn(state.rules, place));
     }
   }
@@ -243,7 +243,7 @@ function skipRules(cursor: Cursor, count: number): void {
     const place = next + cursor.varint('the place of a rule', maxBoxes);
     if (place >= count) cursor.fail(`a rule for place ${place} of ${count}`);
     const bits = cursor.byte('a rule');
-    if (bits > (ruleBits.still | ruleBits.filter)) cursor.fail(`a rule of unknown kind ${bits}`);
+    if (bits > (ruleBits.still | ruleBits.filter | ruleBits.off)) cursor.fail(`a rule of unknown kind ${bits}`);
     if (bits & ruleBits.filter) {
       cursor.varint('a layer', all);
       cursor.varint('a mask', all);

@@ -1,5 +1,6 @@
 // The exact answer, without the kernel: what a replay is checked against. Sorts along one axis and sweeps, in doubles.
 // A set of pairs is a sorted Float64Array with one number a pair: the smaller id times 2^24, plus the larger.
+import { marks } from './format.ts';
 
 const idLimit = 2 ** 24;
 
@@ -134,10 +135,11 @@ export function differenceOf(found: Float64Array, expected: Float64Array): Diffe
   return missing + extra > 0 ? { missing, extra, pair: [Math.floor(first / idLimit), first % idLimit] } : undefined;
 }
 
-/** Whether each one's layer is in the other's mask, and not both are static. */
+/** Whether each one's layer is in the other's mask, not both are static, and none is off. */
 function mayMeet(rules: ArrayLike<number>, a: number, b: number): boolean {
   const filtered = (rules[a] & rules[b + 1]) !== 0 && (rules[b] & rules[a + 1]) !== 0;
-  return filtered && !(rules[a + 2] !== 0 && rules[b + 2] !== 0);
+  const off = (rules[a + 2] | rules[b + 2]) & marks.off;
+  return filtered && !off && !(rules[a + 2] & rules[b + 2] & marks.still);
 }
 
 const key = (a: number, b: number): number => (a < b ? a * idLimit + b : b * idLimit + a);

@@ -27,8 +27,11 @@ export const rulesFlag = 0x20;
  */
 export const wrapsAround = 1;
 
-/** What a rule says: that a box is static, and that a layer and a mask follow. */
-export const ruleBits = { still: 1, filter: 2 } as const;
+/** What a rule says: that a box is static, that a layer and a mask follow, and that it is off. */
+export const ruleBits = { still: 1, filter: 2, off: 4 } as const;
+
+/** What the third number of a rule says: that a box is static, and that it is off. */
+export const marks = { still: 1, off: 2 } as const;
 
 /** Ids, and so boxes, end here. */
 export const maxBoxes = 2 ** 24;
@@ -70,7 +73,7 @@ export interface Frame {
   readonly count: number;
   /** The id of each box, all different; `undefined` where they are 0 … count - 1. */
   readonly ids: Uint32Array | undefined;
-  /** Layer, mask, and 1 where it is static, of each box; left out where none has a rule of its own. */
+  /** Layer, mask, and marks of each box, 1 where it is static plus 2 where it is off; left out where none has a rule of its own. */
   readonly rules?: Uint32Array | undefined;
   /** The size of the world along each axis, where it wraps around. */
   readonly wrap?: readonly number[] | undefined;

@@ -1,7 +1,7 @@
 // Plays frames into a BroadPhase and measures each update.
 import { BroadPhase, type BroadPhaseOptions, type TechniqueName } from 'broadphase';
 import { type Difference, differenceOf, exactPairs, pairKeys } from './exact.ts';
-import { type Frame, type FrameSource, worldOf } from './format.ts';
+import { type Frame, type FrameSource, marks, worldOf } from './format.ts';
 import { all } from './state.ts';
 
 /** What the last frame left in a space: a copy, since frames are views. */
@@ -59,13 +59,15 @@ function applyRules(space: BroadPhase<2 | 3>, { ids, rules, count }: Frame, befo
   for (let place = 0, k = 0; place < count; place++, k += 3) {
     const layer = rules ? rules[k] : all;
     const mask = rules ? rules[k + 1] : all;
-    const still = rules !== undefined && rules[k + 2] !== 0;
+    const its = rules ? rules[k + 2] : 0;
     const known = were !== undefined && place < had;
     const filtered = layer !== (known ? were[k] : all) || mask !== (known ? were[k + 1] : all);
-    const stilled = still !== (known && were[k + 2] !== 0);
-    if (filtered) space.setFilter(ids ? ids[place] : place, layer, mask);
-    if (stilled) space.setStatic(ids ? ids[place] : place, still);
-    changed ||= filtered || stilled;
+    const differ = its ^ (known ? were[k + 2] : 0);
+    const id = ids ? ids[place] : place;
+    if (filtered) space.setFilter(id, layer, mask);
+    if (differ & marks.still) space.setStatic(id, (its & marks.still) !== 0);
+    if (differ & marks.off) space.setEnabled(id, (its & marks.off) === 0);
+    changed ||= filtered || differ !== 0;
   }
   if (changed) before.rules = rules?.slice();
 }

@@ -9,6 +9,7 @@ import {
   frameKind,
   headerBytes,
   magic,
+  marks,
   maxBoxes,
   ruleBits,
   rulesFlag,
@@ -81,7 +82,7 @@ export class TraceWriter {
    * One frame. `header()` must have been called before.
    * @param boxes minima then maxima, box after box
    * @param ids the id of each box; left out: 0, 1, 2, …
-   * @param rules layer, mask, and other than 0 where it is static, of each box; left out: none has a rule of its own
+   * @param rules layer, mask, and marks of each box: 2 among them where it is off, any other where it is static; left out: none has a rule of its own
    * @throws RangeError for a box that is none, for an id twice or out of range, and where lengths do not fit: nothing
    *   is written then
    *
@@ -197,7 +198,7 @@ export class TraceWriter {
     state.startRules();
     const were = state.rules;
     for (let place = 0, k = 0; place < state.count; place++, k += 3) {
-      const same = were[k] === rules[k] && were[k + 1] === rules[k + 1] && (were[k + 2] !== 0) === (rules[k + 2] !== 0);
+      const same = were[k] === rules[k] && were[k + 1] === rules[k + 1] && were[k + 2] === marksOf(rules[k + 2]);
       if (!same) changed.push(place);
     }
     return changed;
@@ -209,15 +210,17 @@ export class TraceWriter {
     out.varint(changed.length);
     let next = 0;
     for (const place of changed) {
-      const [layer, mask, still] = rules.subarray(3 * place, 3 * place + 3);
+      const [layer, mask, given] = rules.subarray(3 * place, 3 * place + 3);
+      const its = marksOf(given);
       const filtered = layer !== all || mask !== all;
       out.varint(place - next);
-      out.byte((still ? ruleBits.still : 0) | (filtered ? ruleBits.filter : 0));
+      const still = its & marks.still ? ruleBits.still : 0;
+      out.byte(still | (its & marks.off ? ruleBits.off : 0) | (filtered ? ruleBits.filter : 0));
       if (filtered) {
         out.varint(layer);
         out.varint(mask);
       }
-      state.rules.set([layer, mask, still ? 1 : 0], 3 * place);
+      state.rules.set([layer, mask, its], 3 * place);
       next = place + 1;
     }
     state.lookAtRules();
@@ -269,6 +272,9 @@ export class TraceWriter {
     out.length = at;
   }
 }
+
+/** Marks as they are kept, of marks as a space has them. */
+const marksOf = (given: number): number => (given & ~marks.off ? marks.still : 0) | (given & marks.off);
 
 /** The rules of boxes that have none of their own. */
 function everybody(count: number): Uint32Array {

@@ -44,6 +44,9 @@ export function play(tape: Float64Array, technique: number): string {
       case calls.setStatic:
         space.setStatic(next(), next() === 1);
         break;
+      case calls.setEnabled:
+        space.setEnabled(next(), next() === 1);
+        break;
       case calls.setAll:
         space.setAll(take(next() * 2 * dimensions));
         break;

@@ -19,10 +19,20 @@ export const calls = {
   nearest: 12, // k, point
   sweep: 13, // box, displacement
   collisionsOf: 14, // id
+  setEnabled: 15, // id, 0 or 1
 } as const;
 
-/** A tape of random calls: boxes that touch, move a little, jump, come and go, and are asked about. */
-export function randomTape(dimensions: 2 | 3, techniques: number, seed: number, count: number): Float64Array {
+/**
+ * A tape of random calls: boxes that touch, move a little, jump, come and go, and are asked about.
+ * @param switches whether they are switched off and on too
+ */
+export function randomTape(
+  dimensions: 2 | 3,
+  techniques: number,
+  seed: number,
+  count: number,
+  switches = false,
+): Float64Array {
   const random = createRandom(seed);
   const integer = (below: number) => Math.floor(random() * below);
   const tape: number[] = [dimensions, 1];
@@ -52,6 +62,7 @@ export function randomTape(dimensions: 2 | 3, techniques: number, seed: number, 
     });
   };
   for (let n = 0; n < count; n++) {
+    if (switches && known.size && random() < 0.2) tape.push(calls.setEnabled, someone(), integer(2));
     const chance = random();
     if (chance < 0.3) set(id(), fresh());
     else if (chance < 0.5 && known.size) {

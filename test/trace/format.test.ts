@@ -193,7 +193,7 @@ describe('errors say where', () => {
       'the number of new rules is 1, expected at most 0',
     ],
     ['a rule of a place that is not', [0x21, 2, 0, 1, 2, 1, 0], 'a rule for place 2 of 2'],
-    ['a rule of unknown kind', [0x21, 2, 0, 1, 0, 4, 0], 'a rule of unknown kind 4'],
+    ['a rule of unknown kind', [0x21, 2, 0, 1, 0, 8, 0], 'a rule of unknown kind 8'],
     ['a layer of more than 32 bits', [0x21, 2, 0, 1, 0, 2, 255, 255, 255, 255, 127, 1, 0], 'a layer is 34359738367'],
     ['an unknown kind', [7], 'unknown kind'],
     ['changes before any snapshot', [2, 0, 0, 0], 'not a snapshot'],

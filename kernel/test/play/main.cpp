@@ -72,6 +72,7 @@ template <int D> class Player {
       case 12: return nearest();
       case 13: return sweep();
       case 14: return partners();
+      case 15: return enable();
       default: std::fprintf(stderr, "play: the tape has no such call\n"); std::exit(1);
     }
   }
@@ -90,6 +91,10 @@ template <int D> class Player {
   void exclude() {
     u32 slot = ids_.slot(whole());
     space_.exclude(slot, is_static, next() == 1);
+  }
+  void enable() {
+    u32 slot = ids_.slot(whole());
+    space_.enable(slot, next() == 1);
   }
   void replace() {
     u32 count = whole();
