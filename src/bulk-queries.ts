@@ -65,7 +65,7 @@ const ofAllOptions = ['mask', 'maxDistance', 'out'];
 export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
   /**
    * The boxes in each of many boxes, as `queryBox` answers each: those of question k are `ids[offsets[k]]` up to
-   * `ids[offsets[k + 1] - 1]`. One call for many is faster, and makes no array for each.
+   * `ids[offsets[k + 1] - 1]`. One call for all, and no array for each.
    *
    * @param boxes the numbers of each, minima first, one box behind the other
    * @param options `ignoreEach[k]` is left out of the answers of question k; an `out` is filled and returned: the answer of
