@@ -8,6 +8,7 @@
 BOTH(Index)
 BOTH(Queries)
 BOTH(PlaneQuery)
+BOTH(Bulk)
 BOTH(Space)
 
 namespace {
@@ -214,9 +215,9 @@ EXPORT(answers_address)() -> u32* {
   return with_space([](auto& space) { return space.answers.data(); });
 }
 /// Questions. What they ask is in io: the box or twice the point, what it moves by, then at fixed places the radius
-/// (negative: none; -2: boxes are to be within the box), the limit, the length of the way, the rank of the hit to go on
-/// behind, whose id is `after`, and the planes, each a normal and an offset.
-enum : u32 { radius_at = 12, limit_at = 13, length_at = 14, after_at = 15, planes_at = 16, no_id = 0xffffffff };
+/// (negative: none; -2: boxes are to be within the box), the limit, the rank of the hit to go on behind, whose id is
+/// `after`, and the planes, each a normal and an offset.
+enum : u32 { radius_at = 12, limit_at = 13, after_at = 14, planes_at = 15, no_id = 0xffffffff };
 
 template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignored) {
   for (int a = 0; a < D; a++) {
@@ -226,7 +227,6 @@ template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignore
   }
   to.radius = io[radius_at];
   to.limit = io[limit_at];
-  to.length = io[length_at];
   to.mask = mask;
   to.ignored = ignored;
 }
@@ -259,10 +259,35 @@ EXPORT(ask_planes)(u32 planes, u32 mask, u32 ignored, u32 from, u32 most) -> u32
 EXPORT(ask_order)(u32 kind, u32 mask, u32 ignored, u32 after, u32 most) -> u32 {
   return with_space([&](auto& space) {
     read_question(space.question, mask, ignored);
-    space.question.stops = kind == 2;
+    space.question.measure_way(kind == 1);
     Hit last{io[after_at], after, 0};
     return space.ask_order(kind != 0, most, after == no_id ? nullptr : &last);
   });
+}
+/// Many questions: where their numbers go, and then of each the id it ignores.
+EXPORT(stage_questions)(u32 numbers) -> f64* {
+  return with_space([&](auto& space) { return space.bulk.stage(numbers); });
+}
+/// The first whose numbers are bad, or -1.
+EXPORT(bad_question)(u32 kind, u32 count) -> i32 {
+  return with_space([&](auto& space) { return space.bulk.first_bad(Asks(kind), count); });
+}
+/// The number of questions. Of each, parts_address says where its answers begin and end among those of all, which are ids
+/// for areas, else hits. Of all boxes, their ids are in answers.
+EXPORT(ask_many)(u32 kind, u32 count, u32 mask, u32 most) -> u32 {
+  return with_space([&](auto& space) {
+    read_question(space.question, mask, no_id);
+    return space.ask_many(Asks(kind), count, most);
+  });
+}
+EXPORT(parts_address)() -> const u32* {
+  return with_space([](auto& space) { return space.bulk.parts(); });
+}
+EXPORT(many_ids_address)() -> const u32* {
+  return with_space([](auto& space) { return space.bulk.ids.data(); });
+}
+EXPORT(many_hits_address)() -> const Hit* {
+  return with_space([](auto& space) { return space.bulk.hits.data(); });
 }
 EXPORT(hits_address)() -> const Hit* {
   return with_space([](auto& space) { return space.hits.data(); });

@@ -67,6 +67,10 @@ template <int D> class Index {
   /// Whether float32 does not hold all boxes.
   bool rounded() const { return rounded_; }
   u32 id(u32 place) const { return ids()[place]; }
+  /// Of a place, also of one that was left; and of a slot.
+  u32 slot(u32 place) const { return slots_[place]; }
+  u32 place(u32 slot) const { return places_[slot]; }
+  u32 id_of_slot(u32 slot) const { return named_ ? ids_[slot] : slot; }
   /// Of all places.
   const u32* ids() const { return named_ ? placed_ids_.data() : slots_.data(); }
   u32 layer(u32 place) const { return filtered_ ? rules_[slots_[place]].layer : 0xffffffff; }
@@ -306,21 +310,11 @@ template <int D> class Index {
     looks_ = sorted_ = 0;
     make_room(0);
     if (n == 0) return;
-    SceneItems<D> items{{boxes_.data(), n, nullptr}, AxisOrder<D>::make(0)};
-    HilbertCurve<D> curve(measure<D>(items, n));
-    sort_.begin(n);
-    u32* sorts = places_.data();  // until places are known: whose key is the k-th
-    for (u32 s = 0; s < n; s += 4) {
-      u32 key[4], last = n - 1;
-      store(key, curve(items, {s, smaller(s + 1, last), smaller(s + 2, last), smaller(s + 3, last)}));
-      ROLLED for (u32 lane = 0; lane < smaller(n - s, 4u); lane++) {
-        if (is_off(s + lane)) continue;
-        sorts[some] = s + lane;
-        sort_.put_bits(some++, key[lane]);
-      }
+    sort_along_curve<D>(boxes_.data(), n, sort_);
+    for (u32 k = 0; k < n; k++) {
+      u32 slot = sort_.index(k);
+      if (!is_off(slot)) slots_[some++] = slot;
     }
-    if (some) sort_.sort(some);
-    for (u32 k = 0; k < some; k++) slots_[k] = sorts[sort_.index(k)];
     find_places(some);
     width_ = group_width();
   }

@@ -13,7 +13,7 @@
 
 /// What a question is asked with.
 template <int D> struct Question {
-  f64 lo[D] = {}, hi[D] = {};  // the box, or twice the point
+  f64 lo[D] = {}, hi[D] = {};  // the box, which may be a point
   f64 along[D] = {};           // what a moving box moves by
   f64 radius = 0;              // of a circle; negative: none, or `within`
   f64 limit = 0;               // the largest rank
@@ -23,6 +23,15 @@ template <int D> struct Question {
   u32 ignored = 0;             // an id
 
   static constexpr f64 within = -2;  // in place of a radius: boxes are to be within the box, wholly
+
+  /// Sets `length`, without overflow. A ray ranks by distance.
+  COLD void measure_way(bool is_ray) {
+    f64 most = 0, sum = 0;
+    for (int a = 0; a < D; a++) most = larger(most, __builtin_fabs(along[a]));
+    for (int a = 0; a < D && most > 0; a++) sum += (along[a] / most) * (along[a] / most);
+    length = is_ray ? most * __builtin_sqrt(sum) : 1;
+    stops = !is_ray;
+  }
 };
 
 /// Which boxes a question is about, by its mask and by whom it ignores.
@@ -149,8 +158,9 @@ template <int D> class Queries {
   u32 looks() const { return looks_; }
 
   /// Writes the ids of the boxes that touch the box or the circle, in the order of the index from place `from` on, at
-  /// most so many. Returns how many; `from` becomes the place to go on from, or the number of boxes.
-  COLD u32 area(u32& from, u32 most, Buffer<u32>& answers) {
+  /// most so many, behind those found before. Returns how many; `from` becomes the place to go on from, or the number of
+  /// boxes.
+  COLD u32 area(u32& from, u32 most, Buffer<u32>& answers, u32 found = 0) {
     for (int a = 0; a < D; a++) {
       f64 lo = asked_.lo[a], hi = asked_.hi[a];
       if (is_circle()) {
@@ -164,6 +174,7 @@ template <int D> class Queries {
     }
     from_ = from;
     most_ = most;
+    found_ = found;
     from = walk(index_.top(), 0, answers) ? index_.places() : from_;
     return found_;
   }
@@ -188,10 +199,10 @@ template <int D> class Queries {
     search<true>(index_.top(), 0, hits);
   }
 
-  /// The nearest boxes to the point.
+  /// The nearest boxes to the box, most often a point.
   COLD void near(Hits& hits) {
     for (int a = 0; a < D; a++) {
-      above_[a] = splat(round_up(asked_.lo[a]));
+      above_[a] = splat(round_up(asked_.hi[a]));
       below_[a] = splat(round_down(asked_.lo[a]));
     }
     search<false>(index_.top(), 0, hits);
@@ -367,13 +378,13 @@ template <int D> class Queries {
   /// No less than the square of every distance within the limit.
   static f64 squared_limit(f64 limit) { return limit * limit * (1 + 1e-15) + 1e-300; }
 
-  /// The distance of the point to a box whose square is given, which may have overflowed.
+  /// The distance to a box whose square is given, which may have overflowed.
   f64 distance(u32 place, f64 squared) const {
     if (squared < 1e300) return __builtin_sqrt(squared);
     f64 box[2 * D], away[D], most = 0, sum = 0;
     index_.box(place, box);
     for (int a = 0; a < D; a++) {
-      away[a] = larger(0.0, larger(box[a] - asked_.lo[a], asked_.lo[a] - box[D + a]));
+      away[a] = larger(0.0, larger(box[a] - asked_.hi[a], asked_.lo[a] - box[D + a]));
       most = larger(most, away[a]);
     }
     if (!(most < __builtin_inf())) return most;
@@ -384,26 +395,28 @@ template <int D> class Queries {
   /// Writes the squared distances to eight boxes. Returns one bit for each within the limit, and perhaps more.
   SHARED u32 distances(u32 number, f64 limit, f64 (&to)[8]) const {
     const Block& block = index_.block(0, number);
-    u32 close = 0;
+    u32 close = 0, is_box = 0;
     ROLLED for (u32 lane = 0; lane < 8; lane += 2) {
       f64x2 sum = {};
       for (int a = 0; a < D; a++) {
         f64x2 lo = __builtin_convertvector(load<f32x2>(block.lo[a] + lane), f64x2);
         f64x2 hi = __builtin_convertvector(load<f32x2>(block.hi[a] + lane), f64x2);
-        // Not a number where there is no box.
-        f64x2 away = max(f64x2{}, max(lo - splat(asked_.lo[a]), splat(asked_.lo[a]) - hi));
+        // Infinite sides that meet are not apart; what is no number is not in `is_box`.
+        f64x2 away = max(max(lo - splat(asked_.hi[a]), splat(asked_.lo[a]) - hi), f64x2{});
         sum += away * away;
+        if (a == 0) is_box |= at_most(lo, hi) << lane;
       }
       store(to + lane, sum);
       close |= at_most(sum, splat(limit)) << lane;
     }
+    close &= is_box;
     for (u32 left = index_.rounded() ? close : 0; left; left &= left - 1) {
       u32 lane = u32(__builtin_ctz(left));
       f64 box[2 * D];
       index_.box(number * 8 + lane, box);
       to[lane] = 0;
       for (int a = 0; a < D; a++) {
-        f64 away = larger(0.0, larger(box[a] - asked_.lo[a], asked_.lo[a] - box[D + a]));
+        f64 away = larger(0.0, larger(box[a] - asked_.hi[a], asked_.lo[a] - box[D + a]));
         to[lane] += away * away;
       }
     }

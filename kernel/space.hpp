@@ -7,6 +7,7 @@
 // Every change allocates before it writes: when memory ends, the space is as it was.
 #pragma once
 #include "auto.hpp"
+#include "bulk.hpp"
 #include "events.hpp"
 #include "filters.hpp"
 #include "gap_map.hpp"
@@ -81,6 +82,7 @@ template <int D> class Space {
   Planes<D> planes;  // of a question about planes
   Buffer<u32> answers;  // ids, of the last question
   Hits hits;            // where the question asks for an order
+  Bulk<D> bulk;         // many questions, and their answers
   Stats stats;
   Buffer<f32> cells;  // what structure() has written
   u32 cell_count = 0;
@@ -449,6 +451,21 @@ template <int D> class Space {
     return hits.finish();
   }
 
+  /// Answers many questions, those that are staged or those of all boxes, into `bulk`; `question` says what they have in
+  /// common. Returns how many there are, or `unknown`.
+  COLD u32 ask_many(Asks kind, u32 count, u32 most) {
+    if (lost_) return unknown;
+    bool can = can_answer();
+    if (kind == Asks::others) count = index_.count();
+    if (can) bulk.answer(index_, question, kind, count, most, hits);
+    else bulk.answer_nothing(count);
+    if (kind == Asks::others) {
+      answers.reserve(count);
+      for (u32 s = 0; s < count; s++) answers[s] = index_.id_of_slot(s);
+    }
+    return count;
+  }
+
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
   /// all finite boxes.
   COLD void structure() {
@@ -493,6 +510,7 @@ template <int D> class Space {
     index_.forget();
     answers.release();
     hits.release();
+    bulk.release();
     stats.bytes = f64(heap::used);
   }
 

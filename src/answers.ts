@@ -21,9 +21,8 @@ import { ioLength, Space } from './space.ts';
 // Places in the kernel's array of numbers: see kernel/abi.cpp.
 export const radiusAt = 12;
 export const limitAt = 13;
-export const lengthAt = 14;
-const afterAt = 15;
-export const planesAt = 16;
+const afterAt = 14;
+export const planesAt = 15;
 
 /** What the kernel is asked for: see there. */
 export const near = 0;
@@ -327,7 +326,7 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
 }
 
 /** A number of answers, where the kernel knows them. */
-function known(where: string, count: number): number {
+export function known(where: string, count: number): number {
   if (count !== -1) return count;
   throw new Error(
     `${where}: boxes have changed since the last update, and a space of so many keeps none of before until it was ` +
@@ -339,7 +338,7 @@ function updatedInside(where: string): never {
   throw new Error(`${where}: update was called by the visitor, expected it to wait until the search has ended`);
 }
 
-function noQueries(where: string): never {
+export function noQueries(where: string): never {
   throw new Error(
     `${where}: this world wraps around, in which queries are not answered, expected a space without wrap`,
   );

@@ -54,6 +54,12 @@ export interface KernelExports {
   ask_area(mask: number, ignored: number, from: number, most: number): number;
   ask_planes(planes: number, mask: number, ignored: number, from: number, most: number): number;
   ask_order(kind: number, mask: number, ignored: number, after: number, most: number): number;
+  stage_questions(numbers: number): number;
+  bad_question(kind: number, count: number): number;
+  ask_many(kind: number, count: number, mask: number, most: number): number;
+  parts_address(): number;
+  many_ids_address(): number;
+  many_hits_address(): number;
   hits_address(): number;
   updates(): number;
   stats_address(): number;

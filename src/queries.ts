@@ -6,7 +6,6 @@ import {
   finite,
   isNumber,
   isPlace,
-  lengthAt,
   limitAt,
   near,
   none,
@@ -22,6 +21,7 @@ import { badHit, badQuestion, badValue, checkOptions, checkOut, isHit, sweep2, s
 import { PlaneQueries } from './plane-queries.ts';
 import {
   checkDistance,
+  checkMost,
   everything,
   farOptions,
   type NearestOptions,
@@ -35,8 +35,8 @@ import {
   sweepOptions,
 } from './query-options.ts';
 
-const ray2 = [...point2, 'directionX', 'directionY'];
-const ray3 = [...point3, 'directionX', 'directionY', 'directionZ'];
+export const ray2 = [...point2, 'directionX', 'directionY'];
+export const ray3 = [...point3, 'directionX', 'directionY', 'directionZ'];
 
 /**
  * A space that answers. Users meet it as BroadPhase.
@@ -195,7 +195,6 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
     io[4] = e;
     io[5] = f;
     io[limitAt] = 1;
-    io[lengthAt] = 1;
     checkOptions('sweep', options, sweepOptions);
     if (options?.visit !== undefined) {
       this.visitOrder('sweep', onWay, options, everything, options.visit as Visitor);
@@ -246,11 +245,7 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
     } else {
       this.point('nearest', x, y, z);
     }
-    if (typeof most !== 'number') badValue('nearest: k', most, 'an integer from 1 on, or Infinity', true);
-    if (!(Number.isInteger(most) && most >= 1) && most !== Number.POSITIVE_INFINITY) {
-      badValue('nearest: k', most, 'an integer from 1 on, or Infinity');
-    }
-    const wanted = Math.min(most, everything);
+    const wanted = checkMost('nearest', most);
     checkOptions('nearest', options, nearestOptions);
     const { maxDistance = Number.POSITIVE_INFINITY } = options ?? {};
     checkDistance('nearest: maxDistance', maxDistance);
@@ -310,22 +305,9 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
     }
     io[0] = a;
     io[1] = b;
-    writeLength(io, this.width, this.dimensions);
     checkOptions(where, options, known);
     const { maxDistance = Number.POSITIVE_INFINITY } = options ?? {};
     io[limitAt] = checkDistance(`${where}: maxDistance`, maxDistance);
     return options;
   }
-}
-
-/**
- * Writes the length of the way that begins in place `first` of the kernel's array: without overflow, and the same on
- * every machine, as Math.hypot is not. It reads and writes the array because doubles in and out of a call are garbage.
- */
-function writeLength(io: Float64Array, first: number, dimensions: number): void {
-  let most = 0;
-  for (let k = first; k < first + dimensions; k++) most = Math.max(most, Math.abs(io[k]!));
-  let sum = 0;
-  for (let k = first; most > 0 && k < first + dimensions; k++) sum += (io[k]! / most) * (io[k]! / most);
-  io[lengthAt] = most * Math.sqrt(sum);
 }

@@ -104,6 +104,62 @@ export interface SweepOptions extends QueryOptions {
   visit?: (id: number, time: number, hit: Readonly<SweepHit>) => unknown;
 }
 
+/** Answers of many questions. */
+export interface ManyIds {
+  /** The answers of question k, from `offsets[k]` up to `offsets[k + 1] - 1`. */
+  ids: Uint32Array;
+  /** One more than questions: the last is the number of all answers. */
+  offsets: Uint32Array;
+}
+
+/** Answers of {@link BroadPhase.nearests}. */
+export interface ManyNearest extends ManyIds {
+  /** Of each answer. */
+  distances: Float64Array;
+}
+
+/** Answers of {@link BroadPhase.nearestsOfAll}. */
+export interface ManyNearestOfAll extends ManyNearest {
+  /** The boxes that ask: their ids. */
+  of: Uint32Array;
+}
+
+/** Answers of {@link BroadPhase.rayCasts}. */
+export interface ManyRayHits extends ManyNearest {
+  /** Of each answer, one number per axis: as in {@link RayHit}. */
+  normals: Int8Array;
+}
+
+/** Answers of {@link BroadPhase.sweeps}. */
+export interface ManySweepHits extends ManyIds {
+  /** Of each answer: as in {@link SweepHit}. */
+  times: Float64Array;
+  /** Of each answer, one number per axis: as in {@link SweepHit}. */
+  normals: Int8Array;
+}
+
+/** Options of many questions. */
+export interface ManyOptions<Answer = ManyIds> {
+  /** Only boxes with a layer in it: 32 bits, as for `setFilter`. Default: all boxes. */
+  mask?: number;
+  /** Of each question a box that is left out of its answers, most often the one that asks; any id, in use or not. */
+  ignoreEach?: Uint32Array | readonly number[];
+  /** The answer of an earlier call, which is filled and returned; arrays that are too short are replaced. */
+  out?: Answer;
+}
+
+/** Options of {@link BroadPhase.queryBoxes}. */
+export interface ManyBoxOptions extends ManyOptions {
+  /** Whether boxes have to be wholly inside; they may touch the sides. Default false. */
+  within?: boolean;
+}
+
+/** Options of many questions that reach far. */
+export interface ManyFarOptions<Answer> extends ManyOptions<Answer> {
+  /** How far each reaches, at least 0. Default: no limit. */
+  maxDistance?: number;
+}
+
 /** As a mask: all boxes. */
 export const everything = 0xffffffff;
 /** In place of an id. */
@@ -141,6 +197,14 @@ export const farOptions = ['mask', 'ignore', 'maxDistance', 'out', 'visit'] as c
 export const nearestOptions = [...farOptions, 'distances'] as const;
 export const rayOptions = ['mask', 'ignore', 'maxDistance', 'out', 'accept'] as const;
 export const sweepOptions = [...idsOptions, 'accept'] as const;
+
+/** How many answers are wanted, as the kernel counts. */
+export function checkMost(where: string, k: unknown): number {
+  const expected = 'an integer from 1 on, or Infinity';
+  if (typeof k !== 'number') badValue(`${where}: k`, k, expected, true);
+  if (!(Number.isInteger(k) && k >= 1) && k !== Number.POSITIVE_INFINITY) badValue(`${where}: k`, k, expected);
+  return Math.min(k, everything);
+}
 
 export function checkVisitor(where: string, visitor: unknown): void {
   if (typeof visitor !== 'function') badValue(where, visitor, 'a function', true);

@@ -141,7 +141,7 @@ template <int D> class Calls {
       case 25: return save();
       case 26: return restore();
       case 27: return ask_area();
-      case 28: return ask_near();
+      case 28: return bytes_.below(3) ? ask_near() : ask_many();
       case 29: return ask_sweep();
       case 30: return ask_partners();
       case 31: return let_time_pass();
@@ -611,6 +611,52 @@ template <int D> class Calls {
     for (const Hit& hit : hits) {
       good &= hit.rank >= 0 && hit.rank <= 1 && std::binary_search(ids.begin(), ids.end(), hit.id & ~Hit::corner);
     }
+    CHECK(good);
+  }
+
+  /// Many questions in one call: each answered as if it were asked alone. Of all boxes: each, and none itself.
+  void ask_many() {
+    Question<D> common = question();
+    common.limit = f64(bytes_.next());
+    u32 count = bytes_.below(20), most = 1 + bytes_.below(8);
+    std::vector<Box<D>> boxes;
+    std::vector<u32> ignored;
+    for (u32 k = 0; k < count; k++) {
+      boxes.push_back(box());
+      ignored.push_back(id());
+    }
+    bool good = true;
+    asked([&] {
+      space_.question = common;
+      f64* to = space_.bulk.stage(count * (width + 1));
+      for (u32 k = 0; k < count; k++) {
+        std::copy(boxes[k].begin(), boxes[k].end(), to + k * width);
+        to[count * width + k] = ignored[k];
+      }
+      good = space_.bulk.first_bad(Asks::box, count) == -1 && space_.ask_many(Asks::box, count, 0) == count;
+      for (u32 k = 0; k < count; k++) {
+        const u32* part = space_.bulk.parts() + 2 * k;
+        std::vector<u32> many(space_.bulk.ids.data() + part[0], space_.bulk.ids.data() + part[1]);
+        space_.question = common;
+        space_.question.ignored = ignored[k];
+        std::copy_n(boxes[k].begin(), D, space_.question.lo);
+        std::copy_n(boxes[k].begin() + D, D, space_.question.hi);
+        u32 from = 0, alone = space_.ask_area(from, ~0u);
+        good &= many == std::vector<u32>(space_.answers.data(), space_.answers.data() + alone);
+      }
+      space_.question = common;
+      u32 all = space_.ask_many(Asks::others, 0, most);
+      good &= all == (seen_ ? seen_->count() : 0);
+      for (u32 k = 0; k < all; k++) {
+        const u32* part = space_.bulk.parts() + 2 * k;
+        good &= part[1] - part[0] <= most;
+        for (u32 n = part[0]; n < part[1]; n++) {
+          const Hit& hit = space_.bulk.hits[n];
+          good &= hit.rank <= common.limit && hit.id != space_.answers[k];
+          good &= n == part[0] || space_.bulk.hits[n - 1] < hit;
+        }
+      }
+    });
     CHECK(good);
   }
 
