@@ -65,6 +65,7 @@ export default defineConfig([
     ...common,
     ...beside('./all.js'),
     entry: { cli: 'src/cli/index.ts' },
+    copy: ['starter'],
     platform: 'node',
     dts: false,
     fixedExtension: false,
