@@ -108,17 +108,6 @@ const matrix = {
       }
     },
   },
-  'the starter': {
-    from: 'node',
-    async try(at) {
-      const tarball = readdirSync(workshop).find((name) => name.endsWith('.tgz'));
-      await at.run('npx', '--no-install', 'broadphase', 'init', 'my-game', '--package', join(workshop, tarball));
-      const game = join(at.folder, 'my-game'); // which finds the package and the tools in the folders above
-      await run(game, 'tsc');
-      await run(game, 'vite', 'build');
-      ok(existsSync(join(game, 'dist/index.html')));
-    },
-  },
   webpack: {
     from: 'webpack',
     async try(at) {
