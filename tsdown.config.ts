@@ -57,7 +57,7 @@ export default defineConfig([
     outDir: 'dist/script',
     outputOptions: { entryFileNames: 'require.js' },
   },
-  ...['trace', 'ro', 'shard'].flatMap((name): UserConfig[] => [
+  ...['trace', 'ro', 'shard', 'draw'].flatMap((name): UserConfig[] => [
     { ...common, ...beside('./all.js'), dts: false, entry: { [name]: `src/${name}/index.ts` } },
     { ...types, ...beside('./all.js'), entry: { [name]: `src/${name}/index.ts` } },
   ]),
@@ -65,6 +65,7 @@ export default defineConfig([
     ...common,
     ...beside('./all.js'),
     entry: { cli: 'src/cli/index.ts' },
+    copy: ['starter'],
     platform: 'node',
     dts: false,
     fixedExtension: false,

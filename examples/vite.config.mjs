@@ -15,6 +15,7 @@ export default {
   plugins: [everyTechnique],
   resolve: {
     alias: {
+      'broadphase/draw': path('../src/draw/index.ts'),
       'broadphase/shard': path('../src/shard/index.ts'),
       'broadphase/trace': path('../src/trace/index.ts'),
       broadphase: path('../src/index.ts'),

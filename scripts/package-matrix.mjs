@@ -36,7 +36,7 @@ const longest = 120_000; // milliseconds a command may take
 
 /** What shared/every.js must say. */
 const every =
-  'index 7,9; findPairs 0,1; 2d 7,9; 3d 0,1; all 7,9; ro 1 pair; shard 7,9 | 9,11,7,11; trace 1 frame; kernel.wasm 7,9';
+  'index 7,9; findPairs 0,1; 2d 7,9; 3d 0,1; all 7,9; draw 5,5,10,10; ro 1 pair; shard 7,9 | 9,11,7,11; trace 1 frame; kernel.wasm 7,9';
 const script = 'index 7,9';
 const one = 'index 7,9; findPairs 0,1; kernel.wasm 7,9';
 

@@ -22,6 +22,7 @@ const guides = [
   'static-worlds',
   'events',
   'queries',
+  'drawing',
   'fixed-time-steps',
   'rollback',
   'shards',

@@ -25,6 +25,7 @@ export default defineConfig({
   resolve: {
     dedupe: ['react', 'react-dom', '@xyflow/react', 'd3-force', 'd3-quadtree', 'rbush', 'flatbush', 'three'],
     alias: {
+      'broadphase/draw': path('../src/draw/index.ts'),
       'broadphase/ro': path('../src/ro/index.ts'),
       'broadphase/shard': path('../src/shard/index.ts'),
       'broadphase/trace': path('../src/trace/index.ts'),

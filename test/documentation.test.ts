@@ -3,6 +3,7 @@
 import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import * as library from 'broadphase';
+import * as draw from 'broadphase/draw';
 import * as ro from 'broadphase/ro';
 import * as shard from 'broadphase/shard';
 import * as trace from 'broadphase/trace';
@@ -21,6 +22,7 @@ const filesIn = (folder: string, end: string) =>
 /** What the examples of a comment may use without an import: all that its entry and the library itself give. */
 const names = {
   broadphase: Object.keys(library),
+  'broadphase/draw': Object.keys(draw),
   'broadphase/ro': Object.keys(ro),
   'broadphase/shard': Object.keys(shard),
   'broadphase/trace': Object.keys(trace),

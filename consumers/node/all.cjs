@@ -4,6 +4,7 @@ const library = require('broadphase');
 require('broadphase/all');
 require('broadphase/2d');
 require('broadphase/3d');
+require('broadphase/draw');
 require('broadphase/ro');
 require('broadphase/shard');
 require('broadphase/trace');

@@ -3,6 +3,7 @@ import { BroadPhase, findPairs, init } from 'broadphase';
 import { BroadPhase as FlatBroadPhase } from 'broadphase/2d';
 import { findPairs as findPairsInSpace } from 'broadphase/3d';
 import { BroadPhase as FullBroadPhase } from 'broadphase/all';
+import { Lines } from 'broadphase/draw';
 import { coltech, Entity, World } from 'broadphase/ro';
 import { Shard, Zones } from 'broadphase/shard';
 import { openTrace, record } from 'broadphase/trace';
@@ -35,6 +36,7 @@ export async function every(kernel) {
     `2d ${fill(new FlatBroadPhase()).pairs}`,
     `3d ${findPairsInSpace([0, 0, 0, 1, 1, 1, 1, 1, 1, 2, 2, 2])}`,
     `all ${full.pairs}`,
+    `draw ${new Lines().addPairs(full).points()}`,
     `ro ${world.broadPhase.queryForCollisionPairs().length} pair`,
     `shard ${cut.join(' | ')}`,
     `trace ${openTrace(recording.bytes()).frames} frame`,

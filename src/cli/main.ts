@@ -7,6 +7,7 @@ import { convertCommand } from './convert.ts';
 import { FileError } from './files.ts';
 import { generateCommand } from './generate.ts';
 import { infoCommand } from './info.ts';
+import { initCommand } from './init.ts';
 import { MissingPackage } from './join/duckdb.ts';
 import { DataError } from './join/source.ts';
 import { joinCommand } from './join.ts';
@@ -22,6 +23,7 @@ const commands: Readonly<Record<string, Command>> = {
   convert: convertCommand,
   generate: generateCommand,
   join: joinCommand,
+  init: initCommand,
 };
 
 /** Runs a command line, given without the program's own name. Returns the exit code. */

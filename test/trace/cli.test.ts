@@ -1,11 +1,12 @@
 // The command, end to end in this process: what it prints, what it writes, and how it exits.
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { gunzipSync } from 'node:zlib';
 import { BroadPhase } from 'broadphase';
 import { openTrace, type Tuned } from 'broadphase/trace';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { version } from '../../package.json';
 import { main } from '../../src/cli/main.ts';
 import { sceneNames } from '../../src/scenes/index.ts';
 import { traceFile } from '../traces.ts';
@@ -211,4 +212,38 @@ test('a scene without boxes or frames can be looked at', async () => {
     expect((await run('generate', 'uniform3d', path, '--count', count, '--frames', frames)).code).toBe(0);
     for (const command of ['info', 'replay', 'compare']) expect((await run(command, path)).code).toBe(0);
   }
+});
+
+describe('init', () => {
+  test('makes a folder with a game, which asks for this version', async () => {
+    const game = file('My Game');
+    const { code, out } = await run('init', game);
+    expect(code).toBe(0);
+    expect(out).toContain('npm start');
+    const manifest = JSON.parse(readFileSync(join(game, 'package.json'), 'utf8'));
+    expect(manifest).toMatchObject({ name: 'my-game', private: true, dependencies: { broadphase: `^${version}` } });
+    const main = readFileSync(join(game, 'src/main.ts'), 'utf8');
+    expect(main).toContain("from 'broadphase'");
+    expect(main.split('\n').length).toBeLessThanOrEqual(100);
+    for (const name of ['index.html', 'tsconfig.json', '.gitignore'])
+      expect(readFileSync(join(game, name)).length).not.toBe(0);
+  });
+
+  test('takes a tarball', async () => {
+    writeFileSync(file('broadphase.tgz'), '');
+    const { result } = await json('init', file('other'), '--package', file('broadphase.tgz'));
+    expect(result).toEqual({ folder: file('other'), broadphase: 'file:../broadphase.tgz' });
+  });
+
+  test('leaves a folder alone that has files in it, or where the tarball is not there', async () => {
+    expect(await run('init', folder)).toMatchObject({
+      code: 2,
+      out: '',
+      err: expect.stringContaining('has files in it'),
+    });
+    const absent = await run('init', file('third'), '--package', file('absent.tgz'));
+    expect(absent).toMatchObject({ code: 4, out: '', err: expect.stringContaining('absent.tgz') });
+    expect(existsSync(file('third'))).toBe(false);
+    expect(await run('init', join(small, 'inside'))).toMatchObject({ code: 4, out: '' });
+  });
 });

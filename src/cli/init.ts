@@ -1,0 +1,57 @@
+// `broadphase init`: a folder with a small game to begin from, which is in starter/.
+import { existsSync } from 'node:fs';
+import { cp, mkdir, readdir } from 'node:fs/promises';
+import { basename, join, relative, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { devDependencies, version } from '../../package.json' with { type: 'json' };
+import { type Command, exitCode, UsageError } from './arguments.ts';
+import { FileError, write } from './files.ts';
+
+/** Beside the command where it is built, else in the repository. */
+const starter = ['./starter/', '../../starter/']
+  .map((path) => fileURLToPath(new URL(path, import.meta.url)))
+  .find((path) => existsSync(path));
+
+/** A name as npm takes it. */
+const nameOf = (folder: string) =>
+  basename(folder)
+    .toLowerCase()
+    .replace(/[^a-z0-9-]+/g, '-')
+    .replace(/^-+|-+$/g, '') || 'my-game';
+
+const manifestOf = (folder: string, spec: string) => ({
+  name: nameOf(folder),
+  private: true,
+  type: 'module',
+  scripts: { start: 'vite --open', build: 'tsc && vite build' },
+  dependencies: { broadphase: spec },
+  devDependencies: { typescript: devDependencies.typescript, vite: devDependencies.vite },
+});
+
+export const initCommand: Command = {
+  summary: 'a small game to begin from: a folder with Vite and TypeScript',
+  operands: ['folder'],
+  options: {
+    package: { value: 'file', help: 'a tarball of broadphase to install, instead of the version on npm' },
+  },
+  async run(input, terminal) {
+    const [name] = input.operands;
+    const folder = resolve(name);
+    const tarball = input.text('package');
+    if (tarball !== undefined && !existsSync(tarball)) throw new FileError(`cannot read ${tarball}: it is not there`);
+    const there = await readdir(folder).catch(() => []);
+    if (there.length > 0) throw new UsageError(`${name} has files in it, expected an empty folder or a new one`);
+    const spec = tarball === undefined ? `^${version}` : `file:${relative(folder, resolve(tarball))}`;
+    try {
+      await mkdir(folder, { recursive: true });
+      await cp(starter!, folder, { recursive: true });
+    } catch (error) {
+      throw new FileError(`cannot write ${name}: ${(error as Error).message}`);
+    }
+    await write(join(folder, 'package.json'), `${JSON.stringify(manifestOf(folder, spec), null, 2)}\n`);
+    await write(join(folder, '.gitignore'), 'node_modules\ndist\n'); // npm packs no file of this name
+    if (input.has('json')) terminal.out(`${JSON.stringify({ folder, broadphase: spec })}\n`);
+    else terminal.out(`${name} is ready. Now:\n\n  cd ${name}\n  npm install\n  npm start\n`);
+    return exitCode.ok;
+  },
+};

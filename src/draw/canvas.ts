@@ -1,0 +1,144 @@
+// A space on a 2D canvas. Paths are made in units of the world, under the transform that the context has, and stroked
+// without it: so lines are as thin at every zoom.
+import type { BroadPhase } from 'broadphase';
+import { checkRay, Shapes, type Sink } from './shapes.ts';
+
+/** The colours of what is drawn, as CSS has them. */
+export interface Colors {
+  /** Boxes without a partner. Default `'#8893a5'`. */
+  boxes: string;
+  /** Boxes that are in a pair, and their pairs. Default `'#e0457b'`. */
+  pairs: string;
+  /** Cells, strips or nodes. Default `'#3f8fdc'`. */
+  cells: string;
+  /** Full cells. Default `'#f08c1a'`. */
+  hot: string;
+  /** Rays and what they hit. Default `'#2ba24c'`. */
+  rays: string;
+}
+
+/** Options of {@link drawSpace}, all optional. */
+export interface DrawOptions {
+  /** Whether boxes are drawn. Default true. */
+  boxes?: boolean;
+  /** Whether boxes in a pair get a colour, and a line to their partner. Default true. */
+  pairs?: boolean;
+  /** Whether the cells, strips or nodes of the technique are drawn. Default false. */
+  cells?: boolean;
+  /** Whether the fullest cells are filled, the more the fuller. Default false. */
+  hot?: boolean;
+  /** Rays to ask and draw: each its origin, its direction, and the largest distance if there is one, 4 or 5 numbers. */
+  rays?: readonly (readonly number[])[];
+  /** Some other colours. */
+  colors?: Partial<Colors>;
+  /** How wide lines are, in pixels of the canvas. Default 1. */
+  lineWidth?: number;
+}
+
+const colorsLeftOut: Colors = {
+  boxes: '#8893a5',
+  pairs: '#e0457b',
+  cells: '#3f8fdc',
+  hot: '#f08c1a',
+  rays: '#2ba24c',
+};
+const optionNames = ['boxes', 'pairs', 'cells', 'hot', 'rays', 'colors', 'lineWidth'];
+/** How much the insides of boxes cover. */
+const inside = 0.15;
+const hotInside = 0.5;
+
+/**
+ * Draws a space of two dimensions: its boxes, those in a pair in another colour, and what else the options say. Units are
+ * those of the world: the transform of the context says where that is. The context is left as it was.
+ *
+ * @throws RangeError for a space of three dimensions, TypeError for an option that there is not; nothing is drawn then
+ *
+ * @example
+ * const space = new BroadPhase().set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
+ * const frame = (context: CanvasRenderingContext2D) => {
+ *   context.clearRect(0, 0, 300, 150);
+ *   drawSpace(context, space, { cells: true, rays: [[-5, 5, 1, 0]] });
+ * };
+ * typeof frame; // → 'function'
+ */
+export function drawSpace(
+  context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D,
+  space: BroadPhase<2 | 3>,
+  options: DrawOptions = {},
+): void {
+  check(space, options);
+  const { boxes = true, pairs = true, cells = false, hot = false, rays = [], lineWidth = 1 } = options;
+  const colors = { ...colorsLeftOut, ...options.colors };
+  const shapes = new Shapes(space);
+  const sink: Sink = {
+    box(numbers, at) {
+      const [minX, minY] = [numbers[at], numbers[at + 1]];
+      context.rect(minX, minY, numbers[at + 2] - minX, numbers[at + 3] - minY);
+    },
+    line(from, to) {
+      context.moveTo(from[0], from[1]);
+      context.lineTo(to[0], to[1]);
+    },
+  };
+  const world = context.getTransform();
+  const paint = (color: string, fill: number, line: boolean) => {
+    context.strokeStyle = context.fillStyle = color;
+    context.globalAlpha = fill;
+    if (fill > 0) context.fill();
+    context.globalAlpha = 1;
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    if (line) context.stroke();
+    context.setTransform(world);
+    context.beginPath();
+  };
+
+  context.save();
+  try {
+    context.lineWidth = lineWidth;
+    context.setLineDash([]);
+    context.beginPath();
+    if (hot) {
+      let share = 0;
+      const one: Sink = {
+        ...sink,
+        box(numbers, at) {
+          sink.box(numbers, at);
+          paint(colors.hot, hotInside * share, false);
+        },
+      };
+      shapes.hotCells(one, (full) => {
+        share = full;
+      });
+    }
+    if (cells) {
+      shapes.cells(sink);
+      paint(colors.cells, 0, true);
+    }
+    if (boxes) {
+      shapes.boxes(sink);
+      paint(colors.boxes, inside, true);
+    }
+    if (pairs) {
+      shapes.touching(sink);
+      paint(colors.pairs, inside, true);
+      shapes.pairs(sink);
+      paint(colors.pairs, 0, true);
+    }
+    for (const ray of rays) shapes.ray(sink, ray);
+    paint(colors.rays, rays.length > 0 ? inside : 0, true);
+  } finally {
+    context.restore();
+  }
+}
+
+function check(space: BroadPhase<2 | 3>, options: DrawOptions): void {
+  if (space.dimensions !== 2) {
+    throw new RangeError('drawSpace: got a space of 3 dimensions, expected 2: Lines gives the edges of both');
+  }
+  for (const name of Object.keys(options)) {
+    if (!optionNames.includes(name)) {
+      throw new TypeError(`drawSpace: got an option '${name}', expected one of ${optionNames.join(', ')}`);
+    }
+  }
+  for (const ray of options.rays ?? []) checkRay('drawSpace: rays', ray, 2);
+}
