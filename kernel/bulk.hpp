@@ -27,6 +27,7 @@ template <int D> class Bulk {
  public:
   Buffer<u32> ids;   // the answers of all questions: of areas
   Buffer<Hit> hits;  // and where they ask for an order
+  u64 looks = 0;     // at blocks, by all questions of a call
 
   const u32* parts() const { return parts_.data(); }
 
@@ -45,8 +46,9 @@ template <int D> class Bulk {
   /// Answers so many questions, which are good, each with at most so many boxes where it asks for an order. What they
   /// have in common stands in `asked`.
   COLD void answer(const Index<D>& index, Question<D> asked, Asks kind, u32 count, u32 most, Hits& best) {
-    parts_.reserve(2 * u64(count) + 1);
+    answer_nothing(count);  // nor do boxes that are off find anything
     u32 found = 0;
+    looks = 0;
     if (kind == Asks::others) {
       for (u32 place = 0; place < index.places(); place++) {
         u32 slot = index.slot(place);
@@ -117,13 +119,16 @@ template <int D> class Bulk {
       best.begin(most, asked.limit, nullptr);
       if (moves(kind)) queries.cast(best);
       else queries.near(best);
+      looks += queries.looks();
       u32 many = best.finish();
       hits.grow(u64(found) + many, found);
       for (u32 n = 0; n < many; n++) hits[found + n] = best.data()[n];
       return found + many;
     }
     u32 from = 0;
-    return queries.area(from, 0xffffffff, ids, found);
+    found = queries.area(from, 0xffffffff, ids, found);
+    looks += queries.looks();
+    return found;
   }
 
   /// Sorts the questions along the curve.

@@ -145,7 +145,7 @@ template <int D> class Index {
   }
 
   /// Notes that a question has looked at so many blocks.
-  void looked_at(u32 blocks) { looks_ += blocks; }
+  void looked_at(u64 blocks) { looks_ += blocks; }
 
   /// Makes the index, if it is not. It stays as it is until the next update, since answers may be read in parts.
   SHARED void build() {

@@ -459,6 +459,7 @@ template <int D> class Space {
     if (kind == Asks::others) count = index_.count();
     if (can) bulk.answer(index_, question, kind, count, most, hits);
     else bulk.answer_nothing(count);
+    if (can) index_.looked_at(bulk.looks);
     if (kind == Asks::others) {
       answers.reserve(count);
       for (u32 s = 0; s < count; s++) answers[s] = index_.id_of_slot(s);
