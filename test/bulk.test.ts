@@ -178,6 +178,16 @@ test('boxes without an end are near to each other where they meet', () => {
   expect([...distances]).toEqual([0, 0, Math.sqrt(29)]);
 });
 
+test('a box that is off has no neighbours and is none', () => {
+  const space = new BroadPhase();
+  for (let id = 0; id < 4; id++) space.set(id, 10 * id, 0, 10 * id + 1, 1);
+  space.setEnabled(1, false).update();
+  const { of, ids, offsets } = space.nearestsOfAll(1);
+  expect([...of]).toEqual([0, 1, 2, 3]);
+  expect([...offsets]).toEqual([0, 1, 1, 2, 3]);
+  expect([...ids]).toEqual([2, 3, 2]);
+});
+
 describe('what is refused', () => {
   const space = new BroadPhase();
   space.set(7, 0, 0, 10, 10).update();
