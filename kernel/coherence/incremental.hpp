@@ -123,6 +123,8 @@ template <int D> class Incremental {
       account(scene);
       return true;
     }
+    if (count_ > 0 && !has_paid()) give_up();
+    else if (count_ > 0 && age_ >= tuning.watched) pauses_ = tuning.watched;
     if (count_ == 0 && pause_ > 0) {
       pause_--;
       return false;
@@ -178,22 +180,22 @@ template <int D> class Incremental {
 
   /// What the update has cost, and whether the list is worth going on with.
   COLD void account(const Scene<D>& scene) {
-    f64 n = scene.count, build = build_work(), far = prospect_.farness(tuning);
-    f64 late = (late_count_ * tuning.late + (met_ + extra_.count) * tuning.candidate) * far / n;
+    f64 n = scene.count, build = tuning.build * prospect_.fresh;
+    f64 late = (late_count_ * tuning.late + (met_ + extra_.count) * tuning.candidate) / n;
     f64 looked = scene.listed() ? scene.changes->count() : scene.count;
     smooth_ = age_ <= 1 ? late : smooth_ + 0.4 * (late - smooth_);
     lateness_ += late;
-    life_ += late + (candidates_.count * tuning.candidate * far + tuning.look * looked) / n;
+    life_ += late + (candidates_.count * tuning.candidate + tuning.look * looked) / n;
     age_++;
     ended_ |= smooth_ * age_ > build + lateness_;
     // Boxes have come to rest: a new list will not test their pairs.
     bool judged = (age_ & (age_ - 1)) == 0 || watch_.is_new();
     ended_ |= judged && age_ >= tuning.watched && candidates_.count + extra_.count > 0 && watch_.more_rest(resting_ / n);
-    if (age_ >= 4 && (ended_ || age_ % 32 == 0) && life_ + build > tuning.worth * prospect_.fresh * age_) give_up();
-    else if (ended_ && age_ >= 8) pauses_ = tuning.watched;
+    ended_ |= age_ % 32 == 0 && !has_paid();
   }
 
-  f64 build_work() const { return prospect_.build(prospect_.growth(margin_), tuning); }
+  /// Whether the list has cost less than rebuilds would have.
+  bool has_paid() const { return life_ + tuning.build * prospect_.fresh <= tuning.worth * prospect_.fresh * age_; }
 
   // --- a list is made ---
 
@@ -225,9 +227,9 @@ template <int D> class Incremental {
     age_ = late_count_ = 0;
     met_ = 0;
     lateness_ = smooth_ = life_ = 0;
-    f64 growth = prospect_.growth(margin), work = (tuning.entry * built_.entries + built_.tests) / n;
+    f64 growth = prospect_.growth(margin);
     prospect_.rest = f64(resting_) / n;
-    prospect_.fresh = work / prospect_.widening(growth, tuning);
+    prospect_.fresh = (tuning.entry * built_.entries + built_.tests / growth) / n;
     prospect_.pairs = larger((settled_.count + candidates_.count / growth) / n, 0.02);
     learn_sizes(n, margin * (1 - prospect_.rest));
   }
@@ -297,14 +299,11 @@ template <int D> class Incremental {
     shift_ = shift;
     if (!shift.is_sound()) return false;
     // So many late boxes cost as much as a new list.
-    u32 enough = u32(smaller(build_work() * n / (tuning.late * prospect_.farness(tuning)), n / 2.0));
+    u32 enough = u32(smaller(tuning.build * prospect_.fresh * n / tuning.late, n / 2.0));
     if (!moved && scene.listed() && !scene.changes->most(n)) late_count_ = look_at(scene, both, list);
     else late_count_ = resting_ ? look<true>(scene, both, list, enough) : look<false>(scene, both, list, enough);
     if (scene.filtered || filtered_ != (scene.excluded != nullptr)) refilter(scene, both, list);
-    if (late_count_ + (n - both) > enough) {
-      if (age_ <= 1) give_up();
-      return false;
-    }
+    if (late_count_ + (n - both) > enough) return false;
     met_ = 0;
     if (late_count_ == 0 && n == had) return true;
     if (!placed_) place();

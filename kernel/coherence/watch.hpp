@@ -46,12 +46,6 @@ template <int D> struct Prospect {
   }
   /// What is tested in an update: not the pairs of two that rest, which do not grow.
   f64 candidates(f64 growth) const { return pairs * growth * (1 - rest * rest); }
-  /// How many times as much strip sweep does for a list as for a rebuild.
-  f64 widening(f64 growth, const Tuning<D>& tuning) const { return 1 + tuning.widen * (growth - 1) * (1 - rest * rest); }
-  /// What it takes to make a list.
-  f64 build(f64 growth, const Tuning<D>& tuning) const { return fresh * (tuning.build - 1 + widening(growth, tuning)); }
-  /// How many times as long it takes as in the near caches to get at what stands anywhere.
-  f64 farness(const Tuning<D>& tuning) const { return 1 + boxes / tuning.far; }
 };
 
 struct Plan {
@@ -258,11 +252,11 @@ template <int D> class Watch {
       beyond += tail[m];
       sum += tail[m] * edge(m);
     }
-    f64 far = prospect.farness(tuning), late = tuning.late * far / many_;
+    f64 late = tuning.late / many_, build = tuning.build * prospect.fresh;
     for (u32 m = 0; m < buckets - 2; m++) {
       f64 margin = scale * edge(m), growth = prospect.growth(margin);
-      f64 work = tuning.look * prospect.looked + tuning.candidate * far * prospect.candidates(growth);
-      work += (prospect.build(growth, tuning) + (jumps + events[m]) * late) / updates + steady * late;
+      f64 work = tuning.look * prospect.looked + tuning.candidate * prospect.candidates(growth);
+      work += (build + (jumps + events[m]) * late) / updates + steady * late;
       if (work < best.work) best = {f32(margin), work};
     }
   }
