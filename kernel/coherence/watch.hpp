@@ -42,8 +42,8 @@ template <int D> struct Prospect {
   }
   /// What is tested in an update: not the pairs of two that rest, which do not grow.
   f64 candidates(f64 growth) const { return pairs * growth * (1 - rest * rest); }
-  /// What it takes to make a list.
-  f64 build(const Tuning<D>& tuning) const { return tuning.build * fresh; }
+  /// What it takes to make a list: of boxes at rest a rebuild, since their regions are no larger than they.
+  f64 build(const Tuning<D>& tuning) const { return fresh * (1 + (tuning.build - 1) * (1 - rest * rest)); }
 };
 
 struct Plan {
