@@ -31,8 +31,6 @@ import {
 } from './query-options.ts';
 import { isTypedArray } from './values.ts';
 
-/** Numbers in a row: of a Float32Array, a Float64Array or an array. */
-type Numbers = ArrayLike<number>;
 /** What answers have of which kind. */
 type Answer = ManyIds & { distances?: Float64Array; times?: Float64Array; normals?: Int8Array; of?: Uint32Array };
 type Options = ManyBoxOptions & ManyFarOptions<Answer>;
@@ -79,7 +77,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
    * offsets; // → Uint32Array [0, 2, 2, 3]
    * ids[2]; // → 1
    */
-  queryBoxes(boxes: Numbers, options?: ManyBoxOptions): ManyIds {
+  queryBoxes(boxes: ArrayLike<number>, options?: ManyBoxOptions): ManyIds {
     checkOptions('queryBoxes', options, boxOptions);
     const within = options?.within ?? false;
     if (typeof within !== 'boolean') badValue('queryBoxes: within', within, 'true or false', true);
@@ -100,7 +98,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
    * const space = new BroadPhase().set(7, 0, 0, 10, 10).update();
    * space.queryPoints([10, 3, 11, 3]).offsets; // → Uint32Array [0, 1, 1]
    */
-  queryPoints(points: Numbers, options?: ManyOptions): ManyIds {
+  queryPoints(points: ArrayLike<number>, options?: ManyOptions): ManyIds {
     checkOptions('queryPoints', options, idOptions);
     return this.#ask('queryPoints', kinds.point, points, this.#place(), idParts, options);
   }
@@ -113,7 +111,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
    * const space = new BroadPhase().set(7, 0, 0, 10, 10).update();
    * space.queryCircles([13, 14, 5, 14, 14, 5]).offsets; // → Uint32Array [0, 1, 1]
    */
-  queryCircles(circles: Numbers, options?: ManyOptions): ManyIds {
+  queryCircles(circles: ArrayLike<number>, options?: ManyOptions): ManyIds {
     checkOptions('queryCircles', options, idOptions);
     return this.#ask('queryCircles', kinds.circle, circles, [...this.#place(), 'radius'], idParts, options);
   }
@@ -129,7 +127,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
    * hits.distances; // → Float64Array [10]
    * hits.normals; // → Int8Array [-1, 0]
    */
-  rayCasts(rays: Numbers, options?: ManyFarOptions<ManyRayHits>): ManyRayHits {
+  rayCasts(rays: ArrayLike<number>, options?: ManyFarOptions<ManyRayHits>): ManyRayHits {
     checkOptions('rayCasts', options, farOptions);
     return this.#ask('rayCasts', kinds.ray, rays, this.width === 4 ? ray2 : ray3, rayParts, options) as ManyRayHits;
   }
@@ -142,7 +140,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
    * const space = new BroadPhase().set(7, 21, -5, 22, 5).update();
    * space.sweeps([0, 0, 1, 1, 40, 0]).times; // → Float64Array [0.5]
    */
-  sweeps(boxes: Numbers, options?: ManyOptions<ManySweepHits>): ManySweepHits {
+  sweeps(boxes: ArrayLike<number>, options?: ManyOptions<ManySweepHits>): ManySweepHits {
     checkOptions('sweeps', options, idOptions);
     return this.#ask(
       'sweeps',
@@ -164,7 +162,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
    * ids; // → Uint32Array [9, 7]
    * distances; // → Float64Array [2, 0]
    */
-  nearests(points: Numbers, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest {
+  nearests(points: ArrayLike<number>, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest {
     checkOptions('nearests', options, farOptions);
     const most = checkMost('nearests', k);
     return this.#ask('nearests', kinds.nearest, points, this.#place(), nearParts, options, most) as ManyNearest;
@@ -199,7 +197,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
   #ask(
     where: string,
     kind: number,
-    numbers: Numbers,
+    numbers: ArrayLike<number>,
     names: readonly string[],
     parts: readonly Part[],
     options: Options | undefined,
@@ -281,7 +279,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
 }
 
 /** Says what is wrong with the numbers of a question. */
-function badNumbers(where: string, numbers: Numbers, k: number, names: readonly string[]): never {
+function badNumbers(where: string, numbers: ArrayLike<number>, k: number, names: readonly string[]): never {
   const given = Array.prototype.slice.call(numbers, k * names.length, (k + 1) * names.length);
   const what = `${where}: question ${k}`;
   const round = names.at(-1) === 'radius';
