@@ -235,7 +235,7 @@ template <int D> class Incremental {
     lateness_ = smooth_ = life_ = 0;
     prospect_.rest = f64(resting_) / n;
     // Too little is mended by the rebuild that follows when the list is given up; too much would never be.
-    prospect_.fresh = smaller(prospect_.fresh, (tuning.entry * built_.entries + built_.tests / growth) / n);
+    prospect_.fresh = smaller(prospect_.fresh, (tuning.entry * built_.entries + built_.tests / prospect_.widening(growth)) / n);
     prospect_.pairs = larger((settled_.count + candidates_.count / growth) / n, 0.02);
     learn_sizes(n, margin * (1 - prospect_.rest));
   }
@@ -263,7 +263,7 @@ template <int D> class Incremental {
 
   /// So many candidates a list will hardly exceed.
   u64 expected(f64 growth) const {
-    return u64(1.25 * prospect_.boxes * prospect_.pairs * (1 + (growth - 1) * (1 - prospect_.rest * prospect_.rest)));
+    return u64(1.25 * prospect_.boxes * prospect_.pairs * prospect_.widening(growth));
   }
 
   /// A box, and so much on all sides.

@@ -8,7 +8,7 @@ template <int D> struct Tuning {
   f64 entry = D == 2 ? 16 : 20;      // tests: to put a box into a strip and order it there
   f64 look = 1;                      // tests: to see whether a box is in its region
   f64 candidate = D == 2 ? 2 : 3;    // tests: to test one
-  f64 late = D == 2 ? 500 : 1000;    // tests: to give a box that has left its region a new one
+  f64 late = 500;                    // tests: to give a box that has left its region a new one
   f64 late_margin = 0.5;             // of a box's size: the margin of that
   f64 build = D == 2 ? 1.5 : 2;      // of a rebuild: to make a list of boxes that move
   f64 worth = 0.9;                   // of a rebuild: a list must promise to cost less, and have cost less, to go on

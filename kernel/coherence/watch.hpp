@@ -42,6 +42,8 @@ template <int D> struct Prospect {
   }
   /// What is tested in an update: not the pairs of two that rest, which do not grow.
   f64 candidates(f64 growth) const { return pairs * growth * (1 - rest * rest); }
+  /// How many times as much a list takes in as a rebuild: boxes at rest have no margin.
+  f64 widening(f64 growth) const { return 1 + (growth - 1) * (1 - rest * rest); }
   /// What it takes to make a list: of boxes at rest a rebuild, since their regions are no larger than they.
   f64 build(const Tuning<D>& tuning) const { return fresh * (1 + (tuning.build - 1) * (1 - rest * rest)); }
 };
