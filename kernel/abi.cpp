@@ -272,16 +272,16 @@ EXPORT(stage_questions)(u32 numbers) -> f64* {
 EXPORT(bad_question)(u32 kind, u32 count) -> i32 {
   return with_space([&](auto& space) { return space.bulk.first_bad(Asks(kind), count); });
 }
-/// The number of questions. Of each, parts_address says where its answers begin and end among those of all, which are ids
-/// for areas, else hits. Of all boxes, their ids are in answers.
+/// The number of questions. Of each, offsets_address says where its answers begin among those of all, which are ids for
+/// areas, else hits; and behind them where the last ones end. Of all boxes, their ids are in answers.
 EXPORT(ask_many)(u32 kind, u32 count, u32 mask, u32 most) -> u32 {
   return with_space([&](auto& space) {
     read_question(space.question, mask, no_id);
     return space.ask_many(Asks(kind), count, most);
   });
 }
-EXPORT(parts_address)() -> const u32* {
-  return with_space([](auto& space) { return space.bulk.parts(); });
+EXPORT(offsets_address)() -> const u32* {
+  return with_space([](auto& space) { return space.bulk.offsets(); });
 }
 EXPORT(many_ids_address)() -> const u32* {
   return with_space([](auto& space) { return space.bulk.ids.data(); });

@@ -1,8 +1,8 @@
 // Many questions in one call.
-// Idea: the questions stand one behind the other, as doubles, and are asked in the order of the Hilbert curve: each finds
-// in the caches what the one before has read of the index. The answers of all stand in one list, and beside it where
-// those of each question begin and end. Of all boxes asking for their neighbours the index has the order already.
-// Cost: that of the questions asked alone, less what the caches save, and a sort of them.
+// Idea: the questions stand one behind the other, as doubles, and are asked in that order. The answers of all stand in
+// one list, and beside it where those of each question end.
+// Cost: that of the questions asked alone, less the calls. To ask them in the order of the Hilbert curve was slower in all
+// but a few cases: see docs/decisions/many-questions.md.
 #pragma once
 #include "queries.hpp"
 
@@ -12,10 +12,8 @@ enum class Asks : u32 { nearest, ray, way, box, within, point, circle, others };
 template <int D> class Bulk {
   static constexpr u32 width = 2 * D;
 
-  Buffer<f64> given_;   // numbers of all questions, then of each the id it ignores
-  Buffer<u32> parts_;   // of each question, where its answers begin and end
-  Buffer<f32> places_;  // of each question, the box it begins with
-  RadixSort sort_;
+  Buffer<f64> given_;    // numbers of all questions, then of each the id it ignores
+  Buffer<u32> offsets_;  // of each question, where its answers begin; and where those of the last end
 
   static bool has_box(Asks kind) { return kind == Asks::way || kind == Asks::box || kind == Asks::within; }
   static bool moves(Asks kind) { return kind == Asks::ray || kind == Asks::way; }
@@ -29,7 +27,7 @@ template <int D> class Bulk {
   Buffer<Hit> hits;  // and where they ask for an order
   u64 looks = 0;     // at blocks, by all questions of a call
 
-  const u32* parts() const { return parts_.data(); }
+  const u32* offsets() const { return offsets_.data(); }
 
   /// Room for the numbers of questions.
   COLD f64* stage(u32 numbers) { return given_.reserve(numbers); }
@@ -46,44 +44,24 @@ template <int D> class Bulk {
   /// Answers so many questions, which are good, each with at most so many boxes where it asks for an order. What they
   /// have in common stands in `asked`.
   COLD void answer(const Index<D>& index, Question<D> asked, Asks kind, u32 count, u32 most, Hits& best) {
-    answer_nothing(count);  // nor do boxes that are off find anything
-    u32 found = 0;
+    offsets_.reserve(u64(count) + 1)[0] = 0;
     looks = 0;
-    if (kind == Asks::others) {
-      for (u32 place = 0; place < index.places(); place++) {
-        u32 slot = index.slot(place);
-        if (index.place(slot) != place) continue;  // a hole
-        f64 box[width];
-        index.box(place, box);
-        __builtin_memcpy(asked.lo, box, sizeof(asked.lo));
-        __builtin_memcpy(asked.hi, box + D, sizeof(asked.hi));
-        asked.ignored = index.id(place);
-        parts_[2 * slot] = found;
-        parts_[2 * slot + 1] = found = ask(index, asked, kind, most, found, best);
-      }
-      return;
-    }
-    put_in_order(kind, count);
-    for (u32 n = 0; n < count; n++) {
-      u32 k = sort_.index(n);
-      read(kind, k, asked);
-      asked.ignored = u32(given_[u64(count) * stride(kind) + k]);
-      parts_[2 * k] = found;
-      parts_[2 * k + 1] = found = ask(index, asked, kind, most, found, best);
+    for (u32 k = 0; k < count; k++) {
+      bool asks = kind == Asks::others ? take_box(index, k, asked) : read(kind, k, asked);
+      if (kind != Asks::others) asked.ignored = u32(given_[u64(count) * stride(kind) + k]);
+      offsets_[k + 1] = asks ? ask(index, asked, kind, most, offsets_[k], best) : offsets_[k];
     }
   }
 
   /// As if so many questions had found nothing.
   COLD void answer_nothing(u32 count) {
-    u32* parts = parts_.reserve(2 * u64(count) + 1);
-    __builtin_memset(parts, 0, 2 * u64(count) * sizeof(u32));
+    u32* offsets = offsets_.reserve(u64(count) + 1);
+    __builtin_memset(offsets, 0, (u64(count) + 1) * sizeof(u32));
   }
 
   COLD void release() {
     given_.release();
-    parts_.release();
-    places_.release();
-    sort_.release();
+    offsets_.release();
     ids.release();
     hits.release();
   }
@@ -112,6 +90,18 @@ template <int D> class Bulk {
     return good;
   }
 
+  /// Has a box ask for the others; false where it is off.
+  static bool take_box(const Index<D>& index, u32 slot, Question<D>& to) {
+    u32 place = index.place(slot);
+    if (place == Index<D>::nowhere) return false;
+    f64 box[width];
+    index.box(place, box);
+    __builtin_memcpy(to.lo, box, sizeof(to.lo));
+    __builtin_memcpy(to.hi, box + D, sizeof(to.hi));
+    to.ignored = index.id(place);
+    return true;
+  }
+
   /// Adds the answers of one question behind those that were found; returns how many there are then.
   u32 ask(const Index<D>& index, const Question<D>& asked, Asks kind, u32 most, u32 found, Hits& best) {
     Queries<D> queries(index, asked);
@@ -129,19 +119,5 @@ template <int D> class Bulk {
     found = queries.area(from, 0xffffffff, ids, found);
     looks += queries.looks();
     return found;
-  }
-
-  /// Sorts the questions along the curve.
-  COLD void put_in_order(Asks kind, u32 count) {
-    places_.reserve(u64(count) * width + 4);
-    Question<D> asked;
-    for (u32 k = 0; k < count; k++) {
-      read(kind, k, asked);
-      for (int a = 0; a < D; a++) {
-        places_[u64(k) * width + a] = round_down(asked.lo[a]);
-        places_[u64(k) * width + D + a] = round_up(asked.hi[a]);
-      }
-    }
-    if (count) sort_along_curve<D>(places_.data(), count, sort_);
   }
 };

@@ -75,19 +75,6 @@ template <int D> class HilbertCurve {
   }
 };
 
-/// Sorts n boxes, more than none, by their centres.
-template <int D> SHARED void sort_along_curve(const f32* boxes, u32 n, RadixSort& sort) {
-  SceneItems<D> items{{boxes, n, nullptr}, AxisOrder<D>::make(0)};
-  HilbertCurve<D> curve(measure<D>(items, n));
-  sort.begin(n);
-  for (u32 s = 0; s < n; s += 4) {
-    u32 key[4], last = n - 1;
-    store(key, curve(items, {s, smaller(s + 1, last), smaller(s + 2, last), smaller(s + 3, last)}));
-    ROLLED for (u32 lane = 0; lane < smaller(n - s, 4u); lane++) sort.put_bits(s + lane, key[lane]);
-  }
-  sort.sort(n);
-}
-
 template <int D> class CurveOrder {
   using Curve = HilbertCurve<D>;
 

@@ -1,9 +1,9 @@
 // Who may meet whom: layers, masks and exclusion bits, turned into as little search as possible.
 // Idea: boxes with the same layer, mask and bits are one class, and games have a handful of classes. Which classes
 // ignore each other is looked up once after a change, and spares the search three ways. Boxes that can meet nobody
-// are not searched at all; those that are off are a class of such. Classes of which each ignores itself and all the others share an exclusion bit, which
-// every technique tests along with the boxes. What is left, say two classes that meet themselves but not each
-// other, is taken out of the pairs found.
+// are not searched at all; boxes that are off are one such class. Classes of which each ignores itself and all the others
+// share an exclusion bit, which every technique tests along with the boxes. What is left, say two classes that meet
+// themselves but not each other, is taken out of the pairs found.
 // Cost: nothing while no box has a filter; O(boxes + classes squared) in the update after a change; a copy of the
 // boxes that are searched where some are not.
 #pragma once

@@ -20,7 +20,6 @@
 template <int D> class Index {
   static constexpr u32 width = 2 * D;
   static constexpr u32 most_levels = 9;  // 8^8 boxes, and spare places
-  static constexpr u32 nowhere = 0xffffffff;
   static constexpr f32 nothing = __builtin_nanf("");
   static constexpr u32 sampled = 256;   // groups of eight, by which an order is judged
   static constexpr f32 most_wider = 2;  // they may become before boxes are sorted anew
@@ -45,6 +44,8 @@ template <int D> class Index {
   RadixSort sort_;
 
  public:
+  /// In place of a place, of a box that is off.
+  static constexpr u32 nowhere = 0xffffffff;
   /// Eight boxes; NaN where there is none.
   struct Block {
     f32 lo[D][8], hi[D][8];
@@ -67,8 +68,6 @@ template <int D> class Index {
   /// Whether float32 does not hold all boxes.
   bool rounded() const { return rounded_; }
   u32 id(u32 place) const { return ids()[place]; }
-  /// Of a place, also of one that was left; and of a slot.
-  u32 slot(u32 place) const { return slots_[place]; }
   u32 place(u32 slot) const { return places_[slot]; }
   u32 id_of_slot(u32 slot) const { return named_ ? ids_[slot] : slot; }
   /// Of all places.
@@ -310,7 +309,15 @@ template <int D> class Index {
     looks_ = sorted_ = 0;
     make_room(0);
     if (n == 0) return;
-    sort_along_curve<D>(boxes_.data(), n, sort_);
+    SceneItems<D> items{{boxes_.data(), n, nullptr}, AxisOrder<D>::make(0)};
+    HilbertCurve<D> curve(measure<D>(items, n));
+    sort_.begin(n);
+    for (u32 s = 0; s < n; s += 4) {
+      u32 key[4], last = n - 1;
+      store(key, curve(items, {s, smaller(s + 1, last), smaller(s + 2, last), smaller(s + 3, last)}));
+      ROLLED for (u32 lane = 0; lane < smaller(n - s, 4u); lane++) sort_.put_bits(s + lane, key[lane]);
+    }
+    sort_.sort(n);
     for (u32 k = 0; k < n; k++) {
       u32 slot = sort_.index(k);
       if (!is_off(slot)) slots_[some++] = slot;
@@ -319,12 +326,12 @@ template <int D> class Index {
     width_ = group_width();
   }
 
-  /// So many have a place.
-  void find_places(u32 some) {
-    sorted_ = some;
+  /// Notes the places of the first n of slots_; no other slot has one.
+  void find_places(u32 n) {
+    sorted_ = n;
     known_ = count_;
-    if (some < count_) __builtin_memset(places_.data(), 0xff, count_ * sizeof(u32));
-    for (u32 place = 0; place < some; place++) places_[slots_[place]] = place;
+    if (n < count_) __builtin_memset(places_.data(), 0xff, count_ * sizeof(u32));
+    for (u32 place = 0; place < n; place++) places_[slots_[place]] = place;
   }
 
   /// Fills slots_ with those that are in the order, as they stand there, and then with the others. False where boxes

@@ -1,5 +1,5 @@
 // Many questions in one call: numbers of all of them in, the answers of all of them out, in typed arrays.
-// The kernel answers them in an order that suits its caches (kernel/bulk.hpp); here they are put into that of the questions.
+// The kernel answers them (kernel/bulk.hpp); here they are checked, and the answers copied.
 import { isNumber, known, limitAt, noQueries, number, point2, point3 } from './answers.ts';
 import type { Dimensions } from './dimensions.ts';
 import {
@@ -235,12 +235,11 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
     }
   }
 
-  /** Copies what the kernel has found, in the order of the questions. */
+  /** Copies what the kernel has found. */
   #collect(kind: number, count: number, names: readonly Part[], out: Answer | undefined): Answer {
     const words = this.wordView();
-    const parts = this.kernel.parts_address() >>> 2;
-    let total = 0;
-    for (let k = 0; k < count; k++) total += words[parts + 2 * k + 1]! - words[parts + 2 * k]!;
+    const ends = this.kernel.offsets_address() >>> 2;
+    const total = words[ends + count]!;
     const to = (out ?? {}) as Record<Part, Uint32Array | Float64Array | Int8Array>;
     for (const name of names) {
       const least =
@@ -251,15 +250,11 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
     const { ids, offsets, of } = answer;
     const ordered = kind < kinds.box || kind === kinds.others;
     const first = (ordered ? this.kernel.many_hits_address() : this.kernel.many_ids_address()) >>> 2;
-    for (let k = 0, n = 0; k < count; k++) {
-      const end = words[parts + 2 * k + 1]!;
-      for (let at = words[parts + 2 * k]!; at < end; at++, n++) {
-        if (ordered) this.#copyHit(answer, n, first + 4 * at);
-        else ids[n] = words[first + at]!;
-      }
-      offsets[k + 1] = n;
+    for (let k = 0; k <= count; k++) offsets[k] = words[ends + k]!;
+    for (let n = 0; n < total; n++) {
+      if (ordered) this.#copyHit(answer, n, first + 4 * n);
+      else ids[n] = words[first + n]!;
     }
-    offsets[0] = 0;
     const all = this.kernel.answers_address() >>> 2;
     if (of !== undefined) for (let k = 0; k < count; k++) of[k] = words[all + k]!;
     return answer;

@@ -57,7 +57,7 @@ export interface KernelExports {
   stage_questions(numbers: number): number;
   bad_question(kind: number, count: number): number;
   ask_many(kind: number, count: number, mask: number, most: number): number;
-  parts_address(): number;
+  offsets_address(): number;
   many_ids_address(): number;
   many_hits_address(): number;
   hits_address(): number;

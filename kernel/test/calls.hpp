@@ -635,7 +635,7 @@ template <int D> class Calls {
       }
       good = space_.bulk.first_bad(Asks::box, count) == -1 && space_.ask_many(Asks::box, count, 0) == count;
       for (u32 k = 0; k < count; k++) {
-        const u32* part = space_.bulk.parts() + 2 * k;
+        const u32* part = space_.bulk.offsets() + k;
         std::vector<u32> many(space_.bulk.ids.data() + part[0], space_.bulk.ids.data() + part[1]);
         space_.question = common;
         space_.question.ignored = ignored[k];
@@ -648,7 +648,7 @@ template <int D> class Calls {
       u32 all = space_.ask_many(Asks::others, 0, most);
       good &= all == (seen_ ? seen_->count() : 0);
       for (u32 k = 0; k < all; k++) {
-        const u32* part = space_.bulk.parts() + 2 * k;
+        const u32* part = space_.bulk.offsets() + k;
         good &= part[1] - part[0] <= most;
         for (u32 n = part[0]; n < part[1]; n++) {
           const Hit& hit = space_.bulk.hits[n];
