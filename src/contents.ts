@@ -1,5 +1,4 @@
 // What stands in a space, read back as from a Map; and boxes that are given by their centre.
-
 import { BulkQueries } from './bulk-queries.ts';
 import type { BoxOfId, CentredBoxOfId, Dimensions } from './dimensions.ts';
 import { badCentred, badId, isId } from './errors.ts';

@@ -9,8 +9,7 @@ const cornerLayer = 2;
 
 /**
  * How many boxes stand in each cell of `structure()`, in its order. Each box counts once: in the smallest cell that has
- * its lower corner, or in none. Far slower than an
- * update: some tenths of a second for 100,000 boxes.
+ * its lower corner, or in none. Far slower than an update: some tenths of a second for 100,000 boxes.
  *
  * @example
  * const space = new BroadPhase({ technique: 'strip-sweep' });

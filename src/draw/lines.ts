@@ -6,7 +6,8 @@ const firstRoom = 1024;
 
 /**
  * Line segments in one Float32Array, for whatever draws lines: three.js, PixiJS, regl, WebGL itself. Each segment is two
- * points, of 2 numbers each, in 3D of 3. The array is kept and grows, so that a frame makes none of its own.
+ * points, of 2 numbers each, in 3D of 3. The array is kept and grows.
+ * Reading the space makes some garbage: this is for debugging.
  *
  * @example
  * const space = new BroadPhase().set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
