@@ -123,6 +123,8 @@ template <int D> class Incremental {
       account(scene);
       return true;
     }
+    if (count_ > 0 && !has_paid()) give_up();
+    else if (count_ > 0 && age_ >= tuning.watched) pauses_ = tuning.watched;
     if (count_ == 0 && pause_ > 0) {
       pause_--;
       return false;
@@ -132,7 +134,8 @@ template <int D> class Incremental {
       if (count_ > 0 || watch_.known() >= tuning.watched) give_up();
       return false;
     }
-    build(scene, margin > 0 ? margin : plan.margin);
+    if (margin > 0) plan = {margin, watch_.growth(margin, prospect_), 0};
+    build(scene, plan.margin, plan.growth);
     report(scene, pairs, stats);
     account(scene);
     return true;
@@ -158,7 +161,10 @@ template <int D> class Incremental {
   COLD void learn_sizes(u32 boxes, f64 margin) {
     f64 low[D], high[D], sizes[D], across = D == 2 ? __builtin_sqrt(f64(boxes)) : cube_root(boxes);
     anew_.bounds(low, high, sizes);
-    for (int a = 0; a < D; a++) prospect_.sizes[a] = larger(sizes[a] - 2 * margin, (high[a] - low[a]) / across / 8);
+    for (int a = 0; a < D; a++) {
+      prospect_.least[a] = (high[a] - low[a]) / across / 8;
+      prospect_.sizes[a] = larger(sizes[a] - 2 * margin, prospect_.least[a]);
+    }
   }
 
   /// Gives up what is kept, but not the memory.
@@ -178,22 +184,24 @@ template <int D> class Incremental {
 
   /// What the update has cost, and whether the list is worth going on with.
   COLD void account(const Scene<D>& scene) {
-    f64 n = scene.count, build = build_work(), far = prospect_.farness(tuning);
-    f64 late = (late_count_ * tuning.late + (met_ + extra_.count) * tuning.candidate) * far / n;
+    f64 n = scene.count, build = prospect_.build(tuning);
+    f64 late = (late_count_ * tuning.late + (met_ + extra_.count) * tuning.candidate) / n;
     f64 looked = scene.listed() ? scene.changes->count() : scene.count;
-    smooth_ = age_ <= 1 ? late : smooth_ + 0.4 * (late - smooth_);
+    smooth_ += 0.4 * (late - smooth_);
     lateness_ += late;
-    life_ += late + (candidates_.count * tuning.candidate * far + tuning.look * looked) / n;
+    f64 least = (candidates_.count * tuning.candidate + tuning.look * looked) / n;  // in each update
+    life_ += late + least;
     age_++;
+    ended_ |= least > tuning.worth * prospect_.fresh;
     ended_ |= smooth_ * age_ > build + lateness_;
     // Boxes have come to rest: a new list will not test their pairs.
     bool judged = (age_ & (age_ - 1)) == 0 || watch_.is_new();
     ended_ |= judged && age_ >= tuning.watched && candidates_.count + extra_.count > 0 && watch_.more_rest(resting_ / n);
-    if (age_ >= 4 && (ended_ || age_ % 32 == 0) && life_ + build > tuning.worth * prospect_.fresh * age_) give_up();
-    else if (ended_ && age_ >= 8) pauses_ = tuning.watched;
+    ended_ |= age_ % 32 == 0 && !has_paid();
   }
 
-  f64 build_work() const { return prospect_.build(prospect_.growth(margin_), tuning); }
+  /// Whether the list has cost less than rebuilds would have.
+  bool has_paid() const { return life_ + prospect_.build(tuning) <= tuning.worth * prospect_.fresh * age_; }
 
   // --- a list is made ---
 
@@ -203,7 +211,7 @@ template <int D> class Incremental {
     if (n > had) __builtin_memset(tags_.data() + had, 0, (n - had) * sizeof(u32));
   }
 
-  COLD void build(const Scene<D>& scene, f32 margin) {
+  COLD void build(const Scene<D>& scene, f32 margin, f64 growth) {
     u32 n = scene.count, had = smaller(count_, n);
     make_room(n, had);
     bool some_rest = watch_.resting() > 0;
@@ -216,7 +224,7 @@ template <int D> class Incremental {
     margin_ = margin;
     candidates_.count = extra_.count = settled_.count = head_ = 0;
     built_ = Stats{};
-    candidates_.list.reserve(expected(prospect_.growth(margin)) + Pairs::slack);  // copied while it grows it takes longer
+    candidates_.list.reserve(expected(growth) + Pairs::slack);  // copied while it grows it takes longer
     anew_.update(Scene<D>{regions_.data(), n, scene.excluded}, Settings{}, candidates_, built_);
     if (resting_ > 0) settle(scene);
     placed_ = ended_ = false;
@@ -225,9 +233,9 @@ template <int D> class Incremental {
     age_ = late_count_ = 0;
     met_ = 0;
     lateness_ = smooth_ = life_ = 0;
-    f64 growth = prospect_.growth(margin), work = (tuning.entry * built_.entries + built_.tests) / n;
     prospect_.rest = f64(resting_) / n;
-    prospect_.fresh = work / prospect_.widening(growth, tuning);
+    // Too little is mended by the rebuild that follows when the list is given up; too much would never be.
+    prospect_.fresh = smaller(prospect_.fresh, (tuning.entry * built_.entries + built_.tests / prospect_.widening(growth)) / n);
     prospect_.pairs = larger((settled_.count + candidates_.count / growth) / n, 0.02);
     learn_sizes(n, margin * (1 - prospect_.rest));
   }
@@ -255,7 +263,7 @@ template <int D> class Incremental {
 
   /// So many candidates a list will hardly exceed.
   u64 expected(f64 growth) const {
-    return u64(1.25 * prospect_.boxes * prospect_.pairs * (1 + (growth - 1) * (1 - prospect_.rest * prospect_.rest)));
+    return u64(1.25 * prospect_.boxes * prospect_.pairs * prospect_.widening(growth));
   }
 
   /// A box, and so much on all sides.
@@ -297,14 +305,11 @@ template <int D> class Incremental {
     shift_ = shift;
     if (!shift.is_sound()) return false;
     // So many late boxes cost as much as a new list.
-    u32 enough = u32(smaller(build_work() * n / (tuning.late * prospect_.farness(tuning)), n / 2.0));
+    u32 enough = u32(smaller(prospect_.build(tuning) * n / tuning.late, n / 2.0));
     if (!moved && scene.listed() && !scene.changes->most(n)) late_count_ = look_at(scene, both, list);
     else late_count_ = resting_ ? look<true>(scene, both, list, enough) : look<false>(scene, both, list, enough);
     if (scene.filtered || filtered_ != (scene.excluded != nullptr)) refilter(scene, both, list);
-    if (late_count_ + (n - both) > enough) {
-      if (age_ <= 1) give_up();
-      return false;
-    }
+    if (late_count_ + (n - both) > enough) return false;
     met_ = 0;
     if (late_count_ == 0 && n == had) return true;
     if (!placed_) place();
@@ -320,8 +325,7 @@ template <int D> class Incremental {
       list[late_count_++] = slot;
     }
     count_ = n;
-    serve(scene, list, had);
-    return true;
+    return serve(scene, list, had);
   }
 
   /// Whether a box is where it is expected: in its region, and where it rests it is just that.
@@ -407,8 +411,9 @@ template <int D> class Incremental {
     pairs.count = left;
   }
 
-  /// Gives new regions to the late; those from slot `had` on had none.
-  COLD void serve(const Scene<D>& scene, u32* list, u32 had) {
+  /// Gives new regions to the late; those from slot `had` on had none. False where they meet so many regions that a new
+  /// list costs less.
+  COLD bool serve(const Scene<D>& scene, u32* list, u32 had) {
     u32 many = 0, were = 0;
     for (u32 k = 0; k < late_count_; k++) {
       u32 slot = list[k], tag = tags_[slot];
@@ -431,9 +436,11 @@ template <int D> class Incremental {
     }
     if (were & rests) unsettle();
     filter(extra_, [&](u32 a, u32 b) { return b < count_ && !((tags_[a] | tags_[b]) & late); });
-    for (u32 k = 0; k < many; k++) enlarge(scene, list[k], list + many);
+    u64 enough = u64(prospect_.build(tuning) * count_ / tuning.candidate);
+    for (u32 k = 0; k < many && met_ <= enough; k++) enlarge(scene, list[k], list + many);
     for (u32 k = 0; k < many; k++) tags_[list[k]] &= ~(late | fresh);
     late_count_ = many + had - smaller(had, count_);
+    return met_ <= enough;
   }
 
   /// The settled pairs of boxes that do not rest become candidates.

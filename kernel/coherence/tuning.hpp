@@ -10,8 +10,7 @@ template <int D> struct Tuning {
   f64 candidate = D == 2 ? 2 : 3;    // tests: to test one
   f64 late = 500;                    // tests: to give a box that has left its region a new one
   f64 late_margin = 0.5;             // of a box's size: the margin of that
-  f64 far = 400'000;                 // boxes: so many make a candidate and a late box cost twice as much, in far caches
-  f64 build = 1.35, widen = 0.15;    // of a rebuild: to make a list; and more where its candidates are twice the pairs
+  f64 build = D == 2 ? 1.5 : 2;      // of a rebuild: to make a list of boxes that move
   f64 worth = 0.9;                   // of a rebuild: a list must promise to cost less, and have cost less, to go on
   u32 few = 32;                      // boxes: fewer are not worth keeping anything
   u32 watched = 8;                   // updates: after which it is known what is worth keeping; the first pause is as long

@@ -27,17 +27,13 @@ struct Shift {
 
 /// What is known of the lists to come, for each box, in tests of strip sweep.
 template <int D> struct Prospect {
-  f64 sizes[D] = {};       // of boxes: the median
+  f64 sizes[D] = {};       // of boxes on average, but no less than the next
+  f64 least[D] = {};       // an eighth of what they are apart
   f64 boxes = 0, looked = 0;  // all, and those that an update looks at
   f64 pairs = 0;           // candidates of a list without a margin
   f64 fresh = 0;           // a rebuild
   f64 rest = 0;            // the share of boxes that will be known to rest
 
-  f64 growth(f64 margin) const {
-    f64 growth = 1;
-    for (f64 size : sizes) growth *= size > 0 ? 1 + 2 * margin / size : 1;
-    return growth;
-  }
   /// The smallest of the sizes that are above 0.
   f64 smallest() const {
     f64 least = 0;
@@ -46,16 +42,15 @@ template <int D> struct Prospect {
   }
   /// What is tested in an update: not the pairs of two that rest, which do not grow.
   f64 candidates(f64 growth) const { return pairs * growth * (1 - rest * rest); }
-  /// How many times as much strip sweep does for a list as for a rebuild.
-  f64 widening(f64 growth, const Tuning<D>& tuning) const { return 1 + tuning.widen * (growth - 1) * (1 - rest * rest); }
-  /// What it takes to make a list.
-  f64 build(f64 growth, const Tuning<D>& tuning) const { return fresh * (tuning.build - 1 + widening(growth, tuning)); }
-  /// How many times as long it takes as in the near caches to get at what stands anywhere.
-  f64 farness(const Tuning<D>& tuning) const { return 1 + boxes / tuning.far; }
+  /// How many times as much a list takes in as a rebuild: boxes at rest have no margin.
+  f64 widening(f64 growth) const { return 1 + (growth - 1) * (1 - rest * rest); }
+  /// What it takes to make a list: of boxes at rest a rebuild, since their regions are no larger than they.
+  f64 build(const Tuning<D>& tuning) const { return fresh * (1 + (tuning.build - 1) * (1 - rest * rest)); }
 };
 
 struct Plan {
   f32 margin = 0;
+  f64 growth = 1;              // candidates, in numbers of pairs
   f64 work = __builtin_inf();  // for each box and update
 };
 
@@ -136,9 +131,29 @@ template <int D> class Watch {
   /// The margin of least work.
   COLD Plan plan(const Prospect<D>& prospect, const Tuning<D>& tuning) const {
     Plan best;
-    f64 scale = larger(prospect.smallest(), 1e-30);
-    for (u32 h = 0; h < known_; h++) weigh(h, scale, prospect, tuning, best);
+    f64 scale = larger(prospect.smallest(), 1e-30), growths[buckets];
+    for (u32 m = 0; m < buckets; m++) growths[m] = growth(scale * edge(m), prospect);
+    for (u32 h = 0; h < known_; h++) weigh(h, scale, growths, prospect, tuning, best);
     return best;
+  }
+
+  /// How many times as many candidates as pairs a margin makes, of boxes that stand anywhere: by some of the sample, two
+  /// and two. Sizes on average would not say: boxes that are long along different axes are thick on average.
+  COLD f64 growth(f64 margin, const Prospect<D>& prospect) const {
+    f64 with = 0, without = 0;
+    for (u32 k = 0; k + 1 < many_ && k < 2 * voters; k += 2) {
+      const Sample &one = samples_[k], &other = samples_[k + 1];
+      f64 space = 1, larger_space = 1;
+      for (int a = 0; a < D; a++) {
+        f64 size = f64(one.at[1][a]) - one.at[0][a] + other.at[1][a] - other.at[0][a];
+        size = smaller(larger(size, 2 * prospect.least[a]), 1e30);
+        space *= size;
+        larger_space *= size + 4 * margin;
+      }
+      without += space;
+      with += larger_space;
+    }
+    return without > 0 ? with / without : 1;
   }
 
  private:
@@ -239,7 +254,7 @@ template <int D> class Watch {
     return bucket & 1 ? octave * 1.5 : octave;
   }
 
-  COLD void weigh(u32 h, f64 scale, const Prospect<D>& prospect, const Tuning<D>& tuning, Plan& best) const {
+  COLD void weigh(u32 h, f64 scale, const f64* growths, const Prospect<D>& prospect, const Tuning<D>& tuning, Plan& best) const {
     u32 tail[buckets + 1] = {};  // how many reach into a bucket
     f64 jumps = 0, steady = 0, updates = 1u << h;
     f32 unit = f32(1 / scale);
@@ -258,12 +273,12 @@ template <int D> class Watch {
       beyond += tail[m];
       sum += tail[m] * edge(m);
     }
-    f64 far = prospect.farness(tuning), late = tuning.late * far / many_;
+    f64 late = tuning.late / many_;
     for (u32 m = 0; m < buckets - 2; m++) {
-      f64 margin = scale * edge(m), growth = prospect.growth(margin);
-      f64 work = tuning.look * prospect.looked + tuning.candidate * far * prospect.candidates(growth);
-      work += (prospect.build(growth, tuning) + (jumps + events[m]) * late) / updates + steady * late;
-      if (work < best.work) best = {f32(margin), work};
+      f64 margin = scale * edge(m), growth = growths[m];
+      f64 work = tuning.look * prospect.looked + tuning.candidate * prospect.candidates(growth);
+      work += (prospect.build(tuning) + (jumps + events[m]) * late) / updates + steady * late;
+      if (work < best.work) best = {f32(margin), growth, work};
     }
   }
 };
