@@ -244,9 +244,10 @@ template <int D> class Incremental {
   NOINLINE void find_resting(const Scene<D>& scene, u32 had) {
     bool steady = !shift_.differs({});
     for (u32 slot = 0; slot < had; slot++) {
-      f32 was[width + padding];
-      widen(scene.box(slot), margin_ * f32(1 - (tags_[slot] & rests)), was);
-      bool rested = steady && bitmask(alike<D>(was, region(slot))) == 15;
+      const f32 *box = scene.box(slot), *was = region(slot);
+      f32 aside = margin_ * f32(1 - (tags_[slot] & rests));
+      u32 rested = steady & (bitmask(lower(box, aside) == load<f32x4>(was)) == 15);
+      if constexpr (D == 3) rested &= (bitmask(upper(box, aside) == load<f32x4>(was + D)) & 7) == 7;
       tags_[slot] = (tags_[slot] & ~rests) | rested;
     }
   }
@@ -266,15 +267,15 @@ template <int D> class Incremental {
     return u64(1.25 * prospect_.boxes * prospect_.pairs * prospect_.widening(growth));
   }
 
-  /// A box, and so much on all sides.
+  /// The first four numbers of a box with so much on all sides, and in 3D its last three.
+  static f32x4 lower(const f32* box, f32 aside) {
+    return load<f32x4>(box) + f32x4{-aside, -aside, D == 2 ? aside : -aside, aside};
+  }
+  static f32x4 upper(const f32* box, f32 aside) { return load<f32x4>(box + D) + splat(aside); }
   static void widen(const f32* box, f32 aside, f32* out) {
-    if constexpr (D == 2) {
-      store(out, load<f32x4>(box) + f32x4{-aside, -aside, aside, aside});
-    } else {
-      f32x4 by = splat(aside), high = load<f32x4>(box + D) + by;
-      store(out, load<f32x4>(box) - by);
-      __builtin_memcpy(out + D, &high, D * sizeof(f32));
-    }
+    store(out, lower(box, aside));
+    f32x4 high = upper(box, aside);
+    if constexpr (D == 3) __builtin_memcpy(out + D, &high, D * sizeof(f32));
   }
 
   /// Of the candidates, those of two boxes at rest are settled, but for those that will be in doubt.

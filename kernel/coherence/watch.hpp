@@ -133,7 +133,9 @@ template <int D> class Watch {
     Plan best;
     f64 scale = larger(prospect.smallest(), 1e-30), growths[buckets];
     for (u32 m = 0; m < buckets; m++) growths[m] = growth(scale * edge(m), prospect);
-    for (u32 h = 0; h < known_; h++) weigh(h, scale, growths, prospect, tuning, best);
+    u32 late[buckets] = {};
+    f64 bursts[buckets] = {};
+    for (u32 h = 0; h < known_; h++) weigh(h, scale, growths, late, bursts, prospect, tuning, best);
     return best;
   }
 
@@ -254,7 +256,9 @@ template <int D> class Watch {
     return bucket & 1 ? octave * 1.5 : octave;
   }
 
-  COLD void weigh(u32 h, f64 scale, const f64* growths, const Prospect<D>& prospect, const Tuning<D>& tuning, Plan& best) const {
+  /// `lates`: how many were late by half as many updates; `bursts`: how many in one of them at most.
+  COLD void weigh(u32 h, f64 scale, const f64* growths, u32* lates, f64* bursts, const Prospect<D>& prospect,
+                  const Tuning<D>& tuning, Plan& best) const {
     u32 tail[buckets + 1] = {};  // how many reach into a bucket
     f64 jumps = 0, steady = 0, updates = 1u << h;
     f32 unit = f32(1 / scale);
@@ -269,12 +273,17 @@ template <int D> class Watch {
     // A box is late once, and once more for each further margin of the late.
     f64 events[buckets + 1] = {}, beyond = 0, sum = 0;
     for (u32 m = buckets + 1; m-- > 0;) {
+      if (m < buckets) {
+        bursts[m] = larger(bursts[m], (f64(beyond) - lates[m]) / (updates - u32(updates) / 2));
+        lates[m] = u32(beyond);
+      }
       events[m] = beyond + (sum - beyond * edge(m)) / tuning.late_margin;
       beyond += tail[m];
       sum += tail[m] * edge(m);
     }
     f64 late = tuning.late / many_;
     for (u32 m = 0; m < buckets - 2; m++) {
+      if (bursts[m] * late > tuning.burst * prospect.fresh) continue;
       f64 margin = scale * edge(m), growth = growths[m];
       f64 work = tuning.look * prospect.looked + tuning.candidate * prospect.candidates(growth);
       work += (prospect.build(tuning) + (jumps + events[m]) * late) / updates + steady * late;
