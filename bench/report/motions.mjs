@@ -20,10 +20,11 @@ export const motionTitles = [
   'bytes a box',
 ];
 
-/** How many times the time of `strip-sweep` that of `auto` is, by the medians, means and p95s of `update`. */
+/** How many times the time of `strip-sweep` that of `auto` is, by the medians, means and p95s of `update`. A slow one was
+ * not asked how it starts: NaN. */
 export function ratiosOf({ contenders: [sweep, auto] }) {
   const of = (figure) => auto.update[figure] / sweep.update[figure];
-  return { median: of('median'), mean: of('mean'), p95: of('p95'), start: auto.start.mean / sweep.start.mean };
+  return { median: of('median'), mean: of('mean'), p95: of('p95'), start: (auto.start?.mean ?? NaN) / (sweep.start?.mean ?? NaN) };
 }
 
 export function motionCells(row) {

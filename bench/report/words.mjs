@@ -4,7 +4,7 @@ export const short = (value) => (value === 0 ? '0' : value < 10 ? value.toPrecis
 
 export const whole = (value) => Math.round(value).toLocaleString('en');
 
-export const times = (ratio) => `${ratio.toFixed(2)}x`;
+export const times = (ratio) => (Number.isNaN(ratio) ? '–' : `${ratio.toFixed(2)}x`);
 
 export const percent = (share) => `${Math.round(100 * share)} %`;
 

@@ -51,7 +51,8 @@ template <int D> class Incremental {
   Shift common_;            // what the watch said of common motion when the list was made
   Shift shift_;          // takes back what all have moved in common since
   u32 age_ = 0;
-  f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // work, for each box, since the list was made: for the late; of an update; all
+  f64 made_ = 0;            // work, for each box: to make the list
+  f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // and since then: for the late; of an update; all
   u32 pause_ = 0, pauses_ = tuning.watched;
 
  public:
@@ -153,6 +154,7 @@ template <int D> class Incremental {
     anew_.update(scene, options, pairs, stats);
     f64 n = larger(1u, scene.count);
     prospect_.fresh = (tuning.entry * stats.entries + stats.tests) / n;
+    prospect_.tests = stats.tests / n;
     prospect_.pairs = larger(pairs.count / n, 0.02);
     if (scene.count >= tuning.few) learn_sizes(scene.count, 0);
   }
@@ -184,7 +186,7 @@ template <int D> class Incremental {
 
   /// What the update has cost, and whether the list is worth going on with.
   COLD void account(const Scene<D>& scene) {
-    f64 n = scene.count, build = prospect_.build(tuning);
+    f64 n = scene.count;
     f64 late = (late_count_ * tuning.late + (met_ + extra_.count) * tuning.candidate) / n;
     f64 looked = scene.listed() ? scene.changes->count() : scene.count;
     smooth_ += 0.4 * (late - smooth_);
@@ -193,7 +195,7 @@ template <int D> class Incremental {
     life_ += late + least;
     age_++;
     ended_ |= least > tuning.worth * prospect_.fresh;
-    ended_ |= smooth_ * age_ > build + lateness_;
+    ended_ |= smooth_ * age_ > made_ + lateness_;
     // Boxes have come to rest: a new list will not test their pairs.
     bool judged = (age_ & (age_ - 1)) == 0 || watch_.is_new();
     ended_ |= judged && age_ >= tuning.watched && candidates_.count + extra_.count > 0 && watch_.more_rest(resting_ / n);
@@ -201,7 +203,7 @@ template <int D> class Incremental {
   }
 
   /// Whether the list has cost less than rebuilds would have.
-  bool has_paid() const { return life_ + prospect_.build(tuning) <= tuning.worth * prospect_.fresh * age_; }
+  bool has_paid() const { return life_ + made_ <= tuning.worth * prospect_.fresh * age_; }
 
   // --- a list is made ---
 
@@ -226,6 +228,7 @@ template <int D> class Incremental {
     built_ = Stats{};
     candidates_.list.reserve(expected(growth) + Pairs::slack);  // copied while it grows it takes longer
     anew_.update(Scene<D>{regions_.data(), n, scene.excluded}, Settings{}, candidates_, built_);
+    made_ = (tuning.entry * built_.entries + built_.tests + candidates_.count) / n + 2 * tuning.look;
     if (resting_ > 0) settle(scene);
     placed_ = ended_ = false;
     shift_ = {};
@@ -235,7 +238,8 @@ template <int D> class Incremental {
     lateness_ = smooth_ = life_ = 0;
     prospect_.rest = f64(resting_) / n;
     // Too little is mended by the rebuild that follows when the list is given up; too much would never be.
-    prospect_.fresh = smaller(prospect_.fresh, (tuning.entry * built_.entries + built_.tests / prospect_.widening(growth)) / n);
+    prospect_.tests = smaller(prospect_.tests, built_.tests / n / prospect_.more_tests(growth));
+    prospect_.fresh = smaller(prospect_.fresh, tuning.entry * built_.entries / n + prospect_.tests);
     prospect_.pairs = larger((settled_.count + candidates_.count / growth) / n, 0.02);
     learn_sizes(n, margin * (1 - prospect_.rest));
   }
@@ -306,7 +310,7 @@ template <int D> class Incremental {
     shift_ = shift;
     if (!shift.is_sound()) return false;
     // So many late boxes cost as much as a new list.
-    u32 enough = u32(smaller(prospect_.build(tuning) * n / tuning.late, n / 2.0));
+    u32 enough = u32(smaller(made_ * n / tuning.late, n / 2.0));
     if (!moved && scene.listed() && !scene.changes->most(n)) late_count_ = look_at(scene, both, list);
     else late_count_ = resting_ ? look<true>(scene, both, list, enough) : look<false>(scene, both, list, enough);
     if (scene.filtered || filtered_ != (scene.excluded != nullptr)) refilter(scene, both, list);
@@ -437,7 +441,7 @@ template <int D> class Incremental {
     }
     if (were & rests) unsettle();
     filter(extra_, [&](u32 a, u32 b) { return b < count_ && !((tags_[a] | tags_[b]) & late); });
-    u64 enough = u64(prospect_.build(tuning) * count_ / tuning.candidate);
+    u64 enough = u64(made_ * count_ / tuning.candidate);
     for (u32 k = 0; k < many && met_ <= enough; k++) enlarge(scene, list[k], list + many);
     for (u32 k = 0; k < many; k++) tags_[list[k]] &= ~(late | fresh);
     late_count_ = many + had - smaller(had, count_);

@@ -32,6 +32,7 @@ template <int D> struct Prospect {
   f64 boxes = 0, looked = 0;  // all, and those that an update looks at
   f64 pairs = 0;           // candidates of a list without a margin
   f64 fresh = 0;           // a rebuild
+  f64 tests = 0;           // of it, the tests
   f64 rest = 0;            // the share of boxes that will be known to rest
 
   /// The smallest of the sizes that are above 0.
@@ -44,8 +45,15 @@ template <int D> struct Prospect {
   f64 candidates(f64 growth) const { return pairs * growth * (1 - rest * rest); }
   /// How many times as much a list takes in as a rebuild: boxes at rest have no margin.
   f64 widening(f64 growth) const { return 1 + (growth - 1) * (1 - rest * rest); }
-  /// What it takes to make a list: of boxes at rest a rebuild, since their regions are no larger than they.
-  f64 build(const Tuning<D>& tuning) const { return fresh * (1 + (tuning.build - 1) * (1 - rest * rest)); }
+  /// How many times as many tests the sweep of it takes: what the growth is along all axes but one.
+  f64 more_tests(f64 growth) const {
+    f64 root = D == 2 ? __builtin_sqrt(widening(growth)) : cube_root(widening(growth));
+    return D == 2 ? root : root * root;
+  }
+  /// What it takes to make a list: a rebuild with larger boxes, and to write down and copy what it finds.
+  f64 build(f64 growth, const Tuning<D>& tuning) const {
+    return fresh + tests * (more_tests(growth) - 1) + pairs * widening(growth) + 2 * tuning.look;
+  }
 };
 
 struct Plan {
@@ -283,10 +291,10 @@ template <int D> class Watch {
     }
     f64 late = tuning.late / many_;
     for (u32 m = 0; m < buckets - 2; m++) {
-      if (bursts[m] * late > tuning.burst * prospect.fresh) continue;
-      f64 margin = scale * edge(m), growth = growths[m];
+      f64 margin = scale * edge(m), growth = growths[m], build = prospect.build(growth, tuning);
+      if (bursts[m] * late > tuning.burst * prospect.fresh || build > tuning.build * prospect.fresh) continue;
       f64 work = tuning.look * prospect.looked + tuning.candidate * prospect.candidates(growth);
-      work += (prospect.build(tuning) + (jumps + events[m]) * late) / updates + steady * late;
+      work += (build + (jumps + events[m]) * late) / updates + steady * late;
       if (work < best.work) best = {f32(margin), growth, work};
     }
   }
