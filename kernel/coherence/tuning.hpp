@@ -11,7 +11,7 @@ template <int D> struct Tuning {
   f64 late = 500;                    // tests: to give a box that has left its region a new one
   f64 late_margin = 0.5;             // of a box's size: the margin of that
   f64 burst = 0.5;                   // of a rebuild: in one update boxes may be late for as much
-  f64 build = 2;                     // of a rebuild: a list that would cost more is not made
+  f64 build = 2;                       // of a rebuild: a list that would cost more is not made
   f64 worth = 0.9;                   // of a rebuild: a list must promise to cost less, and have cost less, to go on
   u32 few = 32;                      // boxes: fewer are not worth keeping anything
   u32 watched = 8;                   // updates: after which it is known what is worth keeping; the first pause is as long
