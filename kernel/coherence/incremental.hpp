@@ -476,15 +476,17 @@ template <int D> class Incremental {
     shifted(scene.box(slot), box);
     widen(box, aside, larger_one);
     u32 found = 0;
-    places_.each_near(larger_one, [&](u32 other) { near[found++] = other; });
-    met_ += found;
+    places_.each_near(larger_one, [&](u32 other) {
+      near[found] = other;
+      found += boxes_touch<D>(larger_one, region(other));
+      met_++;
+    });
     u64* out = extra_.room(extra_.list.data() + extra_.count, found);
     const f32* its_base = base(slot);
-    for (u32 k = 0; k < found; k++) {  // without a branch: what a region touches is unpredictable
+    for (u32 k = 0; k < found; k++) {
       u32 other = near[k];
       *out = pair_of(slot, other);
-      u32 apart = !boxes_touch<D>(larger_one, region(other)), listed = boxes_touch<D>(its_base, base(other));
-      out += !(apart | listed | (tag & tags_[other] & ~slot_mask));
+      out += !(boxes_touch<D>(its_base, base(other)) | (tag & tags_[other] & ~slot_mask));
     }
     extra_.count = Pairs::between(extra_.list.data(), out);
     __builtin_memcpy(region(slot), larger_one, width * sizeof(f32));
