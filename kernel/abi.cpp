@@ -2,7 +2,7 @@
 // Numbers that do not fit in a return value are passed through `io`, an array of doubles.
 #include <new>
 
-#include "space.hpp"
+#include "space/space.hpp"
 
 // Next to one another, as the techniques are: see there.
 BOTH(Index)

@@ -1,7 +1,7 @@
 // A module of its own, of some 250 bytes: turns the text that scripts/inline.mjs writes back into the bytes of the
 // kernel. It runs once, before the kernel is compiled: JavaScript that no engine has optimised yet takes several times as
 // long for it.
-#include "simd.hpp"
+#include "base/simd.hpp"
 
 extern "C" u8 __heap_base;
 

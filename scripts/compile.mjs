@@ -49,7 +49,7 @@ export const lean = ['brute-force', 'strip-sweep', 'incremental', 'auto'];
 
 /** The techniques in the order of their bits, which is that of BroadPhase.techniques. */
 export function techniqueNames() {
-  const header = readFileSync(join(root, 'kernel/techniques.hpp'), 'utf8');
+  const header = readFileSync(join(root, 'kernel/space/techniques.hpp'), 'utf8');
   const [, names] = /enum class Technique : u32 \{([^}]*)\}/.exec(header);
   return names.split(',').flatMap((name) => name.trim().replaceAll('_', '-').replace('automatic', 'auto') || []);
 }

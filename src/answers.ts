@@ -1,5 +1,5 @@
 // How a space asks its kernel and reads what it answers: what all questions share.
-// The kernel answers (kernel/queries.hpp); the files of the questions check them and write them into its array of numbers;
+// The kernel answers (kernel/questions/queries.hpp); the files of the questions check them and write them into its array of numbers;
 // here the answers are copied to where they are wanted. A visitor gets them in parts, so that the search ends where it
 // says so, and may ask questions itself.
 import type { Dimensions } from './dimensions.ts';

@@ -1,5 +1,5 @@
 // Many questions in one call: numbers of all of them in, the answers of all of them out, in typed arrays.
-// The kernel answers them (kernel/bulk.hpp); here they are checked, and the answers copied.
+// The kernel answers them (kernel/questions/bulk.hpp); here they are checked, and the answers copied.
 import { isNumber, known, limitAt, noQueries, number, point2, point3 } from './answers.ts';
 import type { Dimensions } from './dimensions.ts';
 import {

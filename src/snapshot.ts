@@ -1,4 +1,4 @@
-// Why bytes are not a snapshot that can be restored, in words. What a snapshot holds: kernel/snapshot.hpp.
+// Why bytes are not a snapshot that can be restored, in words. What a snapshot holds: kernel/space/snapshot.hpp.
 import { badValue } from './errors.ts';
 import { bytesOf } from './values.ts';
 
@@ -14,7 +14,7 @@ export function snapshotBytes(value: unknown): Uint8Array {
   );
 }
 
-/** `fault` is kernel/snapshot.hpp's SnapshotFault. */
+/** `fault` is kernel/space/snapshot.hpp's SnapshotFault. */
 export function badSnapshot(fault: number, bytes: Uint8Array, dimensions: 2 | 3, technique: string): never {
   const reasons = [
     '',

@@ -6,7 +6,7 @@ import { instantiate, type KernelExports } from './kernel.ts';
 /** A number of views kept, so that pair counts seen lately make no garbage. */
 const viewsKept = 256;
 
-/** Numbers at the beginning of the ring, in which the kernel says what may wait there: see kernel/ring.hpp. */
+/** Numbers at the beginning of the ring, in which the kernel says what may wait there: see kernel/boxes/ring.hpp. */
 const ringHead = 3;
 const ringBoxes = 512;
 /** Numbers in the kernel's array: see kernel/abi.cpp. */
@@ -27,7 +27,7 @@ export abstract class Space<D extends Dimensions> {
   /** The ids below this are in the space, once all that wait are taken; 0 where that is not known. @internal */
   protected dense = 0;
   #room = 0;
-  /** Where the kernel's table of pages of ids stands among its words: see kernel/ids.hpp. */
+  /** Where the kernel's table of pages of ids stands among its words: see kernel/boxes/ids.hpp. */
   #pages = nowhere;
   #words = new Uint32Array();
   /** Numbers in a box. @internal */

@@ -234,7 +234,7 @@ describe('events after a restore', () => {
   });
 });
 
-/** The checksum of kernel/snapshot.hpp, for forgeries. */
+/** The checksum of kernel/space/snapshot.hpp, for forgeries. */
 function sealed(bytes: Uint8Array): Uint8Array {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   let sum = BigInt(bytes.length);

@@ -24,7 +24,12 @@ export const motionTitles = [
  * not asked how it starts: NaN. */
 export function ratiosOf({ contenders: [sweep, auto] }) {
   const of = (figure) => auto.update[figure] / sweep.update[figure];
-  return { median: of('median'), mean: of('mean'), p95: of('p95'), start: (auto.start?.mean ?? NaN) / (sweep.start?.mean ?? NaN) };
+  return {
+    median: of('median'),
+    mean: of('mean'),
+    p95: of('p95'),
+    start: (auto.start?.mean ?? NaN) / (sweep.start?.mean ?? NaN),
+  };
 }
 
 export function motionCells(row) {

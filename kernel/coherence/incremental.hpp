@@ -15,10 +15,10 @@
 // Wins where boxes rest, tremble, turn, or move by less than a tenth of their size. Is strip sweep where they jump.
 // From: L. Verlet, "Computer Experiments on Classical Fluids", 1967.
 #pragma once
-#include "../pair_order.hpp"
-#include "../techniques/strip_sweep.hpp"
-#include "places.hpp"
-#include "watch.hpp"
+#include "coherence/places.hpp"
+#include "coherence/watch.hpp"
+#include "pairs/pair_order.hpp"
+#include "techniques/strip_sweep.hpp"
 
 template <int D> class Incremental {
   static constexpr u32 width = 2 * D;

@@ -4,7 +4,8 @@
 // Cost: about 3 ns to put one in, and in a search 2 ns for each region that stands near; 8 bytes a region, 3 for cells.
 // From: F. Schornbaum, "Hierarchical Hash Grids for Coarse Collision Detection", 2009.
 #pragma once
-#include "../statistics.hpp"
+#include "boxes/cell_map.hpp"
+#include "boxes/scene_sample.hpp"
 
 template <int D> class Places {
   static constexpr u32 boxes_a_cell = 2, most_grids = 13;

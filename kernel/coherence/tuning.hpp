@@ -1,7 +1,7 @@
 // The numbers that say when it pays to keep pairs. `npm run bench -- --motions --set tune --count 10000 --dimensions 2
 // --by boxes` measures them; what halving and doubling each does is in docs/decisions/coherence.md.
 #pragma once
-#include "../simd.hpp"
+#include "base/simd.hpp"
 
 /// Work is counted in tests of strip sweep: one box against another in its inner loop.
 template <int D> struct Tuning {

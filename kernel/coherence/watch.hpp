@@ -4,9 +4,9 @@
 // making, and whatever it takes to serve the boxes that were further away than m. The cheapest is chosen.
 // Motion that most boxes have in common (a world that scrolls or zooms) is taken out first.
 #pragma once
-#include "../box_tests.hpp"
-#include "../statistics.hpp"
-#include "tuning.hpp"
+#include "base/box_tests.hpp"
+#include "boxes/scene_sample.hpp"
+#include "coherence/tuning.hpp"
 
 /// A motion that boxes have in common: along each axis, in the lanes of the first numbers of a box, they are scaled and
 /// moved. Rounding is monotone, so boxes that overlap do so after it.

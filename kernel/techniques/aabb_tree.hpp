@@ -12,9 +12,9 @@
 // From: fat boxes and moved sets as in the dynamic trees of Bullet (N. Presson) and Box2D (E. Catto); candidates
 // kept with a margin from L. Verlet, "Computer Experiments on Classical Fluids", 1967.
 #pragma once
-#include "packed_tree.hpp"
-#include "pair_order.hpp"
-#include "settings.hpp"
+#include "pairs/pair_order.hpp"
+#include "search/packed_tree.hpp"
+#include "search/settings.hpp"
 
 template <int D> class AabbTree {
   static constexpr u32 width = 2 * D;

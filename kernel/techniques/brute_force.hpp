@@ -5,9 +5,9 @@
 // Wins for a handful of boxes. Loses for all else; kept as the answer that every other technique must give.
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, approach 1.
 #pragma once
-#include "settings.hpp"
-#include "stats.hpp"
-#include "sweep.hpp"
+#include "search/settings.hpp"
+#include "search/stats.hpp"
+#include "search/sweep.hpp"
 
 template <int D> class BruteForce {
   Items<D> items_;

@@ -13,9 +13,9 @@
 // From: J. L. Bentley, "Multidimensional Binary Search Trees Used for Associative Searching", 1975; cuts and
 // leaves as in Serpa & Rodrigues, "Broadmark: A Testing Framework for Broad-Phase Collision Detection", 2019.
 #pragma once
-#include "settings.hpp"
-#include "stats.hpp"
-#include "swept_list.hpp"
+#include "search/settings.hpp"
+#include "search/stats.hpp"
+#include "search/sweep_list.hpp"
 
 template <int D> class BspTree {
   // Costs relative to a tested candidate: a copy of an item, and one more pass over it.
@@ -31,7 +31,7 @@ template <int D> class BspTree {
   };
 
   Items<D> stacks_[2];
-  SweptList<D> swept_;
+  SweepList<D> swept_;
   Buffer<Region> leaves_;
   Stats* stats_ = nullptr;
 

@@ -12,9 +12,9 @@
 // boxes of one size, and where boxes are long and thin: their cells are as wide as they are long.
 // From: F. Schornbaum, "Hierarchical Hash Grids for Coarse Collision Detection", 2009.
 #pragma once
-#include "settings.hpp"
-#include "stats.hpp"
-#include "torus.hpp"
+#include "search/cell_table.hpp"
+#include "search/settings.hpp"
+#include "search/stats.hpp"
 
 template <int D> class HierarchicalGrid {
   // A level has at least so many boxes in each cell of the world, or it is merged into the next: measured to be
@@ -26,11 +26,11 @@ template <int D> class HierarchicalGrid {
   // ones among them, have a level of one cell.
   static constexpr u32 last_class = 252, classes = 256;
 
-  using Place = typename Torus<D>::Place;
+  using Place = typename CellTable<D>::Place;
 
   static constexpr u32 most_near = D == 2 ? 6 : 18;
   struct Level {
-    Torus<D> cells;
+    CellTable<D> cells;
     Place last;           // the last place that was looked around
     Run near[most_near];  // what was found there
     u32 near_count;
@@ -61,7 +61,7 @@ template <int D> class HierarchicalGrid {
     __builtin_memset(starts, 0, (total + 1) * sizeof(u32));
     u32* ends = starts + 1;
     for (u32 k = 0; k < n; k++) {
-      const Torus<D>& level = levels_[level_of_[cells[k]]].cells;
+      const CellTable<D>& level = levels_[level_of_[cells[k]]].cells;
       u32 cell = level.index(level.place(items[k]));
       cells[k] = cell;
       ends[cell]++;
@@ -104,7 +104,7 @@ template <int D> class HierarchicalGrid {
     f32* to = boxes.data();
     u32 n = u32(stats.entries);
     for (u32 l = 0; l < level_count_; l++) {
-      const Torus<D>& level = levels_[l].cells;
+      const CellTable<D>& level = levels_[l].cells;
       to = level.draw(to, ItemsAt<D>(ordered_, 0), starts_[level.first], last_of(l, n));
     }
     count = u32(to - boxes.data()) / (2 * D);
@@ -141,7 +141,7 @@ template <int D> class HierarchicalGrid {
   static u32x4 magnitude(f32x4 v) { return bits<u32x4>(v) & splat(0x7fffffffu); }
 
   /// Makes the levels for boxes of these classes; returns the number of cells.
-  COLD u32 choose(const Statistics<D>& world, const u32* sizes, u32 rest) {
+  COLD u32 choose(const SceneSample<D>& world, const u32* sizes, u32 rest) {
     level_count_ = 0;
     u32 cells = 0, waiting = 0;
     for (u32 c = 0; c < classes; c++) {

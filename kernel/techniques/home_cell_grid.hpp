@@ -12,11 +12,11 @@
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, future expansion; the cell
 // lists of molecular dynamics (R. Hockney & J. Eastwood, "Computer Simulation Using Particles", 1981).
 #pragma once
-#include "long_sweep.hpp"
-#include "radix_sort.hpp"
-#include "settings.hpp"
-#include "stats.hpp"
-#include "torus.hpp"
+#include "base/radix_sort.hpp"
+#include "search/cell_table.hpp"
+#include "search/quantized_sweep.hpp"
+#include "search/settings.hpp"
+#include "search/stats.hpp"
 
 template <int D> class HomeCellGrid {
   static constexpr f64 crowd = 1.2;    // boxes in a cell, at least: measured to be nearly flat from 1 to 3
@@ -26,7 +26,7 @@ template <int D> class HomeCellGrid {
   // A large box with more rows of cells under it than a share of the boxes looks at all of them in one run.
   static constexpr u32 row_cost = 8;
 
-  Torus<D> torus_ = {};
+  CellTable<D> table_ = {};
   Buffer<u32> cells_;   // per slot its cell; of the large ones: behind the last
   Buffer<u32> starts_;  // per cell
   Buffer<u32> large_;   // slots
@@ -34,7 +34,7 @@ template <int D> class HomeCellGrid {
   Lanes<D> lanes_;
   Buffer<Run> runs_;
   RadixSort sort_;
-  LongSweep<D> sweep_;  // of the large ones
+  QuantizedSweep<D> sweep_;  // of the large ones
   u32 home_ = 0;  // boxes that are not large
 
  public:
@@ -42,7 +42,7 @@ template <int D> class HomeCellGrid {
     u32 n = scene.count;
     if (n < 2) return;
     SceneItems<D> items{scene, AxisOrder<D>::make(0)};
-    Statistics<D> world = measure<D>(items, n);
+    SceneSample<D> world = measure<D>(items, n);
     u32 total = choose(world, n, options);
     u32* cells = cells_.reserve(n);
     u32* large = large_.reserve(n);
@@ -52,10 +52,10 @@ template <int D> class HomeCellGrid {
     u32 large_count = 0;
     for (u32 k = 0; k < n; k++) {
       Item<D> item = items[k];
-      Place place = torus_.place(item);
-      bool fits = torus_.is_counted(item);
+      Place place = table_.place(item);
+      bool fits = table_.is_counted(item);
       for (int a = 0; a < D; a++) fits &= place.reach[a] < 2;
-      cells[k] = torus_.index(place);
+      cells[k] = table_.index(place);
       ends[cells[k]] += fits;
       large[large_count] = k;
       if (!fits) cells[k] = total;
@@ -89,7 +89,7 @@ template <int D> class HomeCellGrid {
     Run* out = runs;
     for (u32 i = 0; i < n; i++) {
       Item<D> item = ordered[i];
-      out = i < home ? torus_.peers(out, starts, item, i) : below(out, item, i, home);
+      out = i < home ? table_.peers(out, starts, item, i) : below(out, item, i, home);
       if (out < runs + enough_runs) continue;
       stats.tests += sweep_runs<D>(lanes_, runs, out, pairs);
       out = runs;
@@ -103,7 +103,7 @@ template <int D> class HomeCellGrid {
     count = 0;
     boxes.reserve(u64(stats.entries) * 2 * D);
     if (stats.entries == 0) return;
-    f32* end = torus_.draw(boxes.data(), ItemsAt<D>(ordered_, 0), 0, home_);
+    f32* end = table_.draw(boxes.data(), ItemsAt<D>(ordered_, 0), 0, home_);
     count = u32(end - boxes.data()) / (2 * D);
   }
 
@@ -119,19 +119,19 @@ template <int D> class HomeCellGrid {
   }
 
  private:
-  using Place = typename Torus<D>::Place;
+  using Place = typename CellTable<D>::Place;
 
   /// The items of the cells under a large item.
   Run* below(Run* out, const Item<D>& item, u32 i, u32 home) const {
-    Place place = torus_.place(item);
+    Place place = table_.place(item);
     u64 rows = 1;
-    for (int a = 1; a < D; a++) rows *= torus_.around(place, a);
-    if (rows * row_cost > home || !torus_.is_counted(item)) return add(out, i, 0, home);
-    return torus_.block(out, starts_.data(), place, i);
+    for (int a = 1; a < D; a++) rows *= table_.around(place, a);
+    if (rows * row_cost > home || !table_.is_counted(item)) return add(out, i, 0, home);
+    return table_.block(out, starts_.data(), place, i);
   }
 
   /// Sets the cells; returns their number.
-  COLD u32 choose(const Statistics<D>& world, u32 count, const Settings& options) {
+  COLD u32 choose(const SceneSample<D>& world, u32 count, const Settings& options) {
     f64 size[D], extent[D];
     f64 share = world.crowding * count;  // boxes in a cell
     for (int a = 0; a < D; a++) {
@@ -146,10 +146,10 @@ template <int D> class HomeCellGrid {
     for (int a = 0; a < D; a++) {
       size[a] = options.cell_size[a] > 0 ? options.cell_size[a] : size[a] * factor;
       f32 scale = size[a] > 0 ? f32(smaller(1 / size[a], 1e30)) : 0;
-      torus_.scale[a] = scale;
-      if (D == 2) torus_.scale[2 + a] = scale;
+      table_.scale[a] = scale;
+      if (D == 2) table_.scale[2 + a] = scale;
       wanted[a] = extent[a] * f64(scale);
     }
-    return torus_.shape(wanted, 0, u64(count) * 4);
+    return table_.shape(wanted, 0, u64(count) * 4);
   }
 };

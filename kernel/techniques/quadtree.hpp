@@ -12,10 +12,10 @@
 // From: R. Finkel and J. L. Bentley, "Quad Trees", 1974; loose cells from T. Ulrich, "Loose Octrees", Game
 // Programming Gems, 2000.
 #pragma once
-#include "curve_order.hpp"
-#include "settings.hpp"
-#include "stats.hpp"
-#include "sweep.hpp"
+#include "search/hilbert.hpp"
+#include "search/settings.hpp"
+#include "search/stats.hpp"
+#include "search/sweep.hpp"
 
 template <int D> class Quadtree {
   using Curve = HilbertCurve<D>;
@@ -41,7 +41,7 @@ template <int D> class Quadtree {
     u32 behind;         // the node after all that are below it
   };
 
-  CurveOrder<D> order_;
+  HilbertOrder<D> order_;
   Lanes<D> lanes_;
   Buffer<Node> nodes_;
   u32 count_ = 0;  // nodes

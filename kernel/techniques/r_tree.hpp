@@ -9,8 +9,8 @@
 // From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993; the join from Brinkhoff, Kriegel & Seeger,
 // "Efficient Processing of Spatial Joins Using R-trees", SIGMOD 1993.
 #pragma once
-#include "packed_tree.hpp"
-#include "settings.hpp"
+#include "search/packed_tree.hpp"
+#include "search/settings.hpp"
 
 template <int D> class RTree {
   PackedTree<D> tree_;

@@ -10,10 +10,10 @@
 // Wins where most boxes rest. Loses where all move: then looking what has changed saves little.
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, future expansion.
 #pragma once
-#include "grid.hpp"
-#include "pair_order.hpp"
-#include "stats.hpp"
-#include "sweep.hpp"
+#include "pairs/pair_order.hpp"
+#include "search/grid.hpp"
+#include "search/stats.hpp"
+#include "search/sweep.hpp"
 
 template <int D> class RetainedGrid {
   // Entries that may be looked at for each box before building anew is the better way.

@@ -10,9 +10,9 @@
 // reference cell is from Dittrich & Seeger, "Data Redundancy and Duplicate Detection in Spatial Join
 // Processing", ICDE 2000.
 #pragma once
-#include "grid.hpp"
-#include "stats.hpp"
-#include "sweep.hpp"
+#include "search/grid.hpp"
+#include "search/stats.hpp"
+#include "search/sweep.hpp"
 
 template <int D> class SpatialGrid {
   /// All cells are looked at in each update, so that few boxes do not get many.

@@ -10,9 +10,9 @@
 // From: two-layer partitioning, Tsitsigkos et al., "A Two-layer Partitioning for Non-point Spatial Data",
 // ICDE 2021; the sweep in strips goes back to Güting & Schilling 1987.
 #pragma once
-#include "settings.hpp"
-#include "stats.hpp"
-#include "swept_list.hpp"
+#include "search/settings.hpp"
+#include "search/stats.hpp"
+#include "search/sweep_list.hpp"
 
 template <int D> class StripSweep {
   // What an entry in a strip costs, relative to a tested candidate: sets the width of the strips.
@@ -36,7 +36,7 @@ template <int D> class StripSweep {
 
   /// How one set of items is cut: along the binned axes 1 (and 2); axis 0 is swept.
   struct Cut {
-    Statistics<D> world;
+    SceneSample<D> world;
     Axis along[D];
     u32 strips[D];
 
@@ -75,7 +75,7 @@ template <int D> class StripSweep {
   }
 
   Items<D> entries_;       // by strip; deeper cuts stack theirs on top
-  SweptList<D> swept_;     // the items of one strip
+  SweepList<D> swept_;     // the items of one strip
   Buffer<Range> ranges_;   // per item that is being cut
   Buffer<u32> offsets_[deepest + 1];  // per cut: where each strip's entries begin
   Buffer<Region> leaves_;  // the strips in use
@@ -143,7 +143,7 @@ template <int D> class StripSweep {
  private:
   /// Strip widths that balance entries against candidates: a strip w boxes wide makes 1 / w more entries and
   /// tests w times the neighbours along the sweep axis.
-  COLD static Cut choose(const Statistics<D>& world, u32 count) {
+  COLD static Cut choose(const SceneSample<D>& world, u32 count) {
     f64 relative[D];  // mean size as a share of the extent
     for (int a = 0; a < D; a++) {
       f64 extent = world.high[a] - world.low[a];
@@ -197,7 +197,7 @@ template <int D> class StripSweep {
   /// Chooses the sweep axis and the outermost cut; false where it would leave all in one strip.
   COLD bool cut_up(const Scene<D>& scene) {
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
-    Statistics<D> world;
+    SceneSample<D> world;
     bool one_strip = scene.count < few;
     if (one_strip) {
       world = glance<D>(plain, scene.count);
@@ -363,7 +363,7 @@ template <int D> class StripSweep {
   /// Sweeps the items of one strip, which were just ordered, or cuts them again where that saves work.
   void list(const ItemsAt<D>& items, u32 count, u64 tests, const Region& region, u32 base, u32 depth, Pairs& pairs) {
     f64 hits = tests > look_factor * count && tests > again_least ? swept_.hits(count) : 1;
-    Statistics<D> part;
+    SceneSample<D> part;
     if (hits < wasteful) {
       part = measure<D>(items, count);
       for (int a = 1; a < D; a++) {

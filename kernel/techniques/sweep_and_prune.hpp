@@ -5,7 +5,7 @@
 // has changed that is given up after a few moves; boxes are then dealt into as many cells as there are boxes, those of
 // a cell in the order they had, which is repaired; and where cells are crowded, it is a radix sort. Boxes that start
 // together stand in the order of their slots, so that what the order is depends on the boxes alone. Few of the boxes
-// that meet on one axis overlap, so sixteen are tested at a time (long_sweep.hpp).
+// that meet on one axis overlap, so sixteen are tested at a time (quantized_sweep.hpp).
 // Cost: update O(n + moves in the order), at most that of one radix sort; pairs O(n * boxes that one meets along the
 // axis), which grows with the square root (2D) or the power 2/3 (3D) of n; memory about 65 (2D) or 75 (3D) bytes a box.
 // Wins in sparse and long worlds, and where few boxes move. Loses in large square ones, and most of all in cubes:
@@ -13,10 +13,10 @@
 // From: D. Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", 1992; the sweep along one axis with the
 // tests of the others at once is C. Ericson, "Real-Time Collision Detection", 2005, 7.5.
 #pragma once
-#include "long_sweep.hpp"
-#include "radix_sort.hpp"
-#include "settings.hpp"
-#include "stats.hpp"
+#include "base/radix_sort.hpp"
+#include "search/quantized_sweep.hpp"
+#include "search/settings.hpp"
+#include "search/stats.hpp"
 
 template <int D> class SweepAndPrune {
   // A repair is given up when it has made more moves than this for each box it has come past, and this many more.
@@ -28,7 +28,7 @@ template <int D> class SweepAndPrune {
   Buffer<f32> dealt_keys_;
   Lanes<D> lanes_;
   RadixSort sort_;
-  LongSweep<D> sweep_;
+  QuantizedSweep<D> sweep_;
   u32 count_ = 0;
   int axis_ = 0;
 
@@ -36,7 +36,7 @@ template <int D> class SweepAndPrune {
   void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     if (n < 2) return;
-    Statistics<D> world = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, n);
+    SceneSample<D> world = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, n);
     axis_ = world.longest();
     AxisOrder<D> order = AxisOrder<D>::make(axis_);
     take(n);
@@ -94,7 +94,7 @@ template <int D> class SweepAndPrune {
   }
 
   /// Deals the order into cells along the axis.
-  void deal(u32 n, const Statistics<D>& world) {
+  void deal(u32 n, const SceneSample<D>& world) {
     u32* cells = cells_.reserve(n + 4);
     u32* starts = starts_.reserve(n);
     __builtin_memset(starts, 0, n * sizeof(u32));

@@ -1,5 +1,5 @@
 // Which boxes have changed, as the space is told.
-#include "changes.hpp"
+#include "boxes/changes.hpp"
 
 #include "check.hpp"
 #include "model.hpp"

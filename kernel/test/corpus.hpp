@@ -2,6 +2,6 @@
 #pragma once
 #include <vector>
 
-#include "simd.hpp"
+#include "base/simd.hpp"
 
 const std::vector<std::vector<u8>>& corpus();

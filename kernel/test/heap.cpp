@@ -1,5 +1,5 @@
 // Size classes and growable arrays.
-#include "heap.hpp"
+#include "base/heap.hpp"
 
 #include "check.hpp"
 #include "random.hpp"

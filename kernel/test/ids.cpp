@@ -1,5 +1,5 @@
 // Ids and slots against a map.
-#include "ids.hpp"
+#include "boxes/ids.hpp"
 
 #include <map>
 #include <memory>

@@ -1,5 +1,5 @@
 // What stands behind the items of `Lanes`: sweeps read it.
-#include "box.hpp"
+#include "boxes/box.hpp"
 #include "check.hpp"
 
 TEST("behind the lanes there is padding that overlaps nothing, whatever stood there before") {

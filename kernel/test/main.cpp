@@ -2,7 +2,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "heap.hpp"
+#include "base/heap.hpp"
 #include "check.hpp"
 
 int main(int count, char** arguments) {

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "space.hpp"
+#include "space/space.hpp"
 
 template <int D> using Box = std::array<f64, 2 * D>;  // D minima, then D maxima
 template <int D> using Boxes = std::vector<Box<D>>;

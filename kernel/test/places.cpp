@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "box_tests.hpp"
+#include "base/box_tests.hpp"
 #include "check.hpp"
 #include "random.hpp"
 

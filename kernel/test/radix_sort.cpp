@@ -1,5 +1,5 @@
 // The radix sort against the standard library's stable sort.
-#include "radix_sort.hpp"
+#include "base/radix_sort.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,6 +1,6 @@
 // Seeded random numbers for the tests (splitmix64): the same on every machine.
 #pragma once
-#include "simd.hpp"
+#include "base/simd.hpp"
 
 class Random {
   u64 state_;

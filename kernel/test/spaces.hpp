@@ -343,7 +343,7 @@ template <int D> void check_statistics_of(const Boxes<D>& boxes) {
   }
   floats.resize(floats.size() + 4);
   Scene<D> scene{floats.data(), u32(boxes.size()), nullptr};
-  Statistics<D> world = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, scene.count);
+  SceneSample<D> world = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, scene.count);
   for (int a = 0; a < D; a++) {
     CHECK(std::isfinite(world.low[a]) && std::isfinite(world.high[a]));
     CHECK(world.low[a] <= world.high[a]);

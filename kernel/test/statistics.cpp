@@ -1,5 +1,5 @@
 // What is measured of a frame, and the maps from coordinates to cells that follow from it.
-#include "statistics.hpp"
+#include "boxes/scene_sample.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +88,7 @@ TEST("axis puts whole steps in the middle of cells") {
 TEST("statistics leave out outliers") {
   Random random(5);
   Boxes<2> boxes = spread<2>(random, 2000, 0, 100, 4);
-  Statistics<2> found;
+  SceneSample<2> found;
   auto measured = [&] {
     std::vector<f32> floats;
     for (const auto& box : boxes) floats.insert(floats.end(), box.begin(), box.end());

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "space.hpp"
+#include "space/space.hpp"
 
 namespace {
 

@@ -1,0 +1,28 @@
+// Tests of one box against another, as they stand in the scene.
+#pragma once
+#include "base/simd.hpp"
+
+/// Of a box in 2D with the signs of its maxima turned round: then tests of two boxes are four comparisons of one kind.
+inline f32x4 turned(i32x4 box) { return bits<f32x4>(box ^ i32x4{0, 0, i32(1u << 31), i32(1u << 31)}); }
+
+template <int D> bool boxes_touch(const f32* one, const f32* other) {
+  if constexpr (D == 2) {
+    i32x4 its = load<i32x4>(other);
+    return bitmask(turned(load<i32x4>(one)) <= turned(__builtin_shufflevector(its, its, 2, 3, 0, 1))) == 15;
+  } else {
+    u32 both = bitmask((load<f32x4>(one) <= load<f32x4>(other + D)) & (load<f32x4>(other) <= load<f32x4>(one + D)));
+    return !(~both & 7);
+  }
+}
+
+/// In which numbers two boxes are the same; in all lanes: they are.
+template <int D> i32x4 alike(const f32* one, const f32* other) {
+  i32x4 same = load<f32x4>(one) == load<f32x4>(other);
+  return D == 2 ? same : same & (load<f32x4>(one + 2) == load<f32x4>(other + 2));
+}
+
+/// In which lanes a bound of the one is equal to one of the other that faces it.
+template <int D> i32x4 equal_bounds(const f32* one, const f32* other) {
+  i32x4 equal = (load<f32x4>(one) == load<f32x4>(other + D)) | (load<f32x4>(other) == load<f32x4>(one + D));
+  return equal & (D == 2 ? i32x4{-1, -1, 0, 0} : i32x4{-1, -1, -1, 0});
+}

@@ -1,0 +1,36 @@
+// Doubles to float32, outward, for what has to contain them: what is rounded down is never above, what is rounded up
+// never below.
+#pragma once
+#include "base/heap.hpp"
+
+inline f32 next_toward(f32 x, bool up) {
+  i32 b = bits<i32>(x == 0 ? (up ? 0.0f : -0.0f) : x);
+  return bits<f32>((b >= 0) == up ? b + 1 : b - 1);
+}
+// Without a branch: whether the nearest lies above nobody can guess. Where it is 0 it has the sign of x.
+inline f32 round_down(f64 x) {
+  f32 near = f32(x);
+  i32 b = bits<i32>(near);
+  return bits<f32>(b - (f64(near) > x ? b >> 31 | 1 : 0));
+}
+inline f32 round_up(f64 x) { return -round_down(-x); }
+
+/// Two doubles as float32, in the lower lanes: down, or up where `sign` is -0.
+inline f32x4 round_down(f64x2 x, f64x2 sign) {
+  f64x2 at = bits<f64x2>(bits<u64x2>(x) ^ bits<u64x2>(sign));
+  f32x4 near = narrow(at);
+  i32x4 above = bits<i32x4>(widen(near) > at), b = bits<i32x4>(near);
+  above = __builtin_shufflevector(above, above, 0, 2, 0, 2);
+  b -= (b >> 31 | 1) & above;
+  return bits<f32x4>(bits<u32x4>(b) ^ bits<u32x4>(narrow(sign)));
+}
+
+/// A box rounded outward.
+template <int D> NOINLINE void round_outward(const f64* box, f32* to) {
+  for (u32 a = 0; a < D; a++) {
+    f64x2 numbers = load<f64x2>(box + 2 * a);
+    f32x4 pair = round_down(numbers, f64x2{2 * a < D ? 0.0 : -0.0, 2 * a + 1 < D ? 0.0 : -0.0});
+    to[2 * a] = pair[0];
+    to[2 * a + 1] = pair[1];
+  }
+}

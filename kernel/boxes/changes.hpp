@@ -1,0 +1,77 @@
+// Which boxes have changed since the last update.
+// Idea: a list of slots and a mark for each, so that a slot enters once; or, where memory was written past our eyes,
+// "all may have". What is not in it is what it was, so an update of a world at rest costs nothing.
+// A mark is a byte: bits of neighbours would be read and written one after the other.
+// Cost: about 1 ns for each that is noted; 5 bytes for each box.
+#pragma once
+#include "base/heap.hpp"
+
+/// Whether so many bytes differ, at least 16.
+template <u32 bytes> bool differ(const void* one, const void* other) {
+  const u8* a = static_cast<const u8*>(one);
+  const u8* b = static_cast<const u8*>(other);
+  i32x4 different = {};
+  for (u32 k = 0; k < bytes; k += 16) {
+    u32 at = smaller(k, bytes - 16);
+    different |= load<i32x4>(a + at) ^ load<i32x4>(b + at);
+  }
+  return any(different);
+}
+
+class Changes {
+  Buffer<u32> list_;
+  Buffer<u8> marks_;
+  u32 count_ = 0, room_ = 0;
+  bool some_ = false;  // false: all may have changed
+
+ public:
+  /// For many notes in a row: what they need, in registers. `end` takes it back.
+  struct Notes {
+    u32* list;
+    u8* marks;
+    u32 count;
+
+    void note(u32 slot) {
+      list[count] = slot;
+      count += 1 - marks[slot];
+      marks[slot] = 1;
+    }
+  };
+  Notes begin() const { return {list_.data(), marks_.data(), count_}; }
+  void end(const Notes& notes) { count_ = notes.count; }
+
+  /// Room for that many slots; nothing is lost where memory ends.
+  void make_room(u64 slots) {
+    if (slots <= room_) return;
+    list_.grow(slots + 1, count_);  // one more: a slot that is known already is written and not counted
+    marks_.grow(slots, room_);
+    __builtin_memset(marks_.data() + room_, 0, slots - room_);
+    room_ = u32(slots);
+  }
+  u32 room() const { return room_; }
+
+  void note(u32 slot) {
+    if (!some_) return;
+    Notes notes = begin();
+    notes.note(slot);
+    end(notes);
+  }
+
+  void note_all() { some_ = false; }
+
+  /// From now on nothing has changed.
+  void clear(u32 slots) {
+    make_room(slots);
+    if (count_ > room_ / 16) __builtin_memset(marks_.data(), 0, room_);
+    else for (u32 k = 0; k < count_; k++) marks_[list_[k]] = 0;
+    count_ = 0;
+    some_ = true;
+  }
+
+  bool all() const { return !some_; }
+  /// Whether more than half of so many have: then a list of them is of no use.
+  bool most(u32 slots) const { return !some_ || count_ > slots / 2; }
+  bool none() const { return some_ && count_ == 0; }
+  u32 count() const { return count_; }
+  const u32* list() const { return list_.data(); }
+};

@@ -1,0 +1,87 @@
+// The list of pairs: two slots each, the smaller first.
+// Four candidates are written at once without a branch: the lanes that hit are swizzled to the front by a table
+// of 16 entries, all four are stored, and the end moves on by the number of hits.
+#pragma once
+#include "boxes/box.hpp"
+
+/// A pair as it is reported: the smaller slot in the low half.
+inline u64 pair_of(u32 a, u32 b) { return u64(smaller(a, b)) | u64(larger(a, b)) << 32; }
+
+struct Pairs {
+  Buffer<u64> list;  // in memory: slot a, slot b, slot a, …
+  u64 count = 0;
+  u64 stable = 0;     // nobody has touched the first so many since a technique reported them
+  bool same = false;  // a technique says that they are the pairs of the update before
+
+  // Pairs are in doubt of which two bounds are equal in float32: in the numbers given these may be apart.
+  bool watch = false;   // whether they are to be noted
+  Buffer<u64> doubts;   // ranges of pairs with some in doubt: where each begins, where it ends
+  u32 doubt_count = 0;  // ranges
+
+  static constexpr u64 slack = 4;  // the compress-store writes up to four pairs past the end
+
+  /// How many pairs stand between two places. The difference of pointers is signed: in 32 bits it ends at 2 GiB.
+  static u64 between(const u64* from, const u64* to) {
+    return (reinterpret_cast<size_t>(to) - reinterpret_cast<size_t>(from)) / sizeof(u64);
+  }
+
+  /// Makes room for `more` pairs behind `out` and gives the place to go on writing.
+  u64* room(u64* out, u64 more) {
+    u64 have = between(list.data(), out);
+    if (have + more + slack > list.capacity()) return list.grow(have + more + slack, have) + have;
+    return out;
+  }
+
+  /// Some of the pairs between two places are in doubt.
+  NOINLINE void doubt(const u64* from, const u64* until) {
+    u64 begin = between(list.data(), from), end = between(list.data(), until);
+    if (begin == end) return;
+    u64* last = doubts.grow(2 * u64(doubt_count) + 2, 2 * u64(doubt_count)) + 2 * doubt_count;
+    if (doubt_count > 0 && last[-1] == begin) {
+      last[-1] = end;
+      return;
+    }
+    last[0] = begin;
+    last[1] = end;
+    doubt_count++;
+  }
+};
+
+namespace detail {
+struct Swizzles {
+  u8 of[16][16];
+  constexpr Swizzles() : of{} {
+    for (int mask = 0; mask < 16; mask++) {
+      int to = 0;
+      for (int lane = 0; lane < 4; lane++) {
+        if (mask >> lane & 1) {
+          for (int byte = 0; byte < 4; byte++) of[mask][to * 4 + byte] = u8(lane * 4 + byte);
+          to++;
+        }
+      }
+    }
+  }
+};
+alignas(16) inline constexpr Swizzles swizzles;
+alignas(16) inline constexpr u8 bits_set[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
+}  // namespace detail
+
+/// Appends the pairs of four slots with one of four others each, where their bit is set in `mask`.
+inline u64* append_each(u64* out, u32x4 some, u32x4 others, u32 mask) {
+  u8x16 front = load<u8x16>(detail::swizzles.of[mask]);
+  u32x4 a = bits<u32x4>(swizzle(bits<u8x16>(min(some, others)), front));
+  u32x4 b = bits<u32x4>(swizzle(bits<u8x16>(max(some, others)), front));
+  store(out, __builtin_shufflevector(a, b, 0, 4, 1, 5));
+  store(out + 2, __builtin_shufflevector(a, b, 2, 6, 3, 7));
+  return out + detail::bits_set[mask];
+}
+
+/// Appends the pairs of slot `mine` with those of the four `others` whose bit is set in `mask`.
+inline u64* append(u64* out, u32x4 mine, u32x4 others, u32 mask) {
+  u32x4 packed = bits<u32x4>(swizzle(bits<u8x16>(others), load<u8x16>(detail::swizzles.of[mask])));
+  u32x4 a = min(mine, packed);
+  u32x4 b = max(mine, packed);
+  store(out, __builtin_shufflevector(a, b, 0, 4, 1, 5));
+  store(out + 2, __builtin_shufflevector(a, b, 2, 6, 3, 7));
+  return out + detail::bits_set[mask];
+}

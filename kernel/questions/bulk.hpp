@@ -1,0 +1,123 @@
+// Many questions in one call.
+// Idea: the questions stand one behind the other, as doubles, and are asked in that order. The answers of all stand in
+// one list, and beside it where those of each question end.
+// Cost: that of the questions asked alone, less the calls. To ask them in the order of the Hilbert curve was slower in all
+// but a few cases: see docs/decisions/many-questions.md.
+#pragma once
+#include "questions/queries.hpp"
+
+/// What all the questions of a call are.
+enum class Asks : u32 { nearest, ray, way, box, within, point, circle, others };
+
+template <int D> class Bulk {
+  static constexpr u32 width = 2 * D;
+
+  Buffer<f64> given_;    // numbers of all questions, then of each the id it ignores
+  Buffer<u32> offsets_;  // of each question, where its answers begin; and where those of the last end
+
+  static bool has_box(Asks kind) { return kind == Asks::way || kind == Asks::box || kind == Asks::within; }
+  static bool moves(Asks kind) { return kind == Asks::ray || kind == Asks::way; }
+  static u32 stride(Asks kind) {
+    return (has_box(kind) ? width : u32(D)) + (moves(kind) ? u32(D) : 0) + (kind == Asks::circle ? 1 : 0);
+  }
+  static bool is_finite(f64 x) { return x - x == 0; }
+
+ public:
+  Buffer<u32> ids;   // the answers of all questions: of areas
+  Buffer<Hit> hits;  // and where they ask for an order
+  u64 looks = 0;     // at blocks, by all questions of a call
+
+  const u32* offsets() const { return offsets_.data(); }
+
+  /// Room for the numbers of questions.
+  COLD f64* stage(u32 numbers) { return given_.reserve(numbers); }
+
+  /// The first question whose numbers are bad, or -1.
+  COLD i32 first_bad(Asks kind, u32 count) const {
+    Question<D> asked;
+    for (u32 k = 0; k < count; k++) {
+      if (!read(kind, k, asked)) return i32(k);
+    }
+    return -1;
+  }
+
+  /// Answers so many questions, which are good, each with at most so many boxes where it asks for an order. What they
+  /// have in common stands in `asked`.
+  COLD void answer(const Index<D>& index, Question<D> asked, Asks kind, u32 count, u32 most, Hits& best) {
+    offsets_.reserve(u64(count) + 1)[0] = 0;
+    looks = 0;
+    for (u32 k = 0; k < count; k++) {
+      bool asks = kind == Asks::others ? take_box(index, k, asked) : read(kind, k, asked);
+      if (kind != Asks::others) asked.ignored = u32(given_[u64(count) * stride(kind) + k]);
+      offsets_[k + 1] = asks ? ask(index, asked, kind, most, offsets_[k], best) : offsets_[k];
+    }
+  }
+
+  /// As if so many questions had found nothing.
+  COLD void answer_nothing(u32 count) {
+    u32* offsets = offsets_.reserve(u64(count) + 1);
+    __builtin_memset(offsets, 0, (u64(count) + 1) * sizeof(u32));
+  }
+
+  COLD void release() {
+    given_.release();
+    offsets_.release();
+    ids.release();
+    hits.release();
+  }
+
+ private:
+  /// Reads a question; false where its numbers are bad.
+  bool read(Asks kind, u32 k, Question<D>& to) const {
+    const f64* from = given_.data() + u64(k) * stride(kind);
+    bool boxed = has_box(kind), good = true;
+    for (int a = 0; a < D; a++) {
+      to.lo[a] = from[a];
+      to.hi[a] = from[boxed ? D + a : a];
+      good &= to.lo[a] <= to.hi[a] && (boxed || is_finite(to.lo[a]));
+    }
+    from += boxed ? 2 * D : D;
+    to.radius = kind == Asks::within ? Question<D>::within : -1;
+    if (kind == Asks::circle) {
+      to.radius = from[0];
+      return good && to.radius >= 0;
+    }
+    for (int a = 0; a < D && moves(kind); a++) {
+      to.along[a] = from[a];
+      good &= is_finite(from[a]);
+    }
+    to.measure_way(kind == Asks::ray);
+    return good;
+  }
+
+  /// Has a box ask for the others; false where it is off.
+  static bool take_box(const Index<D>& index, u32 slot, Question<D>& to) {
+    u32 place = index.place(slot);
+    if (place == Index<D>::nowhere) return false;
+    f64 box[width];
+    index.box(place, box);
+    __builtin_memcpy(to.lo, box, sizeof(to.lo));
+    __builtin_memcpy(to.hi, box + D, sizeof(to.hi));
+    to.ignored = index.id(place);
+    return true;
+  }
+
+  /// Adds the answers of one question behind those that were found; returns how many there are then.
+  u32 ask(const Index<D>& index, const Question<D>& asked, Asks kind, u32 most, u32 found, Hits& best) {
+    Queries<D> queries(index, asked);
+    if (kind == Asks::nearest || kind == Asks::others || moves(kind)) {
+      best.begin(most, asked.limit, nullptr);
+      if (moves(kind)) queries.cast(best);
+      else queries.near(best);
+      looks += queries.looks();
+      u32 many = best.finish();
+      hits.grow(u64(found) + many, found);
+      for (u32 n = 0; n < many; n++) hits[found + n] = best.data()[n];
+      return found + many;
+    }
+    u32 from = 0;
+    found = queries.area(from, 0xffffffff, ids, found);
+    looks += queries.looks();
+    return found;
+  }
+};

@@ -1,0 +1,82 @@
+// When a moving box meets a box that stands, and on which side: the rule of rays and sweeps.
+// Idea: along each axis the moving box is before the other, past it, or over it. A hit needs a way that leads into a
+// face, so that the two overlap from then on. Along a face or away from it is no hit. Over it on all axes is inside.
+// A ray is a moving box without size. What has no size along an axis also meets the edges there: else it would slip
+// between two boxes that touch.
+// Rounding: who stops at a hit computes its corners anew, and may come to lie inside by a rounding. So overlaps up to
+// `touch` of the coordinates count as touching, and a time is such that no rounding leads deeper: that of a corner
+// is never beyond the face, and where the roundings on the way may be more than `touch` at its end, it is earlier
+// by as much. Those are of adding a size to a corner, which numbers that float32 holds have not seen.
+#pragma once
+#include "base/rounding.hpp"
+
+struct Meeting {
+  f64 time;     // share of the way
+  i32 side;     // axis + 1 of the face, negative where its normal is; 0: inside
+  bool corner;  // more than one face is met at that time
+};
+
+namespace detail {
+
+inline constexpr f64 touch = 0x1p-48;      // of the coordinates: what still counts as touching
+inline constexpr f64 roundings = 0x1p-51;  // of all numbers on the way: what they may add up to
+
+inline f64 size_of(f64 x) { return __builtin_isinf(x) ? 0 : __builtin_fabs(x); }
+inline bool is_single(f64 x) { return f64(f32(x)) == x; }
+
+/// The share of the way along one axis until a box that moves from lo … hi touches a face.
+inline f64 time_to(f64 lo, f64 hi, f64 face, f64 along, bool stops) {
+  bool forth = along > 0;
+  f64 near = forth ? hi : lo, speed = __builtin_fabs(along);
+  f64 gap = larger(0.0, forth ? face - hi : lo - face);
+  if (!stops || gap == __builtin_inf()) return gap / speed;
+  if (lo < hi && !(is_single(lo) && is_single(hi) && is_single(face))) {
+    f64 error = roundings * (gap + size_of(lo) + size_of(hi) + size_of(face));
+    f64 other = forth ? face - (hi - lo) : face + (hi - lo);
+    if (error > touch * larger(size_of(face), size_of(other))) gap = larger(0.0, gap - error);
+  }
+  f64 time = gap / speed;
+  while (time > 0 && time < __builtin_inf() && (forth ? near + along * time > face : near + along * time < face)) {
+    time = bits<f64>(bits<u64>(time) - 1);
+  }
+  return time;
+}
+
+}  // namespace detail
+
+/// Whether a box that moves by `along` meets another, and how. `stops`: the time is to be stopped at; else it is the
+/// nearest to the true one.
+template <int D> bool meets(const f64* lo, const f64* hi, const f64* along, const f64* box, bool stops, Meeting& met) {
+  using namespace detail;
+  bool edge = false;
+  f64 leave[D];
+  met = {0, 0, false};
+  for (int a = 0; a < D; a++) {
+    f64 from = box[a], to = box[D + a];
+    f64 slack = smaller(touch * larger(size_of(lo[a]), size_of(hi[a])), (hi[a] - lo[a]) / 4);
+    bool before = hi[a] < from || (hi[a] <= from + slack && !__builtin_isinf(hi[a]));
+    bool past = lo[a] > to || (lo[a] >= to - slack && !__builtin_isinf(lo[a]));
+    leave[a] = __builtin_inf();
+    if (along[a] == 0) {
+      if (!before && !past) continue;
+      if (lo[a] < hi[a] || hi[a] < from || lo[a] > to) return false;
+      edge = true;
+      continue;
+    }
+    bool forth = along[a] > 0;
+    if (forth ? past : before) return false;
+    f64 last = (forth ? to - lo[a] : from - hi[a]) / along[a];
+    if (last == last) leave[a] = last;  // the same infinity on both sides is never left
+    if (!before && !past) continue;
+    f64 time = time_to(lo[a], hi[a], forth ? from : to, along[a], stops);
+    if (met.side == 0 || time > met.time) met = {time, forth ? -(a + 1) : a + 1, false};
+    else if (time == met.time) met.corner = true;
+  }
+  if (met.side == 0) return !edge;
+  if (!(met.time < __builtin_inf())) return false;
+  for (int a = 0; a < D; a++) {
+    if (a + 1 == (met.side < 0 ? -met.side : met.side)) continue;
+    if (lo[a] < hi[a] ? leave[a] <= met.time : leave[a] < met.time) return false;
+  }
+  return true;
+}

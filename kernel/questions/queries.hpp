@@ -1,0 +1,447 @@
+// The questions: what is in a box or a circle, what does a ray or a moving box meet, what is near.
+// Idea: two walks through the index. The one for areas goes through the boxes in their order, eight at a time, takes
+// what lies within the area without looking closer, and can go on from any place, so that an answer may be read in
+// parts. The one for rays, moving boxes and neighbours has a number to rank boxes by, a time or a distance: for eight
+// at once it estimates, in float32, the least that it can be, takes what promises the least first, and keeps the best
+// found, whose worst is the limit for all that follows. A ray is a moving box without size.
+// All is decided in double precision, by the numbers that were given; the index, in float32 rounded outward, only says
+// where to look. What ranks the same is ordered by id, so that answers do not depend on the index.
+// Cost, among 10,000 boxes: 0.4 us for a box with 20 in it, 0.5 us for a ray that goes far, 1.4 us for the 10 nearest.
+#pragma once
+#include "questions/meeting.hpp"
+#include "questions/index.hpp"
+
+/// What a question is asked with.
+template <int D> struct Question {
+  f64 lo[D] = {}, hi[D] = {};  // the box, which may be a point
+  f64 along[D] = {};           // what a moving box moves by
+  f64 radius = 0;              // of a circle; negative: none, or `within`
+  f64 limit = 0;               // the largest rank
+  f64 length = 0;              // of the way, where its share is to be ranked by distance; else 1
+  bool stops = false;          // times are to be stopped at: see meeting.hpp
+  u32 mask = 0;                // layers; all bits: every box, even one without a layer
+  u32 ignored = 0;             // an id
+
+  static constexpr f64 within = -2;  // in place of a radius: boxes are to be within the box, wholly
+
+  /// Sets `length`, without overflow. A ray ranks by distance.
+  COLD void measure_way(bool is_ray) {
+    f64 most = 0, sum = 0;
+    for (int a = 0; a < D; a++) most = larger(most, __builtin_fabs(along[a]));
+    for (int a = 0; a < D && most > 0; a++) sum += (along[a] / most) * (along[a] / most);
+    length = is_ray ? most * __builtin_sqrt(sum) : 1;
+    stops = !is_ray;
+  }
+};
+
+/// Which boxes a question is about, by its mask and by whom it ignores.
+template <int D> class Wanted {
+  const Index<D>& index_;
+  const u32 mask_, ignored_;
+
+ public:
+  Wanted(const Index<D>& index, const Question<D>& asked) : index_(index), mask_(asked.mask), ignored_(asked.ignored) {}
+
+  /// Whether no box is left out for its layer or its id.
+  bool all() const { return mask_ == 0xffffffff && ignored_ > slot_mask; }
+  bool operator()(u32 place) const {
+    return (mask_ == 0xffffffff || (index_.layer(place) & mask_)) && index_.id(place) != ignored_;
+  }
+};
+
+struct Hit {
+  f64 rank;  // what the moving box has moved, or the distance
+  u32 id;    // with `corner`
+  i32 side;  // of moving boxes: axis + 1 of the face that is hit, negative where its normal is; 0: none
+
+  /// With the ids of what is met only at a corner, so that faces that are met at the same time come before it: who
+  /// walks over a floor stays on the box below, and does not run into the next.
+  static constexpr u32 corner = 0x80000000;
+
+  bool operator<(const Hit& other) const { return rank < other.rank || (rank == other.rank && id < other.id); }
+};
+
+/// The least `most` of the hits behind a given one: a few in order, many as a heap with the largest on top.
+class Hits {
+  static constexpr u32 few = 24;
+
+  Buffer<Hit> list_;
+  u32 count_ = 0, most_ = 0;
+  bool after_ = false;
+  Hit last_ = {};
+
+  COLD void sift_down(u32 at, u32 count, Hit hit) {
+    for (u32 child; (child = 2 * at + 1) < count; at = child) {
+      if (child + 1 < count && list_[child] < list_[child + 1]) child++;
+      if (!(hit < list_[child])) break;
+      list_[at] = list_[child];
+    }
+    list_[at] = hit;
+  }
+
+  COLD void sift_up(u32 at, Hit hit) {
+    for (u32 above; at > 0 && list_[above = (at - 1) / 2] < hit; at = above) list_[at] = list_[above];
+    list_[at] = hit;
+  }
+
+  void insert(u32 at, Hit hit) {
+    for (; at > 0 && hit < list_[at - 1]; at--) list_[at] = list_[at - 1];
+    list_[at] = hit;
+  }
+
+ public:
+  f64 limit = 0;  // no hit of a larger rank is wanted
+
+  const Hit* data() const { return list_.data(); }
+
+  void begin(u32 most, f64 most_rank, const Hit* after) {
+    count_ = 0;
+    most_ = most;
+    limit = most_rank;
+    after_ = after;
+    if (after) last_ = *after;
+  }
+
+  SHARED void offer(Hit hit) {
+    if (!(hit.rank <= limit) || (after_ && !(last_ < hit))) return;
+    bool ordered = most_ <= few;
+    if (count_ < most_) {
+      list_.grow(u64(count_) + 1, count_);
+      u32 at = count_++;
+      if (ordered) insert(at, hit);
+      else sift_up(at, hit);
+    } else if (ordered) {
+      if (hit < list_[most_ - 1]) insert(most_ - 1, hit);
+    } else if (hit < list_[0]) {
+      sift_down(0, count_, hit);
+    }
+    if (count_ == most_) limit = smaller(limit, list_[ordered ? most_ - 1 : 0].rank);
+  }
+
+  /// Puts them in order, the least first; returns how many.
+  COLD u32 finish() {
+    for (u32 n = most_ <= few ? 0 : count_; n-- > 1;) {
+      Hit least = list_[n];
+      list_[n] = list_[0];
+      sift_down(0, n, least);
+    }
+    return count_;
+  }
+
+  COLD void release() { list_.release(); }
+};
+
+template <int D> class Queries {
+  using Block = typename Index<D>::Block;
+  static constexpr u32 lane_bits = 7;
+  static constexpr u32x4 lanes = {0, 1, 2, 3};
+  // Between these bounds float32 neither overflows nor loses digits when times are estimated.
+  static constexpr f64 tame = 1e30;
+
+  const Index<D>& index_;
+  const Question<D>& asked_;
+  f32x4 lo_[D], hi_[D];        // what is to be looked at
+  f32x4 above_[D], below_[D];  // the point, or what moves, rounded outward or further
+  f32x4 slowness_[D];          // time for a unit of way
+  f64 squared_;                // the circle's radius
+  f64 scale_ = 1;              // of what is estimated in place of ranks
+  bool is_tame_ = true;        // whether times may be estimated
+  const Wanted<D> wanted_;
+  const bool all_wanted_;
+  u32 from_ = 0, most_ = 0, found_ = 0, looks_ = 0;
+
+ public:
+  Queries(const Index<D>& index, const Question<D>& asked)
+      : index_(index), asked_(asked), squared_(asked.radius * asked.radius), wanted_(index, asked), all_wanted_(wanted_.all()) {}
+
+  /// How many blocks have been looked at.
+  u32 looks() const { return looks_; }
+
+  /// Writes the ids of the boxes that touch the box or the circle, in the order of the index from place `from` on, at
+  /// most so many, behind those found before. Returns how many; `from` becomes the place to go on from, or the number of
+  /// boxes.
+  COLD u32 area(u32& from, u32 most, Buffer<u32>& answers, u32 found = 0) {
+    for (int a = 0; a < D; a++) {
+      f64 lo = asked_.lo[a], hi = asked_.hi[a];
+      if (is_circle()) {
+        // Differences to the edge may have been rounded, and the squares of very small ones are 0.
+        lo -= asked_.radius + (asked_.radius + __builtin_fabs(lo)) * 1e-15 + 1e-160;
+        hi += asked_.radius + (asked_.radius + __builtin_fabs(hi)) * 1e-15 + 1e-160;
+      }
+      // Inward, and still exact: the numbers that are compared with them are float32.
+      lo_[a] = splat(round_up(lo));
+      hi_[a] = splat(round_down(hi));
+    }
+    from_ = from;
+    most_ = most;
+    found_ = found;
+    from = walk(index_.top(), 0, answers) ? index_.places() : from_;
+    return found_;
+  }
+
+  /// The first boxes that the moving box meets, by how far it has moved then.
+  COLD void cast(Hits& hits) {
+    is_tame_ = asked_.length > 0;
+    scale_ = (1 + 1e-6) / asked_.length;
+    for (int a = 0; a < D; a++) {
+      f64 along = asked_.along[a], far = __builtin_fabs(along);
+      // The way to the limit, and some more for the roundings.
+      f64 reach = along * (asked_.limit / asked_.length) * (1 + 1e-9);
+      if (!(reach == reach)) reach = 0;  // no way at all, however long it takes
+      f32 low = round_down(asked_.lo[a] + smaller(0.0, reach)), high = round_up(asked_.hi[a] + larger(0.0, reach));
+      lo_[a] = splat(detail::is_finite(low) ? next_toward(low, false) : low);
+      hi_[a] = splat(detail::is_finite(high) ? next_toward(high, true) : high);
+      below_[a] = splat(round_down(asked_.lo[a]));
+      above_[a] = splat(round_up(asked_.hi[a]));
+      slowness_[a] = splat(f32(1 / along));
+      is_tame_ &= asked_.lo[a] > -tame && asked_.hi[a] < tame && (far == 0 || (far > 1 / tame && far < tame));
+    }
+    search<true>(index_.top(), 0, hits);
+  }
+
+  /// The nearest boxes to the box, most often a point.
+  COLD void near(Hits& hits) {
+    for (int a = 0; a < D; a++) {
+      above_[a] = splat(round_up(asked_.hi[a]));
+      below_[a] = splat(round_down(asked_.lo[a]));
+    }
+    search<false>(index_.top(), 0, hits);
+  }
+
+ private:
+  bool is_circle() const { return asked_.radius >= 0; }
+
+  bool wanted(u32 place) const { return all_wanted_ || wanted_(place); }
+
+  /// One bit for each of the eight that touch what is to be looked at.
+  SHARED u32 touched(const Block& block) const {
+    u32 found = 0;
+    ROLLED for (u32 half = 0; half < 8; half += 4) {
+      i32x4 all = bits<i32x4>(u32x4{} == u32x4{});
+      for (int a = 0; a < D; a++) {
+        all &= load<f32x4>(block.lo[a] + half) <= hi_[a];
+        all &= load<f32x4>(block.hi[a] + half) >= lo_[a];
+      }
+      found |= bitmask(all) << half;
+    }
+    return found;
+  }
+
+  /// One bit for each of the eight that lie within what is to be looked at.
+  u32 within(const Block& block) const {
+    u32 found = 0;
+    ROLLED for (u32 half = 0; half < 8; half += 4) {
+      i32x4 all = bits<i32x4>(u32x4{} == u32x4{});
+      for (int a = 0; a < D; a++) {
+        all &= load<f32x4>(block.lo[a] + half) >= lo_[a];
+        all &= load<f32x4>(block.hi[a] + half) <= hi_[a];
+      }
+      found |= bitmask(all) << half;
+    }
+    return found;
+  }
+
+  /// Of eight boxes that touch in float32, those that touch.
+  COLD u32 touching(u32 number, u32 left) const {
+    f64 ranks[8];
+    if (is_circle()) left &= distances(number, squared_, ranks);
+    bool whole = asked_.radius == Question<D>::within;
+    if (whole && !index_.rounded()) return left & within(index_.block(0, number));
+    if (!index_.rounded() && squared_ < 1e300) return left;
+    for (u32 all = left; all; all &= all - 1) {
+      u32 lane = u32(__builtin_ctz(all));
+      f64 box[2 * D];
+      index_.box(number * 8 + lane, box);
+      bool touch = true;
+      if (is_circle()) touch = squared_ < 1e300 ? ranks[lane] <= squared_ : distance(number * 8 + lane, ranks[lane]) <= asked_.radius;
+      for (int a = 0; a < D && !is_circle(); a++) {
+        touch &= whole ? asked_.lo[a] <= box[a] && box[D + a] <= asked_.hi[a]
+                       : box[a] <= asked_.hi[a] && asked_.lo[a] <= box[D + a];
+      }
+      if (!touch) left &= ~(1u << lane);
+    }
+    return left;
+  }
+
+  /// Adds the answers from place `from_` on; false where there are more than are wanted: `from_` is then the next.
+  bool walk(u32 level, u32 number, Buffer<u32>& answers) {
+    const Block& block = index_.block(level, number);
+    looks_++;
+    u32 left = touched(block);
+    if (level == 0) {
+      if (from_ > number * 8) left &= 0xff << (from_ - number * 8);
+      answers.grow(u64(found_) + 8, found_);
+      for (left = touching(number, left); left; left &= left - 1) {
+        u32 place = number * 8 + u32(__builtin_ctz(left));
+        if (!wanted(place)) continue;
+        if (found_ == most_) {
+          from_ = place;
+          return false;
+        }
+        answers[found_++] = index_.id(place);
+      }
+      return true;
+    }
+    u32 inside = all_wanted_ && !is_circle() && !index_.holes() ? within(block) : 0;
+    for (; left; left &= left - 1) {
+      u32 lane = u32(__builtin_ctz(left)), child = number * 8 + lane;
+      u32 first = child << (3 * level), end = smaller((child + 1) << (3 * level), index_.places());
+      if (end <= from_) continue;
+      if (!(inside >> lane & 1)) {
+        if (!walk(level - 1, child, answers)) return false;
+        continue;
+      }
+      first = larger(first, from_);
+      u32 taken = smaller(end - first, most_ - found_);
+      answers.grow(u64(found_) + taken, found_);
+      __builtin_memcpy(answers.data() + found_, index_.ids() + first, taken * sizeof(u32));
+      found_ += taken;
+      if (taken < end - first) {
+        from_ = first + taken;
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// Writes no more than the squared distances of the point to eight boxes: what roundings may add is taken off, and
+  /// in place of the last three bits stands the lane, so that what is written can be sorted as integers. Returns one
+  /// bit for each box that is not surely beyond the limit.
+  SHARED u32 least_distances(const Block& block, f64 limit, u32 (&to)[8]) const {
+    f32x4 most = splat(most_rank<false>(limit));
+    u32 close = 0;
+    ROLLED for (u32 half = 0; half < 8; half += 4) {
+      f32x4 sum = {};
+      for (int a = 0; a < D; a++) {
+        f32x4 away = max(load<f32x4>(block.lo[a] + half) - above_[a], below_[a] - load<f32x4>(block.hi[a] + half));
+        away = max(away, f32x4{});
+        sum += away * away;
+      }
+      u32x4 least = bits<u32x4>(min(sum * splat(0.999999f), splat(1e38f))) & ~lane_bits;
+      i32x4 is_box = load<f32x4>(block.lo[0] + half) == load<f32x4>(block.lo[0] + half);
+      close |= bitmask(is_box & (bits<f32x4>(least) <= most)) << half;
+      store(to + half, least | (lanes + half));
+    }
+    return close;
+  }
+
+  /// The same for when the moving box meets eight boxes, in shares of its way.
+  SHARED u32 least_times(const Block& block, f64 limit, u32 (&to)[8]) const {
+    u32 close = touched(block);
+    if (!is_tame_) {
+      for (u32 lane = 0; lane < 8; lane++) to[lane] = lane;
+      return close;
+    }
+    constexpr f32 slack = 1e-6f, least_slack = 1e-37f;
+    f32x4 most = splat(most_rank<true>(limit));
+    ROLLED for (u32 half = 0; half < 8; half += 4) {
+      f32x4 enter = {}, leave = splat(__builtin_inff());
+      for (int a = 0; a < D; a++) {
+        if (asked_.along[a] == 0) continue;
+        f32x4 ahead = (load<f32x4>(block.lo[a] + half) - above_[a]) * slowness_[a];
+        f32x4 behind = (load<f32x4>(block.hi[a] + half) - below_[a]) * slowness_[a];
+        bool forth = asked_.along[a] > 0;
+        enter = max(forth ? ahead : behind, enter);  // what is not a number does not count
+        leave = min(forth ? behind : ahead, leave);
+      }
+      enter = max(f32x4{}, enter * splat(1 - slack) - splat(least_slack));
+      leave = leave + max(leave, -leave) * splat(slack) + splat(least_slack);
+      i32x4 missed = (enter > leave) | (enter > most);
+      close &= ~(bitmask(missed) << half);
+      store(to + half, (bits<u32x4>(enter) & ~lane_bits) | (lanes + half));
+    }
+    return close;
+  }
+
+  /// Offers the boxes of a block to `hits`, what promises the least rank first.
+  template <bool moving> void search(u32 level, u32 number, Hits& hits) {
+    const Block& block = index_.block(level, number);
+    looks_++;
+    u32 least[8], order[8], n = 0;
+    if (level == 0) return moving ? offer_ahead(number, least_times(block, hits.limit, least), hits) : offer_near(number, hits);
+    u32 left = moving ? least_times(block, hits.limit, least) : least_distances(block, hits.limit, least);
+    for (; left; left &= left - 1) {
+      u32 at = n++, rank = least[__builtin_ctz(left)];
+      for (; at > 0 && rank < order[at - 1]; at--) order[at] = order[at - 1];
+      order[at] = rank;
+    }
+    for (u32 k = 0; k < n && order[k] <= (bits<u32>(most_rank<moving>(hits.limit)) | lane_bits); k++) {
+      search<moving>(level - 1, number * 8 + (order[k] & lane_bits), hits);
+    }
+  }
+
+  /// In the terms of what is estimated, times or squared distances; no less than the limit.
+  template <bool moving> f32 most_rank(f64 limit) const {
+    if (!moving) return round_up(squared_limit(limit));
+    return is_tame_ ? round_up(limit * scale_) : __builtin_inff();
+  }
+  /// No less than the square of every distance within the limit.
+  static f64 squared_limit(f64 limit) { return limit * limit * (1 + 1e-15) + 1e-300; }
+
+  /// The distance to a box whose square is given, which may have overflowed.
+  f64 distance(u32 place, f64 squared) const {
+    if (squared < 1e300) return __builtin_sqrt(squared);
+    f64 box[2 * D], away[D], most = 0, sum = 0;
+    index_.box(place, box);
+    for (int a = 0; a < D; a++) {
+      away[a] = larger(0.0, larger(box[a] - asked_.hi[a], asked_.lo[a] - box[D + a]));
+      most = larger(most, away[a]);
+    }
+    if (!(most < __builtin_inf())) return most;
+    for (int a = 0; a < D; a++) sum += (away[a] / most) * (away[a] / most);
+    return most * __builtin_sqrt(sum);
+  }
+
+  /// Writes the squared distances to eight boxes. Returns one bit for each within the limit, and perhaps more.
+  SHARED u32 distances(u32 number, f64 limit, f64 (&to)[8]) const {
+    const Block& block = index_.block(0, number);
+    u32 close = 0, is_box = 0;
+    ROLLED for (u32 lane = 0; lane < 8; lane += 2) {
+      f64x2 sum = {};
+      for (int a = 0; a < D; a++) {
+        f64x2 lo = __builtin_convertvector(load<f32x2>(block.lo[a] + lane), f64x2);
+        f64x2 hi = __builtin_convertvector(load<f32x2>(block.hi[a] + lane), f64x2);
+        // Infinite sides that meet are not apart; what is no number is not in `is_box`.
+        f64x2 away = max(max(lo - splat(asked_.hi[a]), splat(asked_.lo[a]) - hi), f64x2{});
+        sum += away * away;
+        if (a == 0) is_box |= at_most(lo, hi) << lane;
+      }
+      store(to + lane, sum);
+      close |= at_most(sum, splat(limit)) << lane;
+    }
+    close &= is_box;
+    for (u32 left = index_.rounded() ? close : 0; left; left &= left - 1) {
+      u32 lane = u32(__builtin_ctz(left));
+      f64 box[2 * D];
+      index_.box(number * 8 + lane, box);
+      to[lane] = 0;
+      for (int a = 0; a < D; a++) {
+        f64 away = larger(0.0, larger(box[a] - asked_.hi[a], asked_.lo[a] - box[D + a]));
+        to[lane] += away * away;
+      }
+    }
+    return close;
+  }
+
+  /// Offers boxes by their distance to the point.
+  SHARED void offer_near(u32 number, Hits& hits) const {
+    f64 ranks[8];
+    for (u32 left = distances(number, squared_limit(hits.limit), ranks); left; left &= left - 1) {
+      u32 lane = u32(__builtin_ctz(left)), place = number * 8 + lane;
+      if (wanted(place)) hits.offer({distance(place, ranks[lane]), index_.id(place), 0});
+    }
+  }
+
+  /// Offers boxes by how far the moving box moves until it meets them.
+  COLD void offer_ahead(u32 number, u32 left, Hits& hits) const {
+    for (; left; left &= left - 1) {
+      u32 place = number * 8 + u32(__builtin_ctz(left));
+      if (!wanted(place)) continue;
+      f64 box[2 * D];
+      index_.box(place, box);
+      Meeting met;
+      if (!meets<D>(asked_.lo, asked_.hi, asked_.along, box, asked_.stops, met)) continue;
+      hits.offer({met.time * asked_.length, index_.id(place) | (met.corner ? Hit::corner : 0), met.side});
+    }
+  }
+};

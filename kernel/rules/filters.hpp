@@ -1,0 +1,246 @@
+// Who may meet whom: layers, masks and exclusion bits, turned into as little search as possible.
+// Idea: boxes with the same layer, mask and bits are one class, and games have a handful of classes. Which classes
+// ignore each other is looked up once after a change, and spares the search three ways. Boxes that can meet nobody
+// are not searched at all; boxes that are off are one such class. Classes of which each ignores itself and all the others
+// share an exclusion bit, which every technique tests along with the boxes. What is left, say two classes that meet
+// themselves but not each other, is taken out of the pairs found.
+// Cost: nothing while no box has a filter; O(boxes + classes squared) in the update after a change; a copy of the
+// boxes that are searched where some are not.
+#pragma once
+#include "boxes/ids.hpp"
+#include "pairs/pairs.hpp"
+
+/// What a box says about whom it meets. Two boxes meet where each one's layer is in the other's mask and they
+/// share no exclusion bit.
+struct Rule {
+  u32 layer, mask, excluded;
+
+  /// A mark beside the exclusion bits: the box is out of all pairs and questions.
+  static constexpr u32 off = 2;
+  bool is_off() const { return excluded & off; }
+};
+
+inline bool meet(const Rule& a, const Rule& b) {
+  return (a.layer & b.mask) && (b.layer & a.mask) && !(a.excluded & b.excluded);
+}
+
+class Filters {
+  static constexpr Rule everybody{0xffffffff, 0xffffffff, 0}, nobody{0, 0, 0};
+  static constexpr u32 most_classes = 64, table_size = 4 * most_classes;
+  static constexpr u32 rest = most_classes;        // stands for all classes beyond: they may meet anybody
+  static constexpr u32 spare_bits = 0x0f000000;    // of the tag: those that no box has set are for classes
+
+  struct Class {
+    Rule rule;
+    u64 meets;  // bit d: class d
+    u32 count;  // its boxes
+    u32 bits;   // the exclusion bits of its boxes in the search
+    bool lonely;
+  };
+
+  bool active_ = false;   // some box has a rule of its own
+  bool changed_ = false;  // since the classes were found
+  bool check_ = false;    // some pairs that the search finds may be forbidden
+  bool some_ = false;     // not all boxes are searched
+  u32 searched_ = 0;      // how many are, while `some_`
+  Buffer<Rule> rules_;    // per slot
+  Buffer<Rule> staged_;   // what `replace` puts in their place
+  Buffer<u32> excluded_;  // per slot, or per searched box: the exclusion bits for the search
+  Buffer<u32> slots_;     // per searched box
+  Buffer<f32> boxes_;     // per searched box
+  Buffer<u8> class_of_;   // per slot
+
+  // Only while classes are found, so one for all spaces.
+  inline static Class classes_[most_classes + 1];
+  inline static u8 table_[table_size];  // by hash: number of the class + 1
+  inline static u32 class_count_;
+
+ public:
+  bool active() const { return active_; }
+  bool changed() const { return active_ && changed_; }
+  /// Whether all boxes are searched, as in the last update.
+  bool search_all() const { return !active_ || !(changed_ || some_); }
+  /// Per slot, while active.
+  const Rule* rules() const { return rules_.data(); }
+
+  COLD void clear() { active_ = false; }
+
+  /// From now on each box has a rule, room for `capacity` of them.
+  COLD void start(u32 count, u64 capacity) {
+    rules_.reserve(capacity);
+    for (u32 s = 0; s < count; s++) rules_[s] = everybody;
+    active_ = changed_ = true;
+  }
+
+  /// Room for the rules that `replace` will put in the place of all.
+  COLD Rule* stage(u32 count) { return staged_.reserve(larger(count, 1u)); }
+  COLD void replace() {
+    rules_.swap(staged_);
+    active_ = changed_ = true;
+  }
+
+  /// The rule of a slot, to be changed.
+  COLD Rule& change(u32 slot) {
+    changed_ = true;
+    return rules_[slot];
+  }
+
+  // The slots' doings, as in Space; only while active.
+  COLD void make_room(u64 count, u32 keep) { rules_.grow(count, keep); }
+  u64 room() const { return rules_.capacity(); }
+  COLD void insert(u32 slot) { change(slot) = everybody; }
+  COLD void move(u32 from, u32 to) { change(to) = rules_[from]; }
+  COLD void renumber(const Ids& ids, u32 count) {
+    u32 had = ids.count();
+    if (ids.same()) {
+      rules_.grow(count, smaller(had, count));
+      for (u32 s = had; s < count; s++) rules_[s] = everybody;
+    } else {
+      Buffer<Rule> moved;
+      moved.reserve(count);
+      for (u32 id = 0; id < count; id++) {
+        u32 slot = ids.slot(id);
+        moved[id] = slot == Ids::none ? everybody : rules_[slot];
+      }
+      rules_.swap(moved);
+      moved.release();
+    }
+    changed_ = true;
+  }
+
+  /// The exclusion bits of the boxes that select() leaves.
+  const u32* excluded() const { return excluded_.data(); }
+
+  /// The boxes that have to be searched, of `count` boxes of `width` numbers each.
+  COLD const f32* select(const f32* boxes, u32& count, u32 width) {
+    if (changed_) classify(count);
+    changed_ = false;
+    if (!some_) return boxes;
+    count = searched_;
+    f32* to = boxes_.reserve(u64(searched_) * width + 4);
+    for (u32 k = 0; k < searched_; k++) {
+      for (u32 n = 0; n < width; n++) to[u64(k) * width + n] = boxes[u64(slots_[k]) * width + n];
+    }
+    return to;
+  }
+
+  /// Where the k-th of the boxes that are searched stands.
+  u32 slot(u32 k) const { return active_ && some_ ? slots_[k] : k; }
+
+  /// After the search: places in the scene back to slots, and the forbidden pairs out.
+  COLD void finish(Pairs& pairs) const {
+    if (!some_ && !check_) return;
+    u64* list = pairs.list.data();
+    u64 kept = 0;
+    for (u64 p = 0; p < pairs.count; p++) {
+      u32 a = u32(list[p]), b = u32(list[p] >> 32);
+      if (some_) {
+        a = slots_[a];
+        b = slots_[b];
+      }
+      list[kept] = u64(a) | u64(b) << 32;
+      kept += !check_ || meet(rules_[a], rules_[b]);
+    }
+    pairs.count = kept;
+  }
+
+ private:
+  COLD void classify(u32 count) {
+    find_classes(count);
+    share_bits();
+    searched_ = 0;
+    for (u32 c = 0; c <= rest; c++) {
+      if (classes_[c].count && !classes_[c].lonely) searched_ += classes_[c].count;
+    }
+    some_ = searched_ < count;
+    excluded_.reserve(count);
+    if (some_) slots_.reserve(count);
+    u32 k = 0;
+    for (u32 s = 0; s < count; s++) {
+      const Class& its = classes_[class_of_[s]];
+      if (its.lonely) continue;
+      // Beyond the classes that are counted, each box has bits of its own.
+      excluded_[k] = class_of_[s] == rest ? rules_[s].excluded : its.bits;
+      if (some_) slots_[k] = s;
+      k++;
+    }
+  }
+
+  static u32 home(const Rule& rule) {
+    return (rule.layer * 0x9e3779b1u ^ rule.mask * 0x85ebca6bu ^ rule.excluded) >> 24;
+  }
+
+  COLD void find_classes(u32 count) {
+    class_of_.reserve(count);
+    __builtin_memset(table_, 0, sizeof(table_));
+    // The first class is that of boxes that are off: there is room for it however many others there are.
+    classes_[0] = {nobody, 0, 0, 0, false};
+    class_count_ = table_[home(nobody)] = 1;
+    classes_[rest] = {everybody, 0, 0, 0, false};
+    for (u32 s = 0; s < count; s++) {
+      const Rule& rule = rules_[s].is_off() ? nobody : rules_[s];
+      u32 at = home(rule);
+      for (;; at = (at + 1) % table_size) {
+        u32 found = table_[at];
+        if (found == 0) {
+          if (class_count_ == most_classes) {
+            class_of_[s] = u8(rest);
+            break;
+          }
+          classes_[class_count_] = {rule, 0, 0, rule.excluded, false};
+          table_[at] = u8(++class_count_);
+          found = class_count_;
+        }
+        const Rule& known = classes_[found - 1].rule;
+        if (known.layer == rule.layer && known.mask == rule.mask && known.excluded == rule.excluded) {
+          class_of_[s] = u8(found - 1);
+          break;
+        }
+      }
+      classes_[class_of_[s]].count++;
+    }
+    for (u32 c = class_count_; c < rest; c++) classes_[c].count = 0;
+  }
+
+  /// Finds the classes that meet nobody, and gives exclusion bits to sets of classes that all ignore one another,
+  /// themselves included, beginning with the largest.
+  COLD void share_bits() {
+    bool beyond = classes_[rest].count > 0;
+    u32 free = beyond ? 0 : spare_bits;  // nobody knows which bits those beyond have set
+    check_ = beyond;
+    u64 lonely = 0, wanting = 0;  // sets of classes: bit c is class c
+    for (u32 c = 0; c < class_count_; c++) {
+      Class& mine = classes_[c];
+      mine.meets = 0;
+      for (u32 d = 0; d < class_count_; d++) mine.meets |= u64(meet(mine.rule, classes_[d].rule)) << d;
+      mine.lonely = !mine.meets && !(beyond && mine.rule.layer && mine.rule.mask);
+      lonely |= u64(mine.lonely) << c;
+      free &= ~mine.bits;
+    }
+    for (u32 c = 0; c < class_count_; c++) {
+      const Class& mine = classes_[c];
+      wanting |= u64(!mine.lonely && !mine.bits && !(mine.meets >> c & 1)) << c;
+    }
+    for (; free && wanting; free &= free - 1) {
+      u32 largest = rest;
+      for (u32 c = 0; c < class_count_; c++) {
+        if (wanting >> c & 1 && (largest == rest || classes_[c].count > classes_[largest].count)) largest = c;
+      }
+      u64 members = u64(1) << largest;
+      for (u32 c = 0; c < class_count_; c++) {
+        u64 with_me = members | u64(1) << c;
+        if (!(lonely >> c & 1) && !(classes_[c].meets & with_me)) members = with_me;
+      }
+      for (u32 c = 0; c < class_count_; c++) {
+        if (members >> c & 1) classes_[c].bits |= free & -free;
+      }
+      wanting &= ~members;
+    }
+    for (u32 c = 0; c < class_count_; c++) {
+      for (u32 d = 0; d <= c; d++) {
+        bool searched = !((lonely >> c | lonely >> d) & 1) && !(classes_[c].bits & classes_[d].bits);
+        check_ |= searched && !(classes_[c].meets >> d & 1);
+      }
+    }
+  }
+};

@@ -1,0 +1,118 @@
+// Sweeps in which each item meets hundreds that start before it ends, few of which overlap it.
+// Idea: on the axes that are not swept, the items' bounds are also written down as cells of a 65,536th of the world,
+// in 16 bits. What does not even touch in cells cannot overlap, so sixteen items pass at a time, with two comparisons of
+// eight an axis; where one may overlap is noted, without a branch, and tested when many are.
+// Cost: about 2.5 (2D) or 4 (3D) ns for sixteen tests; 4 (2D) or 8 (3D) bytes an item.
+#pragma once
+#include "boxes/cell_map.hpp"
+#include "boxes/scene_sample.hpp"
+#include "search/sweep.hpp"
+
+template <int D> class QuantizedSweep {
+  static constexpr u32 block = 16, cells = 1 << 16;
+  static_assert(Lanes<D>::padding >= block);
+  // Blocks are looked at closer when there are this many.
+  static constexpr u32 enough = 512;
+
+  /// Of the items from `at` on those with a bit may overlap `item`.
+  struct Near {
+    u32 item, at, which;
+  };
+
+  Buffer<i16> cells_;  // per axis but the first: the minima of the items, then the maxima
+  Buffer<Near> near_;
+
+ public:
+  /// Tests each item of [first, last), which are the last of all, against those behind it and before its `end`, and
+  /// appends the pairs. Where the items stand in ascending order of their minima along axis 0, `sorted`, no `end` is
+  /// needed: those are tested that start before it ends. Returns the number of tests, but only then.
+  template <bool sorted = true>
+  NOINLINE u64 find(const Lanes<D>& from, const SceneSample<D>& world, u32 first, u32 last, Pairs& pairs, const u32* end = nullptr) {
+    u32 stride = last - first + block + 8;
+    i16* row = cells_.reserve(u64(stride) * 2 * (D - 1));
+    const i16* least[D - 1];
+    const i16* most[D - 1];
+    for (int a = 1; a < D; a++) {
+      Axis axis = Axis::make(world.low[a], world.high[a], cells);
+      round(axis, from.lo(a) + first, row, last - first);
+      least[a - 1] = row - first;
+      row += stride;
+      round(axis, from.hi(a) + first, row, last - first);
+      most[a - 1] = row - first;
+      row += stride;
+    }
+
+    const LaneView<D> lanes = from.view();
+    Near* near = near_.reserve(enough + (last - first) / block + 2);
+    Near* out = near;
+    u64 tests = 0;
+    i32x4 counted = {};
+    for (u32 i = first; i < last; i++) {
+      f32 reach = lanes.hi[0][i];
+      i16x8 low[D - 1], high[D - 1];
+      for (int a = 0; a < D - 1; a++) {
+        low[a] = splat(least[a][i]);
+        high[a] = splat(most[a][i]);
+      }
+      auto misses = [&](u32 at) {
+        i16x8 all = {};
+        for (int a = 0; a < D - 1; a++) all |= (load<i16x8>(least[a] + at) > high[a]) | (low[a] > load<i16x8>(most[a] + at));
+        return all;
+      };
+      u32 j = i + 1;
+      do {
+        u32 which = 0xffff ^ bitmask(misses(j), misses(j + 8));
+        *out = {i, j, which};
+        out += which != 0;
+        j += block;
+      } while (sorted ? lanes.lo[0][j - 1] <= reach : j < end[i]);
+      if constexpr (sorted) {
+        for (u32 k = j - block; k < j; k += 4) counted -= load<f32x4>(lanes.lo[0] + k) <= splat(reach);
+        tests += j - block - i - 1;
+      }
+      if (out < near + enough) continue;
+      test(lanes, near, out, pairs);
+      out = near;
+    }
+    test(lanes, near, out, pairs);
+    for (int lane = 0; lane < 4; lane++) tests += u32(counted[lane]);
+    return tests;
+  }
+
+  COLD void release() {
+    cells_.release();
+    near_.release();
+  }
+
+ private:
+  /// The cells of `count` coordinates, and of the padding behind them.
+  NOINLINE static void round(const Axis& axis, const f32* from, i16* to, u32 count) {
+    Axes axes(axis, axis, axis, axis);
+    for (u32 k = 0; k < count + block; k += 8) {
+      u32x4 low = axes(load<f32x4>(from + k)) - splat(cells / 2), high = axes(load<f32x4>(from + k + 4)) - splat(cells / 2);
+      store(to + k, __builtin_shufflevector(bits<i16x8>(low), bits<i16x8>(high), 0, 2, 4, 6, 8, 10, 12, 14));
+    }
+  }
+
+  /// Appends those that overlap.
+  template <bool watch> NOINLINE static void test_as(const LaneView<D>& lanes, const Near* from, const Near* end, Pairs& pairs) {
+    u64* out = pairs.room(pairs.list.data() + pairs.count, u64(end - from) * block);
+    for (; from < end; from++) {
+      Probe<D> probe(lanes, from->item);
+      const u64* begin = out;
+      i32x4 touching = {};
+      u32 four;
+      for (u32 which = from->which; which; which &= ~0xfu << four) {
+        four = u32(__builtin_ctz(which)) & ~3u;
+        u32x4 tags = load<u32x4>(lanes.tag + from->at + four);
+        out = append(out, probe.slot, tags & splat(slot_mask), bitmask(probe.template hits<watch>(lanes, from->at + four, tags, touching)));
+      }
+      if (watch && any(touching)) pairs.doubt(begin, out);
+    }
+    pairs.count = Pairs::between(pairs.list.data(), out);
+  }
+  static void test(const LaneView<D>& lanes, const Near* from, const Near* end, Pairs& pairs) {
+    if (pairs.watch) test_as<true>(lanes, from, end, pairs);
+    else test_as<false>(lanes, from, end, pairs);
+  }
+};

@@ -1,0 +1,17 @@
+// Counters of the last update. JavaScript reads them as one array of doubles, in this order.
+#pragma once
+#include "base/simd.hpp"
+
+/// Why a technique ran, in the order of `reasons` in src/broad-phase.ts.
+enum class Reason : u32 { asked_for, handful, kept, watching, moving, ordered };
+
+struct Stats {
+  f64 tests = 0;       // boxes tested against boxes
+  f64 candidates = 0;  // pairs found in float32, before the exact test in double
+  f64 pairs = 0;       // pairs reported
+  f64 cells = 0;       // cells, strips or nodes in use
+  f64 entries = 0;     // places of boxes in them: more than boxes where a box stands in several
+  f64 bytes = 0;       // of memory in use by the whole space
+  f64 technique = 0;   // index of the technique that ran: tells what `auto` chose
+  f64 reason = 0;      // and why: a Reason
+};

@@ -1,0 +1,34 @@
+// What `auto` stands for in an update, and how that is told.
+// Which of them, and why (the words are those of `reasons` in src/broad-phase.ts):
+//   - A handful of boxes: all against all, which costs less than to look at them first.
+//   - From the first snapshot on, strip sweep: it keeps nothing, so that no update before shows in the order of pairs.
+//   - Else incremental, which answers by what it keeps where that costs less, by strip sweep where it does not, and
+//     counts work, not time, to know.
+#pragma once
+#include "search/stats.hpp"
+#include "space/techniques.hpp"
+
+/// Boxes up to which all are tested against all.
+inline constexpr u32 handful = 24;
+
+namespace detail {
+constexpr bool has(Technique name) { return built >> u32(name) & 1; }
+}  // namespace detail
+static_assert(!detail::has(Technique::automatic) || (detail::has(Technique::brute_force) && detail::has(Technique::strip_sweep) &&
+                                                     detail::has(Technique::incremental)));
+
+/// What a technique that was asked for stands for, given how many boxes there are, and whether no update before may show.
+inline Technique auto_choice(Technique asked, u32 boxes, bool ordered) {
+  if (asked != Technique::automatic) return asked;
+  if (boxes <= handful) return Technique::brute_force;
+  return ordered ? Technique::strip_sweep : Technique::incremental;
+}
+
+/// Says which technique has answered, and why it was chosen; `incremental` has said so itself.
+COLD inline void say_choice(Technique asked, Technique ran, Stats& stats) {
+  stats.technique = f64(u32(ran));
+  if (asked != Technique::automatic) stats.reason = f64(u32(Reason::asked_for));
+  else if (ran == Technique::brute_force) stats.reason = f64(u32(Reason::handful));
+  else if (ran == Technique::strip_sweep) stats.reason = f64(u32(Reason::ordered));
+  else if (stats.reason != f64(u32(Reason::kept))) stats.technique = f64(u32(Technique::strip_sweep));
+}

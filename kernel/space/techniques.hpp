@@ -1,0 +1,112 @@
+// The techniques of one space, by name. A new one is a header in techniques/, and four lines here.
+// A build may leave some out: TECHNIQUES has a bit for each that it has, in the order of the enumeration.
+#pragma once
+#include <type_traits>
+
+#include "coherence/incremental.hpp"
+#include "techniques/aabb_tree.hpp"
+#include "techniques/brute_force.hpp"
+#include "techniques/bsp_tree.hpp"
+#include "techniques/hierarchical_grid.hpp"
+#include "techniques/home_cell_grid.hpp"
+#include "techniques/quadtree.hpp"
+#include "techniques/r_tree.hpp"
+#include "techniques/retained_grid.hpp"
+#include "techniques/spatial_grid.hpp"
+#include "techniques/strip_sweep.hpp"
+#include "techniques/sweep_and_prune.hpp"
+
+/// In the order of BroadPhase.techniques.
+enum class Technique : u32 {
+  brute_force,
+  spatial_grid,
+  retained_grid,
+  home_cell_grid,
+  hierarchical_grid,
+  sweep_and_prune,
+  strip_sweep,
+  quadtree,
+  bsp_tree,
+  r_tree,
+  aabb_tree,
+  incremental,
+  automatic,
+};
+
+#if !defined(TECHNIQUES)
+#define TECHNIQUES ~0u
+#endif
+inline constexpr u32 built = TECHNIQUES & ((2u << u32(Technique::automatic)) - 1);
+
+/// Those that note which of their pairs are in doubt: see Pairs::watch. Of the others all are.
+inline constexpr u32 watching = 1u << u32(Technique::brute_force) | 1u << u32(Technique::strip_sweep) | 1u << u32(Technique::incremental);
+
+/// Stands in the place of a technique that is not built: nobody asks for it.
+struct LeftOut {
+  template <class... Any> constexpr LeftOut(Any&...) {}
+};
+
+template <Technique name, class Kind>
+using IfBuilt = std::conditional_t<(built >> u32(name) & 1) != 0, Kind, LeftOut>;
+
+template <int D> class Techniques {
+  IfBuilt<Technique::brute_force, BruteForce<D>> brute_force_;
+  IfBuilt<Technique::spatial_grid, SpatialGrid<D>> spatial_grid_;
+  IfBuilt<Technique::retained_grid, RetainedGrid<D>> retained_grid_;
+  IfBuilt<Technique::home_cell_grid, HomeCellGrid<D>> home_cell_grid_;
+  IfBuilt<Technique::hierarchical_grid, HierarchicalGrid<D>> hierarchical_grid_;
+  IfBuilt<Technique::sweep_and_prune, SweepAndPrune<D>> sweep_and_prune_;
+  IfBuilt<Technique::strip_sweep, StripSweep<D>> strip_sweep_;
+  IfBuilt<Technique::quadtree, Quadtree<D>> quadtree_;
+  IfBuilt<Technique::bsp_tree, BspTree<D>> bsp_tree_;
+  IfBuilt<Technique::r_tree, RTree<D>> r_tree_;
+  IfBuilt<Technique::aabb_tree, AabbTree<D>> aabb_tree_;
+  IfBuilt<Technique::incremental, Incremental<D>> incremental_{strip_sweep_};
+
+  template <class What, class Kind> static void call(What& what, Kind& kind) { what(kind); }
+  template <class What> static void call(What&, LeftOut&) {}
+
+ public:
+  /// Calls `what` with the technique of that name, which must be built in and not `automatic`.
+  template <class What> void with(Technique name, What what) {
+    switch (name) {
+      case Technique::brute_force: return call(what, brute_force_);
+      case Technique::spatial_grid: return call(what, spatial_grid_);
+      case Technique::retained_grid: return call(what, retained_grid_);
+      case Technique::home_cell_grid: return call(what, home_cell_grid_);
+      case Technique::hierarchical_grid: return call(what, hierarchical_grid_);
+      case Technique::sweep_and_prune: return call(what, sweep_and_prune_);
+      case Technique::quadtree: return call(what, quadtree_);
+      case Technique::bsp_tree: return call(what, bsp_tree_);
+      case Technique::r_tree: return call(what, r_tree_);
+      case Technique::aabb_tree: return call(what, aabb_tree_);
+      case Technique::incremental: return call(what, incremental_);
+      default: return call(what, strip_sweep_);
+    }
+  }
+};
+
+// Both dimensions of each next to one another in the module, where gzip finds what they share: an eighth less. A build
+// may have one alone: DIMENSIONS is 2 or 3 then.
+#if defined(DIMENSIONS)
+#define BOTH(Kind) template class Kind<DIMENSIONS>;
+#else
+#define BOTH(Kind)        \
+  template class Kind<2>; \
+  template class Kind<3>;
+#endif
+BOTH(Incremental)
+BOTH(StripSweep)
+BOTH(SweepList)
+BOTH(BruteForce)
+#if TECHNIQUES == ~0u || defined(TWINS)
+BOTH(AabbTree)
+BOTH(BspTree)
+BOTH(HierarchicalGrid)
+BOTH(HomeCellGrid)
+BOTH(Quadtree)
+BOTH(RTree)
+BOTH(RetainedGrid)
+BOTH(SpatialGrid)
+BOTH(SweepAndPrune)
+#endif
