@@ -29,7 +29,7 @@ struct Shift {
 template <int D> struct Prospect {
   f64 sizes[D] = {};       // of boxes on average, but no less than the next
   f64 least[D] = {};       // an eighth of what they are apart
-  f64 boxes = 0, looked = 0;  // all, and those that an update looks at
+  f64 looked = 0;          // the share of boxes that an update looks at
   f64 pairs = 0;           // candidates of a list without a margin
   f64 fresh = 0;           // a rebuild
   f64 tests = 0;           // of it, the tests
@@ -50,9 +50,9 @@ template <int D> struct Prospect {
     f64 root = D == 2 ? __builtin_sqrt(widening(growth)) : cube_root(widening(growth));
     return D == 2 ? root : root * root;
   }
-  /// What it takes to make a list: a rebuild with larger boxes, and to write down and copy what it finds.
+  /// What it takes to make a list: a rebuild with larger boxes, which finds more, and a look at all of them twice.
   f64 build(f64 growth, const Tuning<D>& tuning) const {
-    return fresh + tests * (more_tests(growth) - 1) + pairs * widening(growth) + 2 * tuning.look;
+    return fresh + tests * (more_tests(growth) - 1) + pairs * (widening(growth) - 1) + 2 * tuning.look;
   }
 };
 

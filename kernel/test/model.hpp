@@ -124,7 +124,7 @@ template <int D> class Model {
     u32 count = 0;
     for (u32 other = 0; other < k; other++, boxes += 2 * D) {
       const Rule& its = rules[other];
-      bool both = !(rule.is_off() | its.is_off());
+      bool both = !(rule.is_off() || its.is_off());
       both &= (rule.layer & its.mask) && (its.layer & rule.mask) && !(rule.excluded & its.excluded);
       for (u32 a = 0; a < D; a++) both &= (box[a] <= boxes[D + a]) & (boxes[a] <= box[D + a]);
       found[count] = other;

@@ -1,0 +1,413 @@
+// The list: candidates, the regions in which they hold, and what is done for boxes that leave theirs.
+//
+// Idea: each box has a region, which is the box when the list was made and a margin on all sides. Two boxes whose regions
+// touch are a candidate. While boxes stay in their regions, an update looks at all boxes and tests the candidates.
+//   - Late: a box that has left its region gets another, and the candidates that come with it. Its base, which is the
+//     region it had first, still says which candidates are listed.
+//   - Rest: a box that has not moved while a list lived, or in the update before the first one, is its own region. Pairs
+//     of two at rest are settled: they stand at the head of the list of pairs, and nobody tests them.
+// Cost: about 1 ns a box and 2 ns a candidate; 0.4 µs a late box; to make it, one and a half to two strip sweeps.
+// Memory, beside that of strip sweep: about 55 (2D) or 71 (3D) bytes a box, and 8 a candidate.
+// From: L. Verlet, "Computer Experiments on Classical Fluids", 1967.
+#pragma once
+#include "coherence/places.hpp"
+#include "coherence/watch.hpp"
+#include "techniques/strip_sweep.hpp"
+
+template <int D> class CandidateList {
+  static constexpr u32 width = 2 * D;
+  static constexpr u32 padding = 4;  // vector loads may read this many floats past the last box
+  static constexpr Tuning<D> tuning = {};
+  // In a tag, below the exclusion bits:
+  enum : u32 { rests = 1, late = 2, fresh = 4 };
+
+  StripSweep<D>& anew_;
+  u32 count_ = 0;           // boxes that are followed; 0: there is no list
+  bool watched_ = false;    // pairs in doubt are to be noted
+  bool filtered_ = false;   // some have exclusion bits
+  // Per slot:
+  Buffer<f32> regions_;
+  Buffer<f32> bases_;       // the regions when the list was made, from when the first box was late
+  Buffer<u32> tags_;        // exclusion bits, and ours below them
+  Buffer<u32> late_;        // slots; and behind them those that a search has met
+  Places<D> places_;        // of the regions, likewise
+  bool placed_ = false;
+  u32 late_count_ = 0, resting_ = 0;
+  u64 met_ = 0;             // regions that a search for the late has met in this update
+  Pairs candidates_, extra_, settled_;  // extra: those of boxes that have been late
+  u64 found_ = 0;           // candidates when the list was made, settled ones among them
+  u64 head_ = 0;            // length of the prefix of `settled_` that the last report has
+  Stats built_ = {};
+  f32 margin_ = 0;
+  Shift common_;            // what the watch said of common motion when the list was made
+  Shift shift_;             // takes back what all have moved in common since
+
+ public:
+  constexpr explicit CandidateList(StripSweep<D>& anew) : anew_(anew) {}
+
+  bool is_empty() const { return count_ == 0; }
+  u32 resting() const { return resting_; }
+  /// Candidates that are tested in each update, and those found when the list was made.
+  u64 tested() const { return candidates_.count + extra_.count; }
+  u64 found() const { return found_; }
+  /// What the sweep that made the list did.
+  const Stats& built() const { return built_; }
+
+  /// Work that this update took for the late, and what it takes even if none is.
+  f64 late_work() const { return late_count_ * tuning.late + (met_ + extra_.count) * tuning.candidate; }
+  f64 least_work(f64 looked) const { return candidates_.count * tuning.candidate + looked * tuning.look; }
+  /// Work that it took to make the list.
+  f64 made_work() const {
+    return tuning.entry * built_.entries + built_.tests + found_ + 2 * tuning.look * count_;
+  }
+
+  /// Whether pairs in doubt are to be noted: if that is new, what is settled may be in doubt.
+  void watch(bool watched) {
+    if (watched && !watched_) forget();
+    watched_ = watched;
+  }
+
+  /// Gives up the list, but not the memory.
+  COLD void forget() {
+    count_ = resting_ = 0;
+    candidates_.count = extra_.count = settled_.count = 0;
+  }
+
+  COLD void release() {
+    forget();
+    regions_.release();
+    bases_.release();
+    tags_.release();
+    late_.release();
+    places_.release();
+    candidates_.list.release();
+    extra_.list.release();
+    settled_.list.release();
+  }
+
+  /// A list of these boxes, with this margin. `candidates`: so many it will hardly exceed. `some_rest`: not all move.
+  COLD void build(const Scene<D>& scene, f32 margin, u64 candidates, bool some_rest, const Shift& common) {
+    u32 n = scene.count, had = smaller(count_, n);
+    make_room(n, had);
+    if (had == 0 && some_rest) anew_.each_same(scene, [&](u32 slot) { tags_[slot] = rests; });
+    else if (resting_ > 0 || some_rest) find_resting(scene, had);
+    resting_ = 0;
+    enclose(scene, margin);
+    filtered_ = scene.excluded != nullptr;
+    count_ = n;
+    margin_ = margin;
+    candidates_.count = extra_.count = settled_.count = head_ = 0;
+    built_ = Stats{};
+    candidates_.list.reserve(candidates + Pairs::slack);  // copied while it grows it takes longer
+    anew_.update(Scene<D>{regions_.data(), n, scene.excluded}, Settings{}, candidates_, built_);
+    found_ = candidates_.count;
+    if (resting_ > 0) settle(scene);
+    placed_ = false;
+    shift_ = {};
+    common_ = common;
+    late_count_ = 0;
+    met_ = 0;
+  }
+
+  /// Sees to it that boxes are in their regions; false where a new list is due, since that would take more than `most` work
+  /// for each box. `size`: of boxes.
+  COLD bool follow(const Scene<D>& scene, const Shift& common, f64 most, f32 size) {
+    u32 n = scene.count, had = count_, both = smaller(n, had);
+    u32* list = late_.reserve(2 * u64(n) + 4);
+    Shift shift = common_.after(common.back());
+    bool moved = shift.differs(shift_);
+    shift_ = shift;
+    if (!shift.is_sound()) return false;
+    u32 enough = u32(smaller(most * n / tuning.late, n / 2.0));
+    if (!moved && scene.listed() && !scene.changes->most(n)) late_count_ = look_at(scene, both, list);
+    else late_count_ = resting_ ? look<true>(scene, both, list, enough) : look<false>(scene, both, list, enough);
+    if (scene.filtered || filtered_ != (scene.excluded != nullptr)) refilter(scene, both, list);
+    if (late_count_ + (n - both) > enough) return false;
+    met_ = 0;
+    if (late_count_ == 0 && n == had) return true;
+    if (!placed_) place();
+    for (u32 slot = n; slot < had; slot++) {
+      resting_ -= tags_[slot] & rests;
+      places_.remove(slot);
+    }
+    make_room(n, both);
+    bases_.grow(u64(n) * width + padding, u64(both) * width);
+    places_.make_room(n, both);
+    for (u32 slot = had; slot < n; slot++) {
+      tags_[slot] = fresh;
+      list[late_count_++] = slot;
+    }
+    count_ = n;
+    return serve(scene, list, had, u64(most * n / tuning.candidate), f32(tuning.late_margin) * size);
+  }
+
+  /// Reports what is settled, and the candidates that overlap. Only here does a pair become one.
+  COLD void report(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
+    u64 head = settled_.count, same = smaller(smaller(pairs.stable, head_), head);
+    pairs.same = same == head && head == head_ && resting_ == count_ && late_count_ + candidates_.count == 0;
+    u64* out = pairs.room(pairs.list.data() + same, head - same);
+    if (head > same) __builtin_memcpy(out, settled_.list.data() + same, (head - same) * sizeof(u64));
+    pairs.count = head;
+    test(scene, candidates_, pairs);
+    test(scene, extra_, pairs);
+    pairs.stable = head_ = head;
+    stats.tests = f64(candidates_.count + extra_.count);
+    stats.cells = built_.cells;
+    stats.entries = built_.entries;
+  }
+
+ private:
+  f32* region(u32 slot) const { return regions_.data() + u64(slot) * width; }
+  f32* base(u32 slot) const { return bases_.data() + u64(slot) * width; }
+
+  // --- a list is made ---
+
+  COLD void make_room(u64 n, u64 had) {
+    regions_.grow(n * width + padding, had * width);
+    tags_.grow(n, had);
+    if (n > had) __builtin_memset(tags_.data() + had, 0, (n - had) * sizeof(u32));
+  }
+
+  /// Marks those that have been where they are while the last list lived.
+  NOINLINE void find_resting(const Scene<D>& scene, u32 had) {
+    bool steady = !shift_.differs({});
+    for (u32 slot = 0; slot < had; slot++) {
+      const f32 *box = scene.box(slot), *was = region(slot);
+      f32 aside = margin_ * f32(1 - (tags_[slot] & rests));
+      u32 rested = steady & (bitmask(lower(box, aside) == load<f32x4>(was)) == 15);
+      if constexpr (D == 3) rested &= (bitmask(upper(box, aside) == load<f32x4>(was + D)) & 7) == 7;
+      tags_[slot] = (tags_[slot] & ~rests) | rested;
+    }
+  }
+
+  /// Gives each box its region.
+  NOINLINE void enclose(const Scene<D>& scene, f32 margin) {
+    for (u32 slot = 0; slot < scene.count; slot++) {
+      u32 rest = tags_[slot] & rests;
+      resting_ += rest;
+      widen(scene.box(slot), bits<f32>(bits<u32>(margin) & (rest - 1)), region(slot));
+      tags_[slot] = rest | scene.excluded_of(slot);
+    }
+  }
+
+  /// The first four numbers of a box with so much on all sides, and in 3D its last three.
+  static f32x4 lower(const f32* box, f32 aside) {
+    return load<f32x4>(box) + f32x4{-aside, -aside, D == 2 ? aside : -aside, aside};
+  }
+  static f32x4 upper(const f32* box, f32 aside) { return load<f32x4>(box + D) + splat(aside); }
+  static void widen(const f32* box, f32 aside, f32* out) {
+    store(out, lower(box, aside));
+    f32x4 high = upper(box, aside);
+    if constexpr (D == 3) __builtin_memcpy(out + D, &high, D * sizeof(f32));
+  }
+
+  /// Of the candidates, those of two boxes at rest are settled, but for those that will be in doubt.
+  NOINLINE void settle(const Scene<D>& scene) {
+    u64 left = 0;
+    u64* list = candidates_.list.data();
+    u64* out = settled_.list.reserve(candidates_.count + 1);
+    for (u64 k = 0; k < candidates_.count; k++) {
+      u64 pair = list[k];
+      bool rest = tags_[u32(pair)] & tags_[u32(pair >> 32)] & rests;
+      if (watched_ && rest) rest = !any(equal_bounds<D>(scene.box(u32(pair)), scene.box(u32(pair >> 32))));
+      list[left] = *out = pair;
+      left += !rest;
+      out += rest;
+    }
+    candidates_.count = left;
+    settled_.count = Pairs::between(settled_.list.data(), out);
+  }
+
+  // --- boxes that leave their regions ---
+
+  /// Whether a box is where it is expected: in its region, and where it rests it is just that.
+  template <bool some_rest> static bool is_expected(const f32* box, const f32* region, u32 tag, const Shift& shift) {
+    f32x4 low = shift(load<f32x4>(box)), its_low = load<f32x4>(region);
+    u32 moves = (tag & rests) - 1;  // a mask: no branch, since which boxes rest is unpredictable
+    if constexpr (D == 2) {
+      u32 within = bitmask(turned(bits<i32x4>(its_low)) <= turned(bits<i32x4>(low)));
+      return (some_rest ? within & (bitmask(low == its_low) | moves) : within) == 15;
+    } else {
+      f32x4 high = shift(load<f32x4>(box + D)), its_high = load<f32x4>(region + D);
+      u32 within = bitmask((its_low <= low) & (high <= its_high));
+      if (some_rest) within &= bitmask((low == its_low) & (high == its_high)) | moves;
+      return (within & 7) == 7;
+    }
+  }
+  bool is_expected(const Scene<D>& scene, u32 slot) const {
+    return is_expected<true>(scene.box(slot), region(slot), tags_[slot], shift_);
+  }
+
+  /// Writes the slots of boxes that are not where they are expected; gives how many. More than enough it does not seek.
+  template <bool some_rest> NOINLINE u32 look(const Scene<D>& scene, u32 until, u32* out, u32 enough) const {
+    const f32 *box = scene.boxes, *its = regions_.data();
+    const u32* tags = tags_.data();
+    Shift shift = shift_;
+    u32 found = 0, slot = 0;
+    for (; slot + 4 <= until && found <= enough; slot += 4, box += 4 * width, its += 4 * width) {
+      u32 expected[4], all = 1;
+      for (u32 k = 0; k < 4; k++) all &= expected[k] = is_expected<some_rest>(box + k * width, its + k * width, tags[slot + k], shift);
+      if (all) continue;
+      for (u32 k = 0; k < 4; k++) {
+        out[found] = slot + k;
+        found += 1 - expected[k];
+      }
+    }
+    for (; slot < until && found <= enough; slot++) {
+      out[found] = slot;
+      found += !is_expected(scene, slot);
+    }
+    return found;
+  }
+
+  /// The same, of those that may have changed.
+  NOINLINE u32 look_at(const Scene<D>& scene, u32 until, u32* out) const {
+    u32 found = 0;
+    for (u32 k = 0; k < scene.changes->count(); k++) {
+      u32 slot = scene.changes->list()[k];
+      if (slot < until && !is_expected(scene, slot)) out[found++] = slot;
+    }
+    return found;
+  }
+
+  /// Adds those to the late whose exclusion bits have changed, which makes them as good as new.
+  COLD void refilter(const Scene<D>& scene, u32 until, u32* list) {
+    filtered_ = scene.excluded != nullptr;
+    for (u32 slot = 0; slot < until; slot++) {
+      if ((tags_[slot] & ~slot_mask) == scene.excluded_of(slot)) continue;
+      tags_[slot] |= fresh;
+      list[late_count_++] = slot;  // perhaps once more: `serve` sees that
+    }
+  }
+
+  /// Sees where all regions are, for the late to be searched among them.
+  NOINLINE void place() {
+    f64 low[D], high[D], sizes[D];
+    anew_.bounds(low, high, sizes);
+    places_.divide(low, high, count_);
+    places_.make_room(count_, 0);
+    for (u32 slot = 0; slot < count_; slot++) places_.put(region(slot), slot);
+    u64 numbers = u64(count_) * width;
+    __builtin_memcpy(bases_.reserve(numbers + padding), regions_.data(), numbers * sizeof(f32));
+    placed_ = true;
+  }
+
+  template <class Stays> NOINLINE static void filter(Pairs& pairs, Stays stays) {
+    u64 left = 0;
+    u64* list = pairs.list.data();
+    for (u64 k = 0; k < pairs.count; k++) {
+      u64 pair = list[k];
+      list[left] = pair;
+      left += stays(u32(pair), u32(pair >> 32));
+    }
+    pairs.count = left;
+  }
+
+  /// Gives new regions to the late; those from slot `had` on had none. False where they meet more regions than `enough`.
+  COLD bool serve(const Scene<D>& scene, u32* list, u32 had, u64 enough, f32 margin) {
+    u32 many = 0, were = 0;
+    for (u32 k = 0; k < late_count_; k++) {
+      u32 slot = list[k], tag = tags_[slot];
+      if (tag & late) continue;
+      list[many++] = slot;
+      were |= tag;
+      resting_ -= tag & rests;
+      if (slot < had) places_.remove(slot);
+      if (tag & fresh) {  // no candidate of it is listed
+        tag = fresh | scene.excluded_of(slot);
+        for (u32 k = 0; k < width; k++) base(slot)[k] = __builtin_nanf("");
+      }
+      tags_[slot] = (tag & ~rests) | late;
+    }
+    auto filter_listed = [&](u32 a, u32 b) { return b < count_ && !((tags_[a] | tags_[b]) & fresh); };
+    if (had > count_ || (were & fresh)) {
+      head_ = 0;
+      filter(candidates_, filter_listed);
+      filter(settled_, filter_listed);
+    }
+    if (were & rests) unsettle();
+    filter(extra_, [&](u32 a, u32 b) { return b < count_ && !((tags_[a] | tags_[b]) & late); });
+    for (u32 k = 0; k < many && met_ <= enough; k++) enlarge(scene, list[k], larger(margin_, margin), list + many);
+    for (u32 k = 0; k < many; k++) tags_[list[k]] &= ~(late | fresh);
+    late_count_ = many + had - smaller(had, count_);
+    return met_ <= enough;
+  }
+
+  /// The settled pairs of boxes that do not rest become candidates.
+  COLD void unsettle() {
+    u64* list = settled_.list.data();
+    u64 left = 0, many = settled_.count;
+    u64* out = candidates_.list.data() + candidates_.count;
+    for (u64 k = 0; k < many; k++) {
+      u64 pair = list[k];
+      list[left] = pair;
+      if (tags_[u32(pair)] & tags_[u32(pair >> 32)] & rests) {
+        left++;
+        continue;
+      }
+      head_ = smaller(head_, left);
+      out = candidates_.room(out, 1);
+      *out++ = pair;
+      candidates_.count++;
+    }
+    settled_.count = left;
+  }
+
+  /// A new region for a box that is late. `near`: room for as many slots as there are.
+  NOINLINE void enlarge(const Scene<D>& scene, u32 slot, f32 aside, u32* near) {
+    f32 box[width + padding], larger_one[width + padding];
+    u32 tag = tags_[slot];
+    shifted(scene.box(slot), box);
+    widen(box, aside, larger_one);
+    u32 found = 0;
+    places_.each_near(larger_one, [&](u32 other) {
+      near[found] = other;
+      found += boxes_touch<D>(larger_one, region(other));
+      met_++;
+    });
+    u64* out = extra_.room(extra_.list.data() + extra_.count, found);
+    const f32* its_base = base(slot);
+    for (u32 k = 0; k < found; k++) {
+      u32 other = near[k];
+      *out = pair_of(slot, other);
+      out += !(boxes_touch<D>(its_base, base(other)) | (tag & tags_[other] & ~slot_mask));
+    }
+    extra_.count = Pairs::between(extra_.list.data(), out);
+    __builtin_memcpy(region(slot), larger_one, width * sizeof(f32));
+    places_.put(larger_one, slot);
+  }
+
+  /// A box where it would be, had the world not moved since the list was made.
+  void shifted(const f32* box, f32* out) const {
+    store(out, shift_(load<f32x4>(box)));
+    if constexpr (D == 3) store(out + D, shift_(load<f32x4>(box + D)));
+  }
+
+  static void test(const Scene<D>& scene, const Pairs& candidates, Pairs& pairs) {
+    if (pairs.watch) test_as<true>(scene, candidates, pairs);
+    else test_as<false>(scene, candidates, pairs);
+  }
+  template <bool watch> NOINLINE static void test_as(const Scene<D>& scene, const Pairs& candidates, Pairs& pairs) {
+    const u64* list = candidates.list.data();
+    const f32* boxes = scene.boxes;
+    u64* out = pairs.list.data() + pairs.count;
+    for (u64 k = 0; k < candidates.count;) {
+      u64 until = smaller(candidates.count, k + 4096);
+      out = pairs.room(out, until - k);
+      while (k < until) {
+        u64 few = watch ? smaller(until, k + 32) : until;
+        const u64* begin = out;
+        i32x4 touching = {};
+        for (; k < few; k++) {
+          u64 pair = list[k];
+          const f32 *one = boxes + u64(u32(pair)) * width, *other = boxes + (pair >> 32) * width;
+          *out = pair;
+          out += boxes_touch<D>(one, other);
+          if constexpr (watch) touching |= equal_bounds<D>(one, other);
+        }
+        if (watch && any(touching)) pairs.doubt(begin, out);
+      }
+    }
+    pairs.count = Pairs::between(pairs.list.data(), out);
+  }
+};
