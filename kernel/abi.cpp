@@ -104,7 +104,13 @@ EXPORT(set_enabled)(u32 id, u32 on) -> u32 {
   with_space([&](auto& space) { space.enable(slot, on != 0); });
   return 1;
 }
-/// In io: layer, mask, whether it is static, and whether it is enabled. 0 where there is no such box.
+EXPORT(set_group)(u32 id, u32 group) -> u32 {
+  u32 slot = ids.slot(id);
+  if (slot == Ids::none) return 0;
+  with_space([&](auto& space) { space.put_in_group(slot, group); });
+  return 1;
+}
+/// In io: layer, mask, whether it is static, whether it is enabled, and its group. 0 where there is no such box.
 EXPORT(get_rule)(u32 id) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
@@ -115,6 +121,7 @@ EXPORT(get_rule)(u32 id) -> u32 {
     io[2] = (rule.excluded & is_static) != 0;
     io[3] = !rule.is_off();
   });
+    io[4] = space.group(slot);
   return 1;
 }
 /// Writes the ids to answers, in the order in which they came; returns how many.
@@ -214,7 +221,8 @@ EXPORT(partners)(u32 id) -> u32 {
 EXPORT(answers_address)() -> u32* {
   return with_space([](auto& space) { return space.answers.data(); });
 }
-/// Questions. What they ask is in io: the box or twice the point, what it moves by, then at fixed places the radius
+/// Questions. What they ask is in io: the box or twice the point, what it moves by, then at fixed places, of areas,
+/// whether what only touches counts, the radius
 /// (negative: none; -2: boxes are to be within the box), the limit, the rank of the hit to go on behind, whose id is
 /// `after`, and the planes, each a normal and an offset.
 enum : u32 { radius_at = 12, limit_at = 13, after_at = 14, planes_at = 15, no_id = 0xffffffff };

@@ -1,7 +1,6 @@
 // The class BroadPhase: a Map from id to box that knows which of its boxes overlap.
 // All state lives in the kernel's memory (kernel/space.hpp); this file checks what comes in, passes it on, and
 // gives views of what comes out. Nothing here runs once per box or per pair of an update.
-import { Contents } from './contents.ts';
 import type { BoxOfId, Dimensions, MovingBoxOfId } from './dimensions.ts';
 import {
   badBox,
@@ -20,6 +19,7 @@ import {
 } from './errors.ts';
 import type { Technique as LeanTechnique } from './generated/kernel-lean.ts';
 import { builtDimensions, builtTechniques } from './kernel.ts';
+import { Pairing } from './pairing.ts';
 import { badSnapshot, headerBytes, snapshotBytes } from './snapshot.ts';
 import { isFloat32Array } from './values.ts';
 import { type Watcher, watch } from './watch.ts';
@@ -184,7 +184,7 @@ export let beginAnew: (space: BroadPhase<Dimensions>) => number;
  * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
  * space.pairs; // → Uint32Array [7, 9]
  */
-export class BroadPhase<D extends Dimensions = 2> extends Contents<D> {
+export class BroadPhase<D extends Dimensions = 2> extends Pairing<D> {
   /**
    * The names of the techniques there are, in order: with `import 'broadphase'` the few that games need, with
    * `import 'broadphase/all'`, or after `init` with `broadphase/kernel.wasm`, every one.
@@ -827,9 +827,9 @@ export class BroadPhase<D extends Dimensions = 2> extends Contents<D> {
 
   /**
    * What stands in the space, as bytes to go back to with `restore`, or to save: boxes as they were given, ids, their order,
-   * filters, which boxes are static, the technique, and with `events: true` the pairs of the last update, and those
+   * filters, groups, which boxes are static, the technique, and with `events: true` the pairs of the last update, and those
    * that began and ended with it. Options of the constructor are not in it. A box takes 16 bytes in 2D and 24 in 3D, twice that where some box is not a
-   * float32, 4 more where ids have gaps, and 4 where a box was deleted before another, up to 9 more with filters; a pair 8.
+   * float32, 4 more where ids have gaps, and 4 where a box was deleted before another, up to 9 more with filters, 4 with groups; a pair 8.
    *
    * From the first call on, and from `restore` on, the order of the pairs depends on what stands in the space alone,
    * so that a restored space gives them in the very order of the one that went on. `auto` then keeps nothing from
@@ -1001,13 +1001,14 @@ export class BroadPhase<D extends Dimensions = 2> extends Contents<D> {
 
   #show(watcher: Watcher): void {
     this.kernel.contents();
-    const [ids, boxes, doubles, rules] = this.io();
+    const [ids, boxes, doubles, rules, groups] = this.io();
     const { buffer } = this.kernel.memory;
     const length = this.size * this.width;
     watcher(
       doubles ? new Float64Array(buffer, doubles, length) : new Float32Array(buffer, boxes, length),
       ids ? new Uint32Array(buffer, ids, this.size) : undefined,
       rules ? new Uint32Array(buffer, rules, 3 * this.size) : undefined,
+      { groups: groups ? new Uint32Array(buffer, groups, this.size) : undefined },
     );
   }
 

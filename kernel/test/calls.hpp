@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "check.hpp"
+#include "own_calls.hpp"
 #include "scenes.hpp"
 
 /// Bytes to decide by; zeros once they are used up.
@@ -113,6 +114,7 @@ template <int D> class Calls {
         fresh->space.exclude(fresh->ids.slot(id), bit, rule.excluded & bit);
       }
       fresh->space.enable(fresh->ids.slot(id), !rule.is_off());
+      fresh->space.put_in_group(fresh->ids.slot(id), model_.group(id));
     }
     CHECK(fresh->space.update() == -1);
     return sorted_pairs(fresh->space);
@@ -124,6 +126,7 @@ template <int D> class Calls {
     if (wraps() && (what == 23 || (what >= 27 && what <= 29))) return update();
     switch (what) {
       default: return set(id(), box());
+      case 7: return give();
       case 8: case 9: case 10: return remove(id());
       case 11: return replace_by_a_scene();
       case 12: return replace_by_few();
@@ -199,7 +202,12 @@ template <int D> class Calls {
     u32 someone = all[random.below(u32(all.size()))];
     f64 size = std::exp2(f64(random.below(9)));
     Box<D> box = box_of<D>([&](u32) { return Extent{f64(random.below(200)), size}; });
-    switch (random.below(8)) {
+    switch (random.below(9)) {
+      case 8: {
+        u32 group = random.below(3);
+        space_.put_in_group(ids_.slot(someone), group);
+        return model_.put_in_group(someone, group);
+      }
       case 0: return set(model_.count(), box);
       case 1: return remove(someone);
       case 2: case 3: return set(someone, box);
@@ -356,6 +364,13 @@ template <int D> class Calls {
     if (made([&] { space_.filter(ids_.slot(id), layer, mask); })) model_.filter(id, layer, mask);
   }
 
+  void give() {
+    Own own = Own::from(bytes_);
+    if (model_.count() == 0) return;
+    u32 id = someone();
+    if (made([&] { own.give(space_, ids_.slot(id)); })) model_.put_in_group(id, own.group);
+  }
+
   u32 someone() {
     std::vector<u32> all = model_.ids();
     return all[bytes_.next16() % all.size()];
@@ -432,6 +447,7 @@ template <int D> class Calls {
       space_.filter(ids_.slot(id), ~0u, ~0u);
       for (u32 bit : {u32(is_static), u32(is_red), u32(is_blue)}) space_.exclude(ids_.slot(id), bit, false);
       space_.enable(ids_.slot(id), true);
+      space_.put_in_group(ids_.slot(id), 0);
     }
     CHECK(space_.update() == -1);
     updated_ = true;
@@ -701,6 +717,7 @@ template <int D> class Calls {
     for (u32 id : model_.ids()) {
       Box<D> held;
       same &= space_.get(id, held.data()) && held == model_.at(id);
+      same &= space_.group(ids_.slot(id)) == model_.group(id);
     }
     CHECK(same);
     u32 other = id();

@@ -47,6 +47,7 @@ template <int D> class Model {
   struct Entry {
     Box<D> box = {};
     Rule rule{~0u, ~0u, 0};
+    u32 group = 0;
   };
   std::map<u32, Entry> entries_;
   std::set<u32> gone_;  // deleted since the last update
@@ -76,6 +77,8 @@ template <int D> class Model {
   }
   void clear() { renumber(0); }
   const Rule& rule(u32 id) const { return entries_.at(id).rule; }
+  u32 group(u32 id) const { return entries_.at(id).group; }
+  void put_in_group(u32 id, u32 group) { entries_.at(id).group = group; }
   bool is_gone(u64 pair) const { return !gone_.empty() && (gone_.count(u32(pair)) || gone_.count(u32(pair >> 32))); }
   void updated() { gone_.clear(); }
   void replace(const Boxes<D>& boxes) {
@@ -111,7 +114,10 @@ template <int D> class Model {
     std::vector<u32> partners(ids.size());
     for (u32 k = 0; k < ids.size(); k++) {
       u32 count = meet_before(k, boxes.data(), rules.data(), partners.data());
-      for (u32 n = 0; n < count; n++) found.push_back(ids[partners[n]] | u64(ids[k]) << 32);
+      for (u32 n = 0; n < count; n++) {
+        u32 other = ids[partners[n]], its = group(other);
+        if (its == 0 || its != group(ids[k])) found.push_back(other | u64(ids[k]) << 32);
+      }
     }
     return found;
   }

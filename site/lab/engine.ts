@@ -203,8 +203,8 @@ export class Engine implements Record<keyof Requests, unknown> {
   #record(): void {
     const recording = this.#recording;
     if (!recording || recording.full) return;
-    const { boxes, ids, rules } = this.#need().frame;
-    const piece = recording.writer.frame(boxes, ids, rules);
+    const { frame } = this.#need();
+    const piece = recording.writer.frame(frame.boxes, frame.ids, frame.rules, frame);
     recording.pieces.push(piece);
     recording.bytes += piece.length;
     recording.full = recording.bytes > mostRecorded;

@@ -85,7 +85,7 @@ function exportRaw(source: FrameSource): Uint8Array {
 function exportTrace(source: FrameSource): Uint8Array {
   const writer = new TraceWriter(source.dimensions, source.wrap);
   const pieces: Uint8Array[] = [writer.header()];
-  for (const { boxes, ids, rules } of source) pieces.push(writer.frame(boxes, ids, rules));
+  for (const frame of source) pieces.push(writer.frame(frame.boxes, frame.ids, frame.rules, frame));
   pieces.push(writer.end());
   return Buffer.concat(pieces);
 }

@@ -1,5 +1,7 @@
 // The numbers that make up a trace file (docs/trace-format.md), and the error that says where one is broken.
 
+import type { Own } from '../watch.ts';
+
 /** Like PNG's: not text, and broken visibly by whatever changes line ends. */
 export const magic = Uint8Array.of(0x89, 0x42, 0x50, 0x54, 0x0d, 0x0a, 0x1a, 0x0a);
 
@@ -27,8 +29,8 @@ export const rulesFlag = 0x20;
  */
 export const wrapsAround = 1;
 
-/** What a rule says: that a box is static, that a layer and a mask follow, and that it is off. */
-export const ruleBits = { still: 1, filter: 2, off: 4 } as const;
+/** What a rule says: that a box is static, that a layer and a mask follow, that it is off, and that its group follows. */
+export const ruleBits = { still: 1, filter: 2, off: 4, group: 8 } as const;
 
 /** What the third number of a rule says: that a box is static, and that it is off. */
 export const marks = { still: 1, off: 2 } as const;
@@ -37,7 +39,7 @@ export const marks = { still: 1, off: 2 } as const;
 export const maxBoxes = 2 ** 24;
 
 /** No body is longer: every box new, in 3D, all numbers doubles of 8 bytes, its id and its rule. */
-export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10 + 16) + 64 + 24;
+export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10 + 16 + 5) + 64 + 24;
 
 /**
  * A trace that cannot be read: what is wrong, and where.
@@ -66,7 +68,7 @@ export class TraceError extends Error {
 }
 
 /** One frame as it is read. Its arrays are views that are valid until the next frame is read. */
-export interface Frame {
+export interface Frame extends Own {
   /** From 0. */
   readonly index: number;
   /** How many boxes stand in the space. */

@@ -234,7 +234,13 @@ function keepFrames(source: FrameSource): Frame[] {
     }
     const windowLength = Math.ceil(allowed / windows);
     if (allowed < source.frames && frame.index % Math.ceil(source.frames / windows) >= windowLength) continue;
-    kept.push({ ...frame, boxes: frame.boxes.slice(), ids: frame.ids?.slice(), rules: frame.rules?.slice() });
+    kept.push({
+      ...frame,
+      boxes: frame.boxes.slice(),
+      ids: frame.ids?.slice(),
+      rules: frame.rules?.slice(),
+      groups: frame.groups?.slice(),
+    });
   }
   return kept;
 }
