@@ -56,6 +56,7 @@ EXPORT(set_cell_size)() -> void {
   for (int k = 0; k < 3; k++) options.cell_size[k] = io[k];
 }
 EXPORT(set_margin)(f64 margin) -> void { options.margin = margin; }
+EXPORT(set_touching)(u32 on) -> void { options.touching = on != 0; }
 EXPORT(set_wrap)() -> void {
   for (int k = 0; k < 3; k++) options.wrap[k] = io[k];
 }
@@ -120,8 +121,8 @@ EXPORT(get_rule)(u32 id) -> u32 {
     io[1] = rule.mask;
     io[2] = (rule.excluded & is_static) != 0;
     io[3] = !rule.is_off();
-  });
     io[4] = space.group(slot);
+  });
   return 1;
 }
 /// Writes the ids to answers, in the order in which they came; returns how many.
@@ -225,7 +226,7 @@ EXPORT(answers_address)() -> u32* {
 /// whether what only touches counts, the radius
 /// (negative: none; -2: boxes are to be within the box), the limit, the rank of the hit to go on behind, whose id is
 /// `after`, and the planes, each a normal and an offset.
-enum : u32 { radius_at = 12, limit_at = 13, after_at = 14, planes_at = 15, no_id = 0xffffffff };
+enum : u32 { touching_at = 11, radius_at = 12, limit_at = 13, after_at = 14, planes_at = 15, no_id = 0xffffffff };
 
 template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignored) {
   for (int a = 0; a < D; a++) {
@@ -235,6 +236,7 @@ template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignore
   }
   to.radius = io[radius_at];
   to.limit = io[limit_at];
+  to.touching = io[touching_at] != 0;
   to.mask = mask;
   to.ignored = ignored;
 }

@@ -379,7 +379,7 @@ template <int D> class Space {
       scene.boxes = wrap_.unfold(scene.count, scene.excluded, filters_, boxes_.data(), doubles, options_.wrap, D);
     }
     pairs.count = pairs.doubt_count = 0;
-    pairs.watch = rounding_ && !wraps;
+    pairs.watch = (rounding_ || !options_.touching) && !wraps;
     stats = Stats{};
     if (chosen != ran_) {
       release_techniques();
@@ -403,8 +403,8 @@ template <int D> class Space {
       searching_ = false;
       return false;
     }
-    if (wraps) wrap_.fold(pairs);
-    else if (rounding_) retest();
+    if (wraps) wrap_.fold(pairs, options_.touching);
+    else if (pairs.watch) retest();
     if (filters_.active()) filters_.finish(pairs);
     if (groups_.some()) part();
     if (!ids_.same()) name_pairs();
@@ -938,6 +938,16 @@ template <int D> class Space {
     return -1;
   }
 
+  /// Whether some box is nowhere along an axis, as float32: differences of its bounds are no numbers, and doubts may go
+  /// unnoticed.
+  COLD bool some_nowhere() const {
+    bool some = false;
+    for (u64 k = 0; k < u64(ids_.count()) * width; k += width) {
+      for (u32 a = 0; a < D; a++) some |= boxes_[k + a] == __builtin_inff() || boxes_[k + D + a] == -__builtin_inff();
+    }
+    return some;
+  }
+
   /// Keeps, of the pairs in doubt, those that overlap in the numbers given.
   COLD void retest() {
     u64* list = pairs.list.data();
@@ -947,39 +957,35 @@ template <int D> class Space {
       kept += until - at;
       at = until;
     };
-    bool all = !(watching >> u32(ran_) & 1);
+    bool all = !(watching >> u32(ran_) & 1) || (!rounding_ && some_nowhere());
     for (u32 k = 0; k < (all ? 1 : pairs.doubt_count); k++) {
       if (!all) keep(pairs.doubts[2 * k]);
       u64 until = all ? pairs.count : pairs.doubts[2 * k + 1];
-      kept = Pairs::between(list, retest(list + at, list + until, list + kept));
+      u64* end = rounding_ ? retest(exact_.data(), list + at, list + until, list + kept)
+                           : retest(boxes_.data(), list + at, list + until, list + kept);
+      kept = Pairs::between(list, end);
       at = until;
     }
     keep(pairs.count);
     pairs.count = kept;
   }
-  NOINLINE u64* retest(const u64* from, const u64* until, u64* to) const {
-    const f64* exact = exact_.data();
+  template <class T> NOINLINE u64* retest(const T* boxes, const u64* from, const u64* until, u64* to) const {
+    bool touching = options_.touching;
     for (; from < until; from++) {
       u64 pair = *from;
-      const f64* first = exact + u64(filters_.slot(u32(pair))) * width;
-      const f64* second = exact + u64(filters_.slot(u32(pair >> 32))) * width;
-      bool overlap = true;
-      for (int k = 0; k < D; k++) overlap &= first[k] <= second[D + k] && second[k] <= first[D + k];
+      const T* first = boxes + u64(filters_.slot(u32(pair))) * width;
+      const T* second = boxes + u64(filters_.slot(u32(pair >> 32))) * width;
+      bool overlap = true, touch = false;
+      for (int k = 0; k < D; k++) {
+        overlap &= first[k] <= second[D + k] && second[k] <= first[D + k];
+        touch |= first[k] == second[D + k] || second[k] == first[D + k];
+      }
       *to = pair;
-      to += overlap;
+      to += overlap & (touching | !touch);
     }
     return to;
   }
 
-  /// Slots to ids, the smaller first.
-  void name_pairs() {
-    u64* list = pairs.list.data();
-    for (u64 p = 0; p < pairs.count; p++) {
-      u32 a = ids_.id(u32(list[p])), b = ids_.id(u32(list[p] >> 32));
-      list[p] = pair_of(a, b);
-    }
-  }
-};
   /// Takes pairs within a group out.
   COLD void part() {
     u64* list = pairs.list.data();
@@ -994,3 +1000,12 @@ template <int D> class Space {
     pairs.count = kept;
   }
 
+  /// Slots to ids, the smaller first.
+  void name_pairs() {
+    u64* list = pairs.list.data();
+    for (u64 p = 0; p < pairs.count; p++) {
+      u32 a = ids_.id(u32(list[p])), b = ids_.id(u32(list[p] >> 32));
+      list[p] = pair_of(a, b);
+    }
+  }
+};

@@ -1,7 +1,15 @@
 // How broadphase/trace sees what stands in a space: a method under a registered symbol, since the two entries of the
 // package are bundled apart and share nothing else.
 
-/** The key of the method of BroadPhase that sets its watcher, and gives the size of its world where that wraps around. */
+/** What the options of a space say about pairs. */
+export interface World {
+  /** The size of the world along each axis, where it wraps around. */
+  readonly wrap?: readonly number[] | undefined;
+  /** Whether boxes that only touch are pairs. Left out: they are. */
+  readonly touching?: boolean | undefined;
+}
+
+/** The key of the method of BroadPhase that sets its watcher, and gives its world. */
 export const watch: unique symbol = Symbol.for('broadphase.watch') as never;
 
 /** What boxes have of their own beside rules, one number each in the kernel's order: nothing where no box has one. */

@@ -85,6 +85,7 @@ template <int D> class Calls {
       if (with % 16 == 3) instance_->settings.wrap[a] = 64 * (1 + bytes_.below(4)) + 0.1 * bytes_.below(4);
     }
     if (with % 16 == 4) instance_->settings.margin = 0.25 * bytes_.below(32);
+    model_.touching = instance_->settings.touching = with % 4 != 3 || bytes_.below(3) > 0;
   }
 
   /// Makes all calls that the bytes ask for, then compares once more.
@@ -431,7 +432,9 @@ template <int D> class Calls {
 
   /// The model of what stands in the space, whatever it is.
   void restored_others() {
+    bool touching = model_.touching;
     model_ = Model<D>();
+    model_.touching = touching;
     Boxes<D> boxes;
     for (u32 s = 0; s < ids_.count(); s++) {
       Box<D> box;
@@ -509,6 +512,7 @@ template <int D> class Calls {
     Question<D>& question = space_.question;
     question = {};
     question.radius = -1;
+    question.touching = bytes_.below(3) > 0;
     question.mask = bytes_.below(3) ? ~0u : bytes_.below(8);
     question.ignored = bytes_.below(3) ? ~0u : id();
     Box<D> given = box();
@@ -575,7 +579,10 @@ template <int D> class Calls {
     std::vector<u32> expected;
     for (u32 id : eligible(asks)) {
       const Box<D>& its = seen_->at(id);
-      bool within = is_circle ? squared_distance(asks, its) <= asks.radius * asks.radius : overlap(box.data(), its.data(), D);
+      f64 squared = squared_distance(asks, its), most = asks.radius * asks.radius;
+      // A circle without size, where touching does not count, is a point.
+      bool is_round = is_circle && (asks.touching || asks.radius > 0);
+      bool within = !is_round ? overlap(box.data(), its.data(), D, asks.touching) : asks.touching ? squared <= most : squared < most;
       if (within) expected.push_back(id);
     }
     std::sort(answer.begin(), answer.end());

@@ -25,9 +25,11 @@ using PairList = std::vector<u64>;  // sorted; the smaller id in the low half
 /// The number of techniques, `automatic` included.
 inline constexpr u32 technique_count = u32(Technique::automatic) + 1;
 
-inline bool overlap(const f64* a, const f64* b, int dimensions) {
+/// `touching`: whether it is enough that they touch.
+inline bool overlap(const f64* a, const f64* b, int dimensions, bool touching = true) {
   for (int k = 0; k < dimensions; k++) {
     if (a[k] > b[dimensions + k] || b[k] > a[dimensions + k]) return false;
+    if (!touching && (a[k] == b[dimensions + k] || b[k] == a[dimensions + k])) return false;
   }
   return true;
 }
@@ -60,6 +62,8 @@ template <int D> class Model {
   }
 
  public:
+  bool touching = true;  // whether boxes that only touch are pairs
+
   u32 count() const { return u32(entries_.size()); }
   bool has(u32 id) const { return entries_.count(id) > 0; }
   const Box<D>& at(u32 id) const { return entries_.at(id).box; }
@@ -116,6 +120,7 @@ template <int D> class Model {
       u32 count = meet_before(k, boxes.data(), rules.data(), partners.data());
       for (u32 n = 0; n < count; n++) {
         u32 other = ids[partners[n]], its = group(other);
+        if (!touching && !overlap(at(other).data(), at(ids[k]).data(), D, false)) continue;
         if (its == 0 || its != group(ids[k])) found.push_back(other | u64(ids[k]) << 32);
       }
     }

@@ -2,7 +2,7 @@
 // taken only for boxes whose numbers are there, at most some 100 bytes for each byte of the file. Time goes with the bytes
 // too: of what stays as it was nothing is touched, however many boxes there are.
 import { Cursor } from './bytes.ts';
-import { doublesFlag, type Frame, frameKind, marks, maxBoxes, ruleBits, rulesFlag } from './format.ts';
+import { doublesFlag, type Frame, frameKind, marks, maxBoxes, ruleBits, rulesFlag, worldBits } from './format.ts';
 import { predict, takeDistance } from './numbers.ts';
 import { all, grown, IdSet, TraceState } from './state.ts';
 
@@ -22,17 +22,20 @@ export class FrameDecoder {
   /** What may be set in the first byte of a frame. */
   readonly #flags: number;
   readonly #wraps: boolean;
+  /** Whether boxes that only touch are pairs. */
+  readonly touching: boolean;
   /** The size of the world, where it wraps around: once the first frame is read. */
   wrap: readonly number[] | undefined;
 
   /**
    * @param version of the trace: older ones know less
-   * @param wraps whether its world wraps around
+   * @param world what kind it is: see `worldBits`
    */
-  constructor(dimensions: 2 | 3, version: number, wraps: boolean) {
+  constructor(dimensions: 2 | 3, version: number, world: number) {
     this.#state = new TraceState(dimensions);
     this.#flags = doublesFlag | (version > 1 ? rulesFlag : 0);
-    this.#wraps = wraps;
+    this.#wraps = (world & worldBits.wraps) !== 0;
+    this.touching = (world & worldBits.apart) === 0;
   }
 
   /** How many frames have been read. */
@@ -98,7 +101,8 @@ export class FrameDecoder {
     const ids = state.named ? state.ids.subarray(0, count) : undefined;
     const rules = state.ruled ? state.rules.subarray(0, 3 * count) : undefined;
     const groups = state.grouped ? state.groups.subarray(0, count) : undefined;
-    return { index: this.#index++, count, ids, rules, groups, wrap: this.wrap, boxes, changed };
+    const { wrap, touching } = this;
+    return { index: this.#index++, count, ids, rules, groups, wrap, touching, boxes, changed };
   }
 
   /** Boxes from this place on go. */

@@ -75,8 +75,7 @@ export class TraceState {
     let own = false;
     for (let k = 0; k < 3 * count && !own; k += 3) own = rules[k] !== all || rules[k + 1] !== all || rules[k + 2] !== 0;
     this.ruled = own;
-    this.grouped = false;
-    for (let place = 0; place < count && !this.grouped; place++) this.grouped = groups[place] !== 0;
+    if (this.grouped) this.grouped = groups.subarray(0, count).some((group) => group !== 0);
   }
 
   /** Places from `had` on have no rule of their own. */

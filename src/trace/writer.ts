@@ -14,7 +14,7 @@ import {
   maxBoxes,
   ruleBits,
   rulesFlag,
-  wrapsAround,
+  worldBits,
 } from './format.ts';
 import { predict, putDistance } from './numbers.ts';
 import { all, IdSet, TraceState } from './state.ts';
@@ -43,17 +43,20 @@ export class TraceWriter {
   readonly #reruled: number[] = [];
   readonly #seen = new IdSet();
   readonly #wrap: readonly number[] | undefined;
+  readonly #touching: boolean;
 
   /**
    * @param wrap the size of the world along each axis, where it wraps around
+   * @param touching whether boxes that only touch are pairs
    * @throws RangeError for other than 2 or 3 dimensions
    */
-  constructor(dimensions: 2 | 3, wrap?: readonly number[]) {
+  constructor(dimensions: 2 | 3, wrap?: readonly number[], touching = true) {
     if (dimensions !== 2 && dimensions !== 3) throw new RangeError(`a trace has 2 or 3 dimensions, not ${dimensions}`);
     if (wrap && wrap.length !== dimensions)
       throw new RangeError(`trace: a world of ${wrap} in ${dimensions} dimensions`);
     this.dimensions = dimensions;
     this.#wrap = wrap;
+    this.#touching = touching;
     this.#state = new TraceState(dimensions);
   }
 
@@ -73,7 +76,7 @@ export class TraceWriter {
     out.bytes.set(magic);
     out.bytes[8] = formatVersion;
     out.bytes[10] = this.dimensions;
-    out.bytes[11] = this.#wrap ? wrapsAround : 0;
+    out.bytes[11] = (this.#wrap ? worldBits.wraps : 0) | (this.#touching ? 0 : worldBits.apart);
     this.#checksum = crc32(out.bytes, 0, headerBytes - 4);
     out.putUint32(headerBytes - 4, this.#checksum);
     return out.bytes.slice(0, headerBytes);
@@ -231,7 +234,10 @@ export class TraceWriter {
         out.varint(layer);
         out.varint(mask);
       }
-      if (group !== 0) out.varint(group);
+      if (group !== 0) {
+        out.varint(group);
+        state.grouped = true;
+      }
       state.rules.set([layer, mask, its], 3 * place);
       state.groups[place] = group;
       next = place + 1;
