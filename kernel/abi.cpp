@@ -56,6 +56,7 @@ EXPORT(set_cell_size)() -> void {
   for (int k = 0; k < 3; k++) options.cell_size[k] = io[k];
 }
 EXPORT(set_margin)(f64 margin) -> void { options.margin = margin; }
+EXPORT(set_touching)(u32 on) -> void { options.touching = on != 0; }
 EXPORT(set_wrap)() -> void {
   for (int k = 0; k < 3; k++) options.wrap[k] = io[k];
 }
@@ -104,7 +105,13 @@ EXPORT(set_enabled)(u32 id, u32 on) -> u32 {
   with_space([&](auto& space) { space.enable(slot, on != 0); });
   return 1;
 }
-/// In io: layer, mask, whether it is static, and whether it is enabled. 0 where there is no such box.
+EXPORT(set_group)(u32 id, u32 group) -> u32 {
+  u32 slot = ids.slot(id);
+  if (slot == Ids::none) return 0;
+  with_space([&](auto& space) { space.put_in_group(slot, group); });
+  return 1;
+}
+/// In io: layer, mask, whether it is static, whether it is enabled, and its group. 0 where there is no such box.
 EXPORT(get_rule)(u32 id) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
@@ -114,6 +121,7 @@ EXPORT(get_rule)(u32 id) -> u32 {
     io[1] = rule.mask;
     io[2] = (rule.excluded & is_static) != 0;
     io[3] = !rule.is_off();
+    io[4] = space.group(slot);
   });
   return 1;
 }
@@ -214,10 +222,11 @@ EXPORT(partners)(u32 id) -> u32 {
 EXPORT(answers_address)() -> u32* {
   return with_space([](auto& space) { return space.answers.data(); });
 }
-/// Questions. What they ask is in io: the box or twice the point, what it moves by, then at fixed places the radius
+/// Questions. What they ask is in io: the box or twice the point, what it moves by, then at fixed places, of areas,
+/// whether what only touches counts, the radius
 /// (negative: none; -2: boxes are to be within the box), the limit, the rank of the hit to go on behind, whose id is
 /// `after`, and the planes, each a normal and an offset.
-enum : u32 { radius_at = 12, limit_at = 13, after_at = 14, planes_at = 15, no_id = 0xffffffff };
+enum : u32 { touching_at = 11, radius_at = 12, limit_at = 13, after_at = 14, planes_at = 15, no_id = 0xffffffff };
 
 template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignored) {
   for (int a = 0; a < D; a++) {
@@ -227,6 +236,7 @@ template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignore
   }
   to.radius = io[radius_at];
   to.limit = io[limit_at];
+  to.touching = io[touching_at] != 0;
   to.mask = mask;
   to.ignored = ignored;
 }

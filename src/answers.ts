@@ -3,8 +3,9 @@
 // here the answers are copied to where they are wanted. A visitor gets them in parts, so that the search ends where it
 // says so, and may ask questions itself.
 import type { Dimensions } from './dimensions.ts';
-import { badQuestion, checkOptions, checkOut, maxId } from './errors.ts';
+import { badQuestion, badValue, checkOptions, checkOut, maxId } from './errors.ts';
 import {
+  type AreaOptions,
   checkVisitor,
   everything,
   type IdsOptions,
@@ -19,6 +20,7 @@ import {
 import { ioLength, Space } from './space.ts';
 
 // Places in the kernel's array of numbers: see kernel/abi.cpp.
+export const touchingAt = 11;
 export const radiusAt = 12;
 export const limitAt = 13;
 const afterAt = 14;
@@ -105,6 +107,7 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
   ): number[] {
     if (this.wraps) noQueries(where);
     checkOptions(where, options, names);
+    this.tellTouching(where, options);
     const mask = maskOf(where, options);
     const ignored = ignoredOf(where, options);
     const others = othersIgnored(options);
@@ -119,6 +122,13 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
     } catch (error) {
       this.recover(error, where);
     }
+  }
+
+  /** Tells the kernel whether what only touches counts. @internal */
+  protected tellTouching(where: string, options: AreaOptions | undefined): void {
+    const { touching = this.touching } = options ?? {};
+    if (typeof touching !== 'boolean') badValue(`${where}: touching`, touching, 'true or false', true);
+    this.io()[touchingAt] = touching ? 1 : 0;
   }
 
   /** Asks for the first boxes that the box in the kernel's array meets, or for the nearest; returns how many. @internal */

@@ -1,7 +1,6 @@
 // The class BroadPhase: a Map from id to box that knows which of its boxes overlap.
 // All state lives in the kernel's memory (kernel/space/space.hpp); this file checks what comes in, passes it on, and
 // gives views of what comes out. Nothing here runs once per box or per pair of an update.
-import { Contents } from './contents.ts';
 import type { BoxOfId, Dimensions, MovingBoxOfId } from './dimensions.ts';
 import {
   badBox,
@@ -20,9 +19,10 @@ import {
 } from './errors.ts';
 import type { Technique as LeanTechnique } from './generated/kernel-lean.ts';
 import { builtDimensions, builtTechniques } from './kernel.ts';
+import { Pairing } from './pairing.ts';
 import { badSnapshot, headerBytes, snapshotBytes } from './snapshot.ts';
 import { isFloat32Array } from './values.ts';
-import { type Watcher, watch } from './watch.ts';
+import { type Watcher, type World, watch } from './watch.ts';
 
 /** Options of {@link BroadPhase}, all optional. */
 export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends TechniqueName = LeanTechnique> {
@@ -45,6 +45,11 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
    * cannot be asked. Numbers above 0, up to 1e300. Left out: the world has no end.
    */
   wrap?: readonly number[];
+  /**
+   * Whether boxes that only touch overlap: in pairs, events, and, unless they say otherwise, questions about places.
+   * Default true. Where false, a box without size overlaps only what it is inside of.
+   */
+  touching?: boolean;
   /** Whether every update finds out which pairs began and ended, for `began`. Default false. */
   events?: boolean;
   /** For `aabb-tree`, in `broadphase/all`: how far a box may move before the tree changes, above 0. Left out: from the motion seen. */
@@ -60,6 +65,7 @@ export const optionNames: readonly (keyof BroadPhaseOptions)[] = [
   'cellSize',
   'bounds',
   'wrap',
+  'touching',
   'events',
   'margin',
   'capacity',
@@ -166,7 +172,7 @@ export let beginAnew: (space: BroadPhase<Dimensions>) => number;
 /**
  * Finds every overlapping pair among boxes that move. Reads like a Map from id to box.
  *
- * Boxes are closed: touching boxes overlap. Boxes of zero size are points, infinite ones are half planes; both
+ * Boxes are closed: touching boxes overlap, unless `touching` is false. Boxes of zero size are points, infinite ones are half planes; both
  * are legal. The pairs are exactly those of the numbers given, doubles included, whatever the technique.
  *
  * Rays and sweeps meet a box where their way leads into a face of it: along a face or away from it is no hit.
@@ -184,7 +190,7 @@ export let beginAnew: (space: BroadPhase<Dimensions>) => number;
  * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
  * space.pairs; // → Uint32Array [7, 9]
  */
-export class BroadPhase<D extends Dimensions = 2> extends Contents<D> {
+export class BroadPhase<D extends Dimensions = 2> extends Pairing<D> {
   /**
    * The names of the techniques there are, in order: with `import 'broadphase'` the few that games need, with
    * `import 'broadphase/all'`, or after `init` with `broadphase/kernel.wasm`, every one.
@@ -240,12 +246,14 @@ export class BroadPhase<D extends Dimensions = 2> extends Contents<D> {
       bounds,
       margin,
       wrap,
+      touching = true,
       events = false,
       capacity = 0,
     } = options;
     checkDimensions(dimensions);
     checkTechnique(technique);
-    if (typeof events !== 'boolean') badValue('events', events, 'true or false', true);
+    checkBoolean('events', events);
+    checkBoolean('touching', touching);
     checkBoxCount('capacity', capacity);
     const cells = cellSize === undefined ? undefined : checkCellSize(cellSize, dimensions);
     if (bounds !== undefined) checkBounds(bounds, dimensions);
@@ -253,11 +261,12 @@ export class BroadPhase<D extends Dimensions = 2> extends Contents<D> {
     checkHeeded({ cellSize, bounds, margin });
     if (wrap !== undefined) checkWrap(wrap, dimensions);
 
-    super(dimensions, wrap !== undefined);
+    super(dimensions, wrap !== undefined, touching);
     this.#technique = technique;
     this.kernel.set_technique(techniques.indexOf(technique));
     this.#events = events;
     if (events) this.kernel.set_events();
+    if (!touching) this.kernel.set_touching(0);
     const io = this.io();
     if (cells) {
       io.set(cells);
@@ -614,7 +623,7 @@ export class BroadPhase<D extends Dimensions = 2> extends Contents<D> {
    */
   setStatic(id: number, isStatic = true): this {
     if (!isId(id)) badId('setStatic', id);
-    if (typeof isStatic !== 'boolean') badValue('setStatic: isStatic', isStatic, 'true or false', true);
+    checkBoolean('setStatic: isStatic', isStatic);
     try {
       if (this.kernel.set_static(id, isStatic ? 1 : 0) === 0) noBox('setStatic', id);
     } catch (error) {
@@ -640,7 +649,7 @@ export class BroadPhase<D extends Dimensions = 2> extends Contents<D> {
    */
   setEnabled(id: number, enabled: boolean): this {
     if (!isId(id)) badId('setEnabled', id);
-    if (typeof enabled !== 'boolean') badValue('setEnabled: enabled', enabled, 'true or false', true);
+    checkBoolean('setEnabled: enabled', enabled);
     try {
       if (this.kernel.set_enabled(id, enabled ? 1 : 0) === 0) noBox('setEnabled', id);
     } catch (error) {
@@ -827,9 +836,9 @@ export class BroadPhase<D extends Dimensions = 2> extends Contents<D> {
 
   /**
    * What stands in the space, as bytes to go back to with `restore`, or to save: boxes as they were given, ids, their order,
-   * filters, which boxes are static, the technique, and with `events: true` the pairs of the last update, and those
+   * filters, groups, which boxes are static, the technique, and with `events: true` the pairs of the last update, and those
    * that began and ended with it. Options of the constructor are not in it. A box takes 16 bytes in 2D and 24 in 3D, twice that where some box is not a
-   * float32, 4 more where ids have gaps, and 4 where a box was deleted before another, up to 9 more with filters; a pair 8.
+   * float32, 4 more where ids have gaps, and 4 where a box was deleted before another, up to 9 more with filters, 4 with groups; a pair 8.
    *
    * From the first call on, and from `restore` on, the order of the pairs depends on what stands in the space alone,
    * so that a restored space gives them in the very order of the one that went on. `auto` then keeps nothing from
@@ -974,14 +983,14 @@ export class BroadPhase<D extends Dimensions = 2> extends Contents<D> {
   }
 
   /**
-   * For broadphase/trace: calls `watcher` after each update from now on; without one, no longer. Returns the size of
-   * the world, where it wraps around.
+   * For broadphase/trace: calls `watcher` after each update from now on; without one, no longer. Returns what the
+   * options say about pairs.
    * @internal
    */
-  [watch](watcher?: Watcher): readonly number[] | undefined {
+  [watch](watcher?: Watcher): World {
     if (watcher && this.#watcher) throw new Error('this BroadPhase is being recorded already');
     this.#watcher = watcher;
-    return this.#wrap;
+    return { wrap: this.#wrap, touching: this.touching };
   }
 
   static {
@@ -1001,13 +1010,14 @@ export class BroadPhase<D extends Dimensions = 2> extends Contents<D> {
 
   #show(watcher: Watcher): void {
     this.kernel.contents();
-    const [ids, boxes, doubles, rules] = this.io();
+    const [ids, boxes, doubles, rules, groups] = this.io();
     const { buffer } = this.kernel.memory;
     const length = this.size * this.width;
     watcher(
       doubles ? new Float64Array(buffer, doubles, length) : new Float32Array(buffer, boxes, length),
       ids ? new Uint32Array(buffer, ids, this.size) : undefined,
       rules ? new Uint32Array(buffer, rules, 3 * this.size) : undefined,
+      { groups: groups ? new Uint32Array(buffer, groups, this.size) : undefined },
     );
   }
 
@@ -1091,6 +1101,10 @@ function badSet(
 function badSwept(id: unknown, given: readonly unknown[], dimensions: 2 | 3): never {
   if (!isId(id)) badId('setSwept', id);
   badQuestion('setSwept', given, dimensions === 2 ? sweep2 : sweep3, 'a number');
+}
+
+function checkBoolean(what: string, value: unknown): void {
+  if (typeof value !== 'boolean') badValue(what, value, 'true or false', true);
 }
 
 const areNumbers = (a: unknown, b: unknown, c: unknown = 0, d: unknown = 0, e: unknown = 0, f: unknown = 0): boolean =>

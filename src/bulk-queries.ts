@@ -18,6 +18,7 @@ import { Queries, ray2, ray3 } from './queries.ts';
 import {
   checkDistance,
   checkMost,
+  type ManyAreaOptions,
   type ManyBoxOptions,
   type ManyFarOptions,
   type ManyIds,
@@ -55,7 +56,8 @@ const rayParts: readonly Part[] = [...nearParts, 'normals'];
 const wayParts: readonly Part[] = [...idParts, 'times', 'normals'];
 
 const idOptions = ['mask', 'ignoreEach', 'out'];
-const boxOptions = [...idOptions, 'within'];
+const areaOptions = [...idOptions, 'touching'];
+const boxOptions = [...areaOptions, 'within'];
 const farOptions = [...idOptions, 'maxDistance'];
 const ofAllOptions = ['mask', 'maxDistance', 'out'];
 
@@ -98,8 +100,8 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
    * const space = new BroadPhase().set(7, 0, 0, 10, 10).update();
    * space.queryPoints([10, 3, 11, 3]).offsets; // → Uint32Array [0, 1, 1]
    */
-  queryPoints(points: ArrayLike<number>, options?: ManyOptions): ManyIds {
-    checkOptions('queryPoints', options, idOptions);
+  queryPoints(points: ArrayLike<number>, options?: ManyAreaOptions): ManyIds {
+    checkOptions('queryPoints', options, areaOptions);
     return this.#ask('queryPoints', kinds.point, points, this.#place(), idParts, options);
   }
 
@@ -111,8 +113,8 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
    * const space = new BroadPhase().set(7, 0, 0, 10, 10).update();
    * space.queryCircles([13, 14, 5, 14, 14, 5]).offsets; // → Uint32Array [0, 1, 1]
    */
-  queryCircles(circles: ArrayLike<number>, options?: ManyOptions): ManyIds {
-    checkOptions('queryCircles', options, idOptions);
+  queryCircles(circles: ArrayLike<number>, options?: ManyAreaOptions): ManyIds {
+    checkOptions('queryCircles', options, areaOptions);
     return this.#ask('queryCircles', kinds.circle, circles, [...this.#place(), 'radius'], idParts, options);
   }
 
@@ -216,6 +218,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
     }
     const { ignoreEach, maxDistance = Number.POSITIVE_INFINITY, out } = options ?? {};
     const mask = maskOf(where, options);
+    this.tellTouching(where, options);
     checkDistance(`${where}: maxDistance`, maxDistance);
     if (ignoreEach !== undefined) checkIgnored(where, ignoreEach, count);
     if (out !== undefined) checkAnswer(where, out, parts);

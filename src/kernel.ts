@@ -26,6 +26,8 @@ export interface KernelExports {
   set_filter(id: number, layer: number, mask: number): number;
   set_static(id: number, on: number): number;
   set_enabled(id: number, on: number): number;
+  set_touching(on: number): void;
+  set_group(id: number, group: number): number;
   get_rule(id: number): number;
   list_ids(): number;
   contents(): void;

@@ -9,8 +9,14 @@ export interface QueryOptions {
   ignore?: number | readonly number[];
 }
 
+/** What questions about places may be given. */
+export interface AreaOptions {
+  /** Whether boxes that only touch what is asked about are answers. Default: as the option of the space says, true. */
+  touching?: boolean;
+}
+
 /** Options of questions answered by ids. */
-export interface IdsOptions extends QueryOptions {
+export interface IdsOptions extends QueryOptions, AreaOptions {
   /** Filled and returned, instead of a new array. Keep it, and the options, and asking makes no garbage. */
   out?: number[];
   /** Called for each answer instead of collecting them; `false` ends the search. The answer is then empty. */
@@ -19,12 +25,12 @@ export interface IdsOptions extends QueryOptions {
 
 /** Options of {@link BroadPhase.queryBox}. */
 export interface BoxOptions extends IdsOptions {
-  /** Whether boxes have to be wholly inside; they may touch the sides. Default false. */
+  /** Whether boxes have to be wholly inside; they may touch the sides, unless `touching` is false. Default false. */
   within?: boolean;
 }
 
 /** Options of {@link BroadPhase.queryPlanes}. */
-export interface PlanesOptions extends QueryOptions {
+export interface PlanesOptions extends QueryOptions, AreaOptions {
   /** Filled and returned, instead of a new array. */
   out?: number[];
   /**
@@ -148,9 +154,12 @@ export interface ManyOptions<Answer = ManyIds> {
   out?: Answer;
 }
 
+/** Options of many questions about places. */
+export interface ManyAreaOptions extends ManyOptions, AreaOptions {}
+
 /** Options of {@link BroadPhase.queryBoxes}. */
-export interface ManyBoxOptions extends ManyOptions {
-  /** Whether boxes have to be wholly inside; they may touch the sides. Default false. */
+export interface ManyBoxOptions extends ManyAreaOptions {
+  /** Whether boxes have to be wholly inside; they may touch the sides, unless `touching` is false. Default false. */
   within?: boolean;
 }
 
@@ -191,12 +200,12 @@ export function othersIgnored(options: QueryOptions | undefined): readonly numbe
 }
 
 /** The options of each kind of question. */
-export const idsOptions = ['mask', 'ignore', 'out', 'visit'] as const;
+export const idsOptions = ['mask', 'ignore', 'out', 'visit', 'touching'] as const;
 export const boxOptions = [...idsOptions, 'within'] as const;
 export const farOptions = ['mask', 'ignore', 'maxDistance', 'out', 'visit'] as const;
 export const nearestOptions = [...farOptions, 'distances'] as const;
 export const rayOptions = ['mask', 'ignore', 'maxDistance', 'out', 'accept'] as const;
-export const sweepOptions = [...idsOptions, 'accept'] as const;
+export const sweepOptions = ['mask', 'ignore', 'out', 'visit', 'accept'] as const;
 
 /** How many answers are wanted, as the kernel counts. */
 export function checkMost(where: string, k: unknown): number {

@@ -4,7 +4,7 @@ import { bytesOf } from './values.ts';
 
 /** Bytes in front of what stands in the space, and the version of them that this library writes. */
 export const headerBytes = 24;
-const newest = 1;
+const newest = 2;
 
 /** What was given to `restore`, as bytes. */
 export function snapshotBytes(value: unknown): Uint8Array {

@@ -34,12 +34,15 @@ export abstract class Space<D extends Dimensions> {
   protected readonly width: number;
   /** Whether the world wraps around. @internal */
   protected readonly wraps: boolean;
+  /** Whether boxes that only touch overlap. @internal */
+  protected readonly touching: boolean;
   readonly #stackTop: number;
   #io = new Float64Array();
 
-  constructor(dimensions: D, wraps: boolean) {
+  constructor(dimensions: D, wraps: boolean, touching: boolean) {
     this.dimensions = dimensions;
     this.wraps = wraps;
+    this.touching = touching;
     this.width = 2 * dimensions;
     this.#own = instantiate();
     this.#stackTop = this.kernel.__stack_pointer.value;

@@ -1,16 +1,32 @@
 // How broadphase/trace sees what stands in a space: a method under a registered symbol, since the two entries of the
 // package are bundled apart and share nothing else.
 
-/** The key of the method of BroadPhase that sets its watcher, and gives the size of its world where that wraps around. */
+/** What the options of a space say about pairs. */
+export interface World {
+  /** The size of the world along each axis, where it wraps around. */
+  readonly wrap?: readonly number[] | undefined;
+  /** Whether boxes that only touch are pairs. Left out: they are. */
+  readonly touching?: boolean | undefined;
+}
+
+/** The key of the method of BroadPhase that sets its watcher, and gives its world. */
 export const watch: unique symbol = Symbol.for('broadphase.watch') as never;
+
+/** What boxes have of their own beside rules, one number each in the kernel's order: nothing where no box has one. */
+export interface Own {
+  /** The group of each box: two boxes of one are never a pair; 0 is none. */
+  readonly groups?: Uint32Array | undefined;
+}
 
 /**
  * Called after each update with the boxes in the kernel's order, float32 where that holds all of them exactly; the id
- * of each, or nothing where the ids are 0, 1, 2, …; and layer, mask and marks of each, or
- * nothing where no box was ever given such: 2 among the marks says that it is off, any other that it is static. All are views, valid during the call.
+ * of each, or nothing where the ids are 0, 1, 2, …; layer, mask and marks of each, or
+ * nothing where no box was ever given such: 2 among the marks says that it is off, any other that it is static; and what
+ * else boxes have of their own. All are views, valid during the call.
  */
 export type Watcher = (
   boxes: Float32Array | Float64Array,
   ids: Uint32Array | undefined,
   rules: Uint32Array | undefined,
+  own: Own,
 ) => void;

@@ -1,5 +1,5 @@
 // A space and a plain model of it, driven together by random calls: what the tests of filters, events and queries
-// compare. The model holds each box's numbers, layer, mask and whether it is static or off; its pairs are the reference's.
+// compare. The model holds each box's numbers, layer, mask, group, and whether it is static or off; its pairs are the reference's.
 import { BroadPhase, type BroadPhaseOptions } from 'broadphase';
 import { createRandom } from '../src/scenes/random.ts';
 import { overlap, pairOf, referencePairs } from './reference.ts';
@@ -11,12 +11,18 @@ export interface Entry {
   mask: number;
   isStatic: boolean;
   isOff?: boolean;
+  group?: number;
 }
 
 const all = 0xffffffff;
 
 export const meet = (a: Entry, b: Entry): boolean =>
-  !a.isOff && !b.isOff && (a.layer & b.mask) !== 0 && (b.layer & a.mask) !== 0 && !(a.isStatic && b.isStatic);
+  !a.isOff &&
+  !b.isOff &&
+  !(a.group && a.group === b.group) &&
+  (a.layer & b.mask) !== 0 &&
+  (b.layer & a.mask) !== 0 &&
+  !(a.isStatic && b.isStatic);
 
 /** The keys of all pairs of the entries that overlap and meet, sorted. */
 export function pairsOf(entries: ReadonlyMap<number, Entry>, dimensions: number): Float64Array {
@@ -87,6 +93,12 @@ export class Modelled {
     if (!this.entries.has(id)) return;
     this.space.setStatic(id, isStatic);
     this.entries.get(id)!.isStatic = isStatic;
+  }
+
+  setGroup(id: number, group: number): void {
+    if (!this.entries.has(id)) return;
+    this.space.setGroup(id, group);
+    this.entries.get(id)!.group = group;
   }
 
   setEnabled(id: number, enabled: boolean): void {

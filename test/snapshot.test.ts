@@ -339,7 +339,7 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     const changed = (at: number, value: number) => sealed(saved.map((byte, k) => (k === at ? value : byte)));
     refused(space, new Uint8Array(), 'got 0 bytes that are no snapshot');
     refused(space, new TextEncoder().encode('{"boxes": [0, 0, 10, 10]}'.repeat(40)), 'are no snapshot');
-    refused(space, changed(4, 2), 'format 2, expected at most 1: it was made by a newer version');
+    refused(space, changed(4, 3), 'format 3, expected at most 2: it was made by a newer version');
     refused(space, full(3).snapshot(), 'a space with 3 dimensions, expected 2');
     refused(space, changed(7, 77), 'the technique number 77');
     for (const value of [undefined, null, 'abc', 12, {}, [1, 2, 3]]) {

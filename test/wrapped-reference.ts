@@ -13,24 +13,39 @@ function exactly(value: number): bigint {
 
 const floor = (a: bigint, b: bigint): bigint => (a >= 0n || a % b === 0n ? a / b : a / b - 1n);
 
-function meet(aMin: number, aMax: number, bMin: number, bMax: number, world: number): boolean {
+function meet(aMin: number, aMax: number, bMin: number, bMax: number, world: number, closed: boolean): boolean {
   if (![aMin, aMax, bMin, bMax].every(Number.isFinite)) return true; // what has no end reaches all around
   const size = exactly(world);
+  if (exactly(aMax) - exactly(aMin) >= size || exactly(bMax) - exactly(bMin) >= size) return true;
+  if (!closed) {
+    // What is below by less than 1 is below by no whole number.
+    const below = floor(exactly(bMax) - exactly(aMin) - 1n, size);
+    return -floor(exactly(aMax) - exactly(bMin) - 1n, size) <= below;
+  }
   const most = floor(exactly(bMax) - exactly(aMin), size);
   const least = -floor(exactly(aMax) - exactly(bMin), size);
   return least <= most;
 }
 
-export function wrappedOverlap(a: readonly number[], b: readonly number[], wrap: readonly number[]): boolean {
-  return wrap.every((world, k) => meet(a[k], a[k + wrap.length], b[k], b[k + wrap.length], world));
+export function wrappedOverlap(
+  a: readonly number[],
+  b: readonly number[],
+  wrap: readonly number[],
+  closed = true,
+): boolean {
+  return wrap.every((world, k) => meet(a[k], a[k + wrap.length], b[k], b[k + wrap.length], world, closed));
 }
 
-/** The sorted keys of the pairs of these boxes, by their ids. */
-export function wrappedPairs(boxes: ReadonlyMap<number, readonly number[]>, wrap: readonly number[]): Float64Array {
+/** The sorted keys of the pairs of these boxes, by their ids; `closed`: with those that only touch. */
+export function wrappedPairs(
+  boxes: ReadonlyMap<number, readonly number[]>,
+  wrap: readonly number[],
+  closed = true,
+): Float64Array {
   const entries = [...boxes];
   const keys: number[] = [];
   entries.forEach(([a, box], k) => {
-    for (const [b, other] of entries.slice(k + 1)) if (wrappedOverlap(box, other, wrap)) keys.push(keyOf(a, b));
+    for (const [b, other] of entries.slice(k + 1)) if (wrappedOverlap(box, other, wrap, closed)) keys.push(keyOf(a, b));
   });
   return Float64Array.from(keys).sort();
 }

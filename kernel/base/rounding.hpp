@@ -15,6 +15,13 @@ inline f32 round_down(f64 x) {
 }
 inline f32 round_up(f64 x) { return -round_down(-x); }
 
+/// The largest below x, and the smallest above; NaN where there is none.
+inline f32 next_below(f64 x) {
+  f32 least = round_down(x);
+  return f64(least) < x ? least : next_toward(least, false);
+}
+inline f32 next_above(f64 x) { return -next_below(-x); }
+
 /// Two doubles as float32, in the lower lanes: down, or up where `sign` is -0.
 inline f32x4 round_down(f64x2 x, f64x2 sign) {
   f64x2 at = bits<f64x2>(bits<u64x2>(x) ^ bits<u64x2>(sign));

@@ -18,16 +18,21 @@ enum : u32 {
   is_blue = 1u << 26,
 };
 
+/// Whether two boxes of these groups are never a pair.
+inline bool one_group(u32 a, u32 b) { return (a == b) & (a != 0); }
+
 template <int D> struct Scene {
   const f32* boxes;  // D minima, then D maxima, per slot
   u32 count;
   const u32* excluded;  // exclusion bits per slot, or null where no slot has any
   const Changes* changes = nullptr;  // what may differ from the last update; null: all
   bool ordered = false;  // no update before this one may show in the order of the pairs
-  bool filtered = false;  // who is excluded may have changed since the last update
+  bool filtered = false;  // who is excluded, or the groups, may have changed since the last update
+  const u32* groups = nullptr;  // per slot, or null where no slot has one: pairs within one are not reported
 
   const f32* box(u32 slot) const { return boxes + u64(slot) * 2 * D; }
   u32 excluded_of(u32 slot) const { return excluded ? excluded[slot] : 0; }
+  u32 group_of(u32 slot) const { return groups ? groups[slot] : 0; }
   /// Whether it is known which boxes may have changed.
   bool listed() const { return changes && !changes->all(); }
 };

@@ -25,10 +25,12 @@ template <int D> class CandidateList {
   u32 count_ = 0;           // boxes that are followed; 0: there is no list
   bool watched_ = false;    // pairs in doubt are to be noted
   bool filtered_ = false;   // some have exclusion bits
+  bool grouped_ = false;    // some have a group
   // Per slot:
   Buffer<f32> regions_;
   Buffer<f32> bases_;       // the regions when the list was made, from when the first box was late
   Buffer<u32> tags_;        // exclusion bits, and ours below them
+  Buffer<u32> groups_;      // while `grouped_`: two of one group are no candidate
   Buffer<u32> late_;        // slots; and behind them those that a search has met
   Places<D> places_;        // of the regions, likewise
   bool placed_ = false;
@@ -78,6 +80,7 @@ template <int D> class CandidateList {
     regions_.release();
     bases_.release();
     tags_.release();
+    groups_.release();
     late_.release();
     places_.release();
     candidates_.list.release();
@@ -94,12 +97,15 @@ template <int D> class CandidateList {
     resting_ = 0;
     enclose(scene, margin);
     filtered_ = scene.excluded != nullptr;
+    grouped_ = scene.groups != nullptr;
+    if (grouped_) __builtin_memcpy(groups_.reserve(n), scene.groups, n * sizeof(u32));
     count_ = n;
     margin_ = margin;
     candidates_.count = extra_.count = settled_.count = head_ = 0;
     built_ = Stats{};
     candidates_.list.reserve(candidates + Pairs::slack);  // copied while it grows it takes longer
     anew_.update(Scene<D>{regions_.data(), n, scene.excluded}, Settings{}, candidates_, built_);
+    if (grouped_) filter(candidates_, [&](u32 a, u32 b) { return !one_group(groups_[a], groups_[b]); });
     found_ = candidates_.count;
     if (resting_ > 0) settle(scene);
     placed_ = false;
@@ -121,7 +127,8 @@ template <int D> class CandidateList {
     u32 enough = u32(smaller(most * n / tuning.late, n / 2.0));
     if (!moved && scene.listed() && !scene.changes->most(n)) late_count_ = look_at(scene, both, list);
     else late_count_ = resting_ ? look<true>(scene, both, list, enough) : look<false>(scene, both, list, enough);
-    if (scene.filtered || filtered_ != (scene.excluded != nullptr)) refilter(scene, both, list);
+    bool other = filtered_ != (scene.excluded != nullptr) || grouped_ != (scene.groups != nullptr);
+    if (scene.filtered || other) refilter(scene, both, list);
     if (late_count_ + (n - both) > enough) return false;
     met_ = 0;
     if (late_count_ == 0 && n == had) return true;
@@ -132,6 +139,7 @@ template <int D> class CandidateList {
     }
     make_room(n, both);
     bases_.grow(u64(n) * width + padding, u64(both) * width);
+    if (grouped_) groups_.grow(n, both);
     places_.make_room(n, both);
     for (u32 slot = had; slot < n; slot++) {
       tags_[slot] = fresh;
@@ -270,11 +278,15 @@ template <int D> class CandidateList {
     return found;
   }
 
-  /// Adds those to the late whose exclusion bits have changed, which makes them as good as new.
+  /// Adds those to the late whose exclusion bits or group have changed, which makes them as good as new.
   COLD void refilter(const Scene<D>& scene, u32 until, u32* list) {
     filtered_ = scene.excluded != nullptr;
+    bool were_grouped = grouped_;
+    grouped_ = scene.groups != nullptr;
+    if (grouped_ && !were_grouped) __builtin_memset(groups_.reserve(count_), 0, count_ * sizeof(u32));
     for (u32 slot = 0; slot < until; slot++) {
-      if ((tags_[slot] & ~slot_mask) == scene.excluded_of(slot)) continue;
+      bool one = ((grouped_ | were_grouped) ? groups_[slot] : 0) == scene.group_of(slot);
+      if (one && (tags_[slot] & ~slot_mask) == scene.excluded_of(slot)) continue;
       tags_[slot] |= fresh;
       list[late_count_++] = slot;  // perhaps once more: `serve` sees that
     }
@@ -315,6 +327,7 @@ template <int D> class CandidateList {
       if (slot < had) places_.remove(slot);
       if (tag & fresh) {  // no candidate of it is listed
         tag = fresh | scene.excluded_of(slot);
+        if (grouped_) groups_[slot] = scene.group_of(slot);
         for (u32 k = 0; k < width; k++) base(slot)[k] = __builtin_nanf("");
       }
       tags_[slot] = (tag & ~rests) | late;
@@ -370,7 +383,8 @@ template <int D> class CandidateList {
     for (u32 k = 0; k < found; k++) {
       u32 other = near[k];
       *out = pair_of(slot, other);
-      out += !(boxes_touch<D>(its_base, base(other)) | (tag & tags_[other] & ~slot_mask));
+      u32 together = grouped_ && one_group(groups_[slot], groups_[other]);
+      out += !(boxes_touch<D>(its_base, base(other)) | together | (tag & tags_[other] & ~slot_mask));
     }
     extra_.count = Pairs::between(extra_.list.data(), out);
     __builtin_memcpy(region(slot), larger_one, width * sizeof(f32));

@@ -25,6 +25,7 @@ template <int D> class PlaneQuery {
   const Index<D>& index_;
   const Planes<D>& planes_;
   const Wanted<D> wanted_;
+  const bool touching_;   // whether what only touches a plane is in front of it
   const bool takes_all_;  // what is inside, without a look at each box
   u32 from_ = 0, most_ = 0, found_ = 0, looks_ = 0;
 
@@ -33,7 +34,7 @@ template <int D> class PlaneQuery {
   static constexpr u32 inside = 0x80000000;
 
   PlaneQuery(const Index<D>& index, const Question<D>& asked, const Planes<D>& planes)
-      : index_(index), planes_(planes), wanted_(index, asked), takes_all_(wanted_.all() && !index.holes()) {}
+      : index_(index), planes_(planes), wanted_(index, asked), touching_(asked.touching), takes_all_(wanted_.all() && !index.holes()) {}
 
   u32 looks() const { return looks_; }
 
@@ -66,8 +67,10 @@ template <int D> class PlaneQuery {
           foremost += splat(normal) * __builtin_convertvector(load<f32x2>((up ? block.hi : block.lo)[a] + lane), f64x2);
           hindmost += splat(normal) * __builtin_convertvector(load<f32x2>((up ? block.lo : block.hi)[a] + lane), f64x2);
         }
-        left &= ~(below(foremost + splat(planes_.offset[p]), f64x2{}) << lane);
-        front[p] |= at_most(f64x2{}, hindmost + splat(planes_.offset[p])) << lane;
+        foremost += splat(planes_.offset[p]);
+        hindmost += splat(planes_.offset[p]);
+        left &= ~((touching_ ? below(foremost, f64x2{}) : at_most(foremost, f64x2{})) << lane);
+        front[p] |= (touching_ ? at_most(f64x2{}, hindmost) : below(f64x2{}, hindmost)) << lane;
       }
     }
     return left;
@@ -87,8 +90,10 @@ template <int D> class PlaneQuery {
         foremost += normal * box[normal > 0 ? D + a : a];
         hindmost += normal * box[normal > 0 ? a : D + a];
       }
-      if (foremost + planes_.offset[p] < 0) return behind;
-      if (!(hindmost + planes_.offset[p] >= 0)) cut |= 1u << p;
+      foremost += planes_.offset[p];
+      hindmost += planes_.offset[p];
+      if (touching_ ? foremost < 0 : foremost <= 0) return behind;
+      if (!(touching_ ? hindmost >= 0 : hindmost > 0)) cut |= 1u << p;
     }
     return cut;
   }

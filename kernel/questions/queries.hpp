@@ -19,6 +19,7 @@ template <int D> struct Question {
   f64 limit = 0;               // the largest rank
   f64 length = 0;              // of the way, where its share is to be ranked by distance; else 1
   bool stops = false;          // times are to be stopped at: see meeting.hpp
+  bool touching = true;        // of areas: whether what only touches counts
   u32 mask = 0;                // layers; all bits: every box, even one without a layer
   u32 ignored = 0;             // an id
 
@@ -169,8 +170,8 @@ template <int D> class Queries {
         hi += asked_.radius + (asked_.radius + __builtin_fabs(hi)) * 1e-15 + 1e-160;
       }
       // Inward, and still exact: the numbers that are compared with them are float32.
-      lo_[a] = splat(round_up(lo));
-      hi_[a] = splat(round_down(hi));
+      lo_[a] = splat(asked_.touching || is_circle() ? round_up(lo) : next_above(lo));
+      hi_[a] = splat(asked_.touching || is_circle() ? round_down(hi) : next_below(hi));
     }
     from_ = from;
     most_ = most;
@@ -209,7 +210,8 @@ template <int D> class Queries {
   }
 
  private:
-  bool is_circle() const { return asked_.radius >= 0; }
+  /// One without size touches what it is at the side of, and so is a point where that does not count.
+  bool is_circle() const { return asked_.radius > 0 || (asked_.radius == 0 && asked_.touching); }
 
   bool wanted(u32 place) const { return all_wanted_ || wanted_(place); }
 
@@ -247,16 +249,20 @@ template <int D> class Queries {
     if (is_circle()) left &= distances(number, squared_, ranks);
     bool whole = asked_.radius == Question<D>::within;
     if (whole && !index_.rounded()) return left & within(index_.block(0, number));
-    if (!index_.rounded() && squared_ < 1e300) return left;
+    bool closed = asked_.touching;
+    if (!index_.rounded() && squared_ < 1e300 && (closed || !is_circle())) return left;
     for (u32 all = left; all; all &= all - 1) {
       u32 lane = u32(__builtin_ctz(all));
       f64 box[2 * D];
       index_.box(number * 8 + lane, box);
       bool touch = true;
-      if (is_circle()) touch = squared_ < 1e300 ? ranks[lane] <= squared_ : distance(number * 8 + lane, ranks[lane]) <= asked_.radius;
+      if (is_circle()) {
+        f64 is = squared_ < 1e300 ? ranks[lane] : distance(number * 8 + lane, ranks[lane]), most = squared_ < 1e300 ? squared_ : asked_.radius;
+        touch = closed ? is <= most : is < most;
+      }
       for (int a = 0; a < D && !is_circle(); a++) {
-        touch &= whole ? asked_.lo[a] <= box[a] && box[D + a] <= asked_.hi[a]
-                       : box[a] <= asked_.hi[a] && asked_.lo[a] <= box[D + a];
+        f64 one = box[whole ? D + a : a], other = box[whole ? a : D + a];
+        touch &= closed ? one <= asked_.hi[a] && asked_.lo[a] <= other : one < asked_.hi[a] && asked_.lo[a] < other;
       }
       if (!touch) left &= ~(1u << lane);
     }

@@ -124,6 +124,14 @@ class Filters {
     return to;
   }
 
+  /// What slots have of their own, for those that are searched.
+  COLD const u32* select(const u32* of_slots, u32 count, Buffer<u32>& to) const {
+    if (!active_ || !some_) return of_slots;
+    to.reserve(larger(count, 1u));
+    for (u32 k = 0; k < count; k++) to[k] = of_slots[slots_[k]];
+    return to.data();
+  }
+
   /// Where the k-th of the boxes that are searched stands.
   u32 slot(u32 k) const { return active_ && some_ ? slots_[k] : k; }
 

@@ -30,6 +30,7 @@ class Wrap {
   const f64* doubles_ = nullptr;
   const f64* world_ = nullptr;
   u32 dimensions_ = 0, count_ = 0;
+  bool touching_ = true;
 
  public:
   /// The boxes that are to be searched, and how many there are, with their ghosts. `given`: the boxes by slot, as
@@ -85,8 +86,9 @@ class Wrap {
     return boxes_.data();
   }
 
-  /// Ghosts to boxes; keeps each pair that overlaps once.
-  COLD void fold(Pairs& pairs) const {
+  /// Ghosts to boxes; keeps each pair that overlaps once, and those that only touch where that counts.
+  COLD void fold(Pairs& pairs, bool touching) {
+    touching_ = touching;
     u64* list = pairs.list.data();
     u64 kept = 0;
     for (u64 p = 0; p < pairs.count; p++) {
@@ -100,7 +102,7 @@ class Wrap {
         b = owners_[b - count_] & slot_mask;
       }
       if (a == b) continue;
-      bool keep = plain_[a] & plain_[b];
+      bool keep = plain_[a] & plain_[b] & touching;
       if (!keep) keep = is_first(a, ghost_a, b, ghost_b);
       list[kept] = pair_of(a, b);
       kept += keep;
@@ -180,8 +182,8 @@ class Wrap {
     return true;
   }
 
-  /// Whether the one box ends at or behind where the other one begins that much further on.
-  static bool reaches(const Span& one, const Span& other, f64 further) {
+  /// Whether the one box ends behind where the other one begins that much further on, or just there.
+  bool reaches(const Span& one, const Span& other, f64 further) const {
     f64 shift = other.shift - one.shift + further;
     f64 terms[5] = {other.low, -one.low, -one.size, -one.rest, shift};
     f64 sum = 0, largest = 0;
@@ -190,7 +192,8 @@ class Wrap {
       largest = larger(largest, __builtin_fabs(term));
     }
     if (__builtin_fabs(sum) > largest * 0x1p-48) return sum < 0;
-    return sign(terms) <= 0;
+    f64 exact = sign(terms);
+    return touching_ ? exact <= 0 : exact < 0;
   }
 
   /// The sign of a sum, by Shewchuk's expansions: doubles that add up to it and do not overlap, the largest last.

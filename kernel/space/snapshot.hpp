@@ -1,18 +1,20 @@
 // A space as bytes, to go back to or to save: what its bytes say, and whether they are to be believed.
 // A header, then what stands in the space, in the order of the slots: the pairs of the last update, where events are
-// kept; the boxes, as float32 where that holds all of them; ids, when boxes came, layers, masks and exclusion bits, each
+// kept; the boxes, as float32 where that holds all of them; ids, when boxes came, layers, masks, groups and exclusion bits, each
 // only where it says something. What techniques keep is not in it: it is built again, and the pairs and their order do not depend
 // on it. The checksum turns 8 bytes at a time into another number, each of them into a different one, so that no
 // change within 8 bytes goes unseen, and others do once in 2^64.
 // From: the mixing of a multiplication and a shift is that of many fast hashes, such as MurmurHash (A. Appleby).
 #pragma once
+#include "boxes/per_box.hpp"
 #include "pairs/events.hpp"
 #include "rules/filters.hpp"
 
 /// Little endian, as WebAssembly is.
 struct SnapshotHeader {
   u32 magic;
-  u8 version, dimensions;
+  u8 version;     // 2 where there are parts that 1 does not know
+  u8 dimensions;
   u8 parts;      // SnapshotPart
   u8 technique;  // its number, or `automatic`
   u64 checksum;  // of all bytes, with this one 0
@@ -20,10 +22,10 @@ struct SnapshotHeader {
   u32 pairs;
 
   static constexpr u32 right_magic = 0x53504270;  // "pBPS"
-  static constexpr u8 newest = 1, automatic = 255;
+  static constexpr u8 newest = 2, automatic = 255;
 };
 
-enum SnapshotPart : u8 { has_ids = 1, has_doubles = 2, has_layers = 4, has_masks = 8, has_bits = 16, has_pairs = 32, has_order = 64 };
+enum SnapshotPart : u8 { has_ids = 1, has_doubles = 2, has_layers = 4, has_masks = 8, has_bits = 16, has_pairs = 32, has_order = 64, has_groups = 128 };
 
 /// Why bytes are refused: src/snapshot.ts says it in words.
 enum class SnapshotFault : u32 { none, foreign, newer, length, damaged, dimensions, technique, content };
@@ -32,7 +34,7 @@ class Snapshot {
   Buffer<u64> words_;
   SnapshotHeader head_ = {};
   // Where each part begins, in bytes.
-  u32 pairs_ = 0, boxes_ = 0, ids_ = 0, order_ = 0, layers_ = 0, masks_ = 0, bits_ = 0, end_ = 0;
+  u32 pairs_ = 0, boxes_ = 0, ids_ = 0, order_ = 0, layers_ = 0, masks_ = 0, groups_ = 0, bits_ = 0, end_ = 0;
 
   u8* at(u64 byte) const { return reinterpret_cast<u8*>(words_.data()) + byte; }
   bool has(u8 parts) const { return head_.parts & parts; }
@@ -51,6 +53,7 @@ class Snapshot {
     order_ = take(has(has_order), (count + 1) * sizeof(u32));
     layers_ = take(has(has_layers), count * sizeof(u32));
     masks_ = take(has(has_masks), count * sizeof(u32));
+    groups_ = take(has(has_groups), count * sizeof(u32));
     bits_ = take(has(has_bits), count);
     place = (place + 7) & ~u64(7);
     end_ = u32(place);
@@ -76,7 +79,8 @@ class Snapshot {
   u32 box_bytes() const { return ids_ - boxes_; }
 
   /// Writes all but the boxes, for which there is room then. `events`: where there are some.
-  COLD void write(u32 dimensions, u8 technique, bool doubles, const Ids& ids, const Filters& filters, const Events* events) {
+  COLD void write(u32 dimensions, u8 technique, bool doubles, const Ids& ids, const Filters& filters, const u32* groups,
+                  const Events* events) {
     u32 n = ids.count();
     const Rule* rules = filters.active() ? filters.rules() : nullptr;
     u32 parts = (ids.same() ? 0 : has_ids) | (ids.since() ? has_order : 0) | (doubles ? has_doubles : 0) | (events ? has_pairs : 0);
@@ -85,7 +89,11 @@ class Snapshot {
       if (~rules[s].mask) parts |= has_masks;
       if (rules[s].excluded) parts |= has_bits;
     }
-    head_ = {SnapshotHeader::right_magic, SnapshotHeader::newest, u8(dimensions), u8(parts), technique, 0, n, 0};
+    for (u32 s = 0; groups && s < n; s++) {
+      if (groups[s]) parts |= has_groups;
+    }
+    u8 version = parts & has_groups ? 2 : 1;
+    head_ = {SnapshotHeader::right_magic, version, u8(dimensions), u8(parts), technique, 0, n, 0};
     if (events) head_.pairs = u32(events->count());
     if (!lay_out()) fail(Fault::out_of_memory, f64(u64(1) << 32));
     words_.reserve(end_ / sizeof(u64));
@@ -97,6 +105,7 @@ class Snapshot {
       if (has(has_ids)) store(at(ids_ + s * sizeof(u32)), ids.id(s));
       if (has(has_layers)) store(at(layers_ + s * sizeof(u32)), rules[s].layer);
       if (has(has_masks)) store(at(masks_ + s * sizeof(u32)), rules[s].mask);
+      if (has(has_groups)) store(at(groups_ + s * sizeof(u32)), groups[s]);
       if (has(has_bits)) *at(bits_ + s) = u8(rules[s].excluded >> 24 | rules[s].excluded);
     }
   }
@@ -113,7 +122,7 @@ class Snapshot {
   COLD SnapshotFault stage(const SnapshotHeader& head, u32 size, u32 dimensions, u32 built) {
     if (size < sizeof(SnapshotHeader) || head.magic != SnapshotHeader::right_magic) return SnapshotFault::foreign;
     if (head.version > SnapshotHeader::newest) return SnapshotFault::newer;
-    bool good = head.version > 0 && head.count <= max_slots && head.parts < 2 * has_order;
+    bool good = head.version > 0 && head.count <= max_slots && (head.version > 1 || head.parts < has_groups);
     if (!good || (head.dimensions != 2 && head.dimensions != 3)) return SnapshotFault::damaged;
     head_ = head;
     if (!lay_out() || end_ != size) return SnapshotFault::length;
@@ -132,7 +141,7 @@ class Snapshot {
   }
 
   /// Looks at all but the boxes, and makes room for it; nothing changes. False where it is nothing that was written.
-  COLD bool check(Filters& filters, Events* events) const {
+  COLD bool check(Filters& filters, PerBox<u32>& groups, Events* events) const {
     Rule* rules = has(has_layers | has_masks | has_bits) ? filters.stage(head_.count) : nullptr;
     for (u32 s = 0; rules && s < head_.count; s++) {
       rules[s].layer = has(has_layers) ? load<u32>(at(layers_ + s * sizeof(u32))) : ~0u;
@@ -141,6 +150,7 @@ class Snapshot {
       rules[s].excluded = (bits & ~Rule::off) << 24 | (bits & Rule::off);
       if (rules[s].excluded & ~(is_static | is_red | is_blue | Rule::off)) return false;
     }
+    if (has(has_groups)) __builtin_memcpy(groups.stage(head_.count), at(groups_), head_.count * sizeof(u32));
     if (has(has_order) && !has(has_ids)) return false;
     for (u32 s = 0; has(has_order) && s < head_.count; s++) {
       if (load<u32>(at(order_ + (s + 1) * sizeof(u32))) >= load<u32>(at(order_))) return false;
@@ -156,12 +166,14 @@ class Snapshot {
   }
 
   /// Takes over all but the boxes, after `check`; false, and nothing has changed, where the ids are bad.
-  COLD bool take(Ids& ids, Filters& filters, Events* events) const {
+  COLD bool take(Ids& ids, Filters& filters, PerBox<u32>& groups, Events* events) const {
     const u32* order = has(has_order) ? reinterpret_cast<const u32*>(at(order_)) : nullptr;
     if (!has(has_ids)) ids.reset(head_.count);
     else if (!ids.replace(reinterpret_cast<const u32*>(at(ids_)), head_.count, order ? order + 1 : nullptr, order ? *order : 0)) return false;
     filters.clear();
     if (has(has_layers | has_masks | has_bits)) filters.replace();
+    groups.clear();
+    if (has(has_groups)) groups.replace();
     if (events) events->restore(reinterpret_cast<const u64*>(at(pairs_)), (boxes_ - pairs_) / sizeof(u64));
     return true;
   }

@@ -7,6 +7,7 @@
 // Every change allocates before it writes: when memory ends, the space is as it was.
 #pragma once
 #include "boxes/gap_map.hpp"
+#include "boxes/per_box.hpp"
 #include "boxes/ring.hpp"
 #include "pairs/events.hpp"
 #include "pairs/partners.hpp"
@@ -53,6 +54,8 @@ template <int D> class Space {
   bool renamed_ = false;  // since the last update, boxes have come, gone or got other ids
   bool tight_ = false;    // memory may not be had for the first double
   Filters filters_;
+  PerBox<u32> groups_;
+  Buffer<u32> searched_groups_;  // where not all boxes are searched
   Changes changes_;  // since the last update, for the technique that asks
   Wrap wrap_;
   Techniques<D> techniques_;
@@ -149,6 +152,7 @@ template <int D> class Space {
     if (keeps_events) events.forget(id);
     u32 last = ids_.count();
     if (filters_.active()) filters_.move(last, slot);
+    groups_.move(last, slot);
     if (slot == last) return true;
     changes_.note(slot);
     __builtin_memcpy(boxes_.data() + u64(slot) * width, boxes_.data() + u64(last) * width, width * sizeof(f32));
@@ -174,6 +178,7 @@ template <int D> class Space {
     forget_from(0);
     ids_.reset(0);
     filters_.clear();
+    groups_.clear();
     changes_.note_all();
     exposed_ = false;
     shown_count_ = 0;
@@ -182,12 +187,13 @@ template <int D> class Space {
   }
 
   /// Where everything stands, for a recorder and right after an update: the ids (0: slots), the boxes, the doubles they
-  /// were given as (0: none), the rules (0: none).
+  /// were given as (0: none), the rules (0: none), the groups (0: none).
   COLD void contents(f64* out) const {
     out[0] = f64(u64(ids_.names()));
     out[1] = f64(u64(boxes_.data()));
     out[2] = rounding_ ? f64(u64(exact_.data())) : 0;
     out[3] = filters_.active() ? f64(u64(filters_.rules())) : 0;
+    out[4] = f64(u64(groups_.data()));
   }
 
   /// Memory into which the next `replace` expects its boxes, as float32 or as doubles.
@@ -273,6 +279,13 @@ template <int D> class Space {
     exclude(slot, Rule::off, !on);
   }
 
+  u32 group(u32 slot) const { return groups_.of(slot); }
+
+  /// Puts a box into a group, or, with 0, into none.
+  COLD void put_in_group(u32 slot, u32 group) {
+    if (group != groups_.of(slot)) groups_.set(slot, group, boxes_.capacity() / width);
+  }
+
   /// Writes what stands in the space to `snapshot`. Returns the first bad id among boxes written in place, or -1.
   COLD i32 save() {
     see_shown();
@@ -283,7 +296,7 @@ template <int D> class Space {
     ordered_ = true;
     bool doubles = rounding_ && !are_floats(exact_.data(), ids_.count(), width);
     u8 used = technique == Technique::automatic ? SnapshotHeader::automatic : u8(technique);
-    snapshot.write(D, used, doubles, ids_, filters_, keeps_events ? &events : nullptr);
+    snapshot.write(D, used, doubles, ids_, filters_, groups_.data(), keeps_events ? &events : nullptr);
     const void* boxes = doubles ? static_cast<const void*>(exact_.data()) : boxes_.data();
     if (ids_.count()) __builtin_memcpy(snapshot.boxes(), boxes, snapshot.box_bytes());
     snapshot.seal();
@@ -300,7 +313,7 @@ template <int D> class Space {
     if (head.count) __builtin_memcpy(staged, snapshot.boxes(), snapshot.box_bytes());
     i32 bad = doubles ? round_staged(head.count, rounded) : first_bad(staged_.data(), head.count);
     Events* kept = keeps_events ? &events : nullptr;
-    if (bad >= 0 || !snapshot.check(filters_, kept) || !snapshot.take(ids_, filters_, kept)) return SnapshotFault::content;
+    if (bad >= 0 || !snapshot.check(filters_, groups_, kept) || !snapshot.take(ids_, filters_, groups_, kept)) return SnapshotFault::content;
     changes_.note_all();
     take_staged(rounded);
     technique = head.technique == SnapshotHeader::automatic ? Technique::automatic : Technique(head.technique);
@@ -323,7 +336,8 @@ template <int D> class Space {
     look_for_map();
     if (exposed_) changes_.note_all();
     if (lost_) holds_ = lost_ = false;
-    if (follows && chosen == ran_ && changes_.none() && ids_.count() == seen_ && !filters_.changed()) return rest();
+    bool regrouped = filters_.changed() || groups_.changed();
+    if (follows && chosen == ran_ && changes_.none() && ids_.count() == seen_ && !regrouped) return rest();
     if (!search(chosen)) return rest();
     if (restored_) table_.made = false;
     restored_ = false;
@@ -353,6 +367,11 @@ template <int D> class Space {
       scene.excluded = filters_.excluded();
       if (scene.filtered || scene.boxes != boxes_.data()) scene.changes = nullptr;
     }
+    if (groups_.some() && !wraps) {  // ghosts have none: `part` sees to them
+      scene.groups = filters_.select(groups_.data(), scene.count, searched_groups_);
+      scene.filtered |= groups_.changed();
+    }
+    groups_.updated();
     if (wraps) {
       const f64* doubles = rounding_ ? exact_.data() : nullptr;
       scene.changes = nullptr;
@@ -360,7 +379,7 @@ template <int D> class Space {
       scene.boxes = wrap_.unfold(scene.count, scene.excluded, filters_, boxes_.data(), doubles, options_.wrap, D);
     }
     pairs.count = pairs.doubt_count = 0;
-    pairs.watch = rounding_ && !wraps;
+    pairs.watch = (rounding_ || !options_.touching) && !wraps;
     stats = Stats{};
     if (chosen != ran_) {
       release_techniques();
@@ -384,9 +403,10 @@ template <int D> class Space {
       searching_ = false;
       return false;
     }
-    if (wraps) wrap_.fold(pairs);
-    else if (rounding_) retest();
+    if (wraps) wrap_.fold(pairs, options_.touching);
+    else if (pairs.watch) retest();
     if (filters_.active()) filters_.finish(pairs);
+    if (groups_.some()) part();
     if (!ids_.same()) name_pairs();
     return true;
   }
@@ -670,6 +690,7 @@ template <int D> class Space {
     u64 all = boxes_.capacity() / width;
     changes_.make_room(all);
     if (filters_.active()) filters_.make_room(all, keep);
+    groups_.make_room(all, keep);
     if (rounding_) {
       exact_.grow(all * width, u64(keep) * width);
     }
@@ -681,6 +702,7 @@ template <int D> class Space {
     u64 all = smaller(u64(max_slots), (boxes_.capacity() - padding) / width);
     all = smaller(all, u64(changes_.room()));
     if (filters_.active()) all = smaller(all, filters_.room());
+    if (groups_.some()) all = smaller(all, groups_.room());
     if (rounding_) all = smaller(all, exact_.capacity() / width);
     return u32(larger(all, u64(ids_.count())));
   }
@@ -718,6 +740,7 @@ template <int D> class Space {
     slot = ids_.insert(id);
     renamed_ = true;
     if (filters_.active()) filters_.insert(slot);
+    groups_.insert(slot);
     changes_.note(slot);
     return slot;
   }
@@ -864,7 +887,9 @@ template <int D> class Space {
     changes_.note_all();
     renamed_ = true;
     room_to_forget();
+    if (groups_.some()) groups_.stage(count);
     if (filters_.active()) filters_.renumber(ids_, count);
+    groups_.renumber(ids_, count);
     forget_from(count);
     ids_.reset(count);
   }
@@ -913,6 +938,16 @@ template <int D> class Space {
     return -1;
   }
 
+  /// Whether some box is nowhere along an axis, as float32: differences of its bounds are no numbers, and doubts may go
+  /// unnoticed.
+  COLD bool some_nowhere() const {
+    bool some = false;
+    for (u64 k = 0; k < u64(ids_.count()) * width; k += width) {
+      for (u32 a = 0; a < D; a++) some |= boxes_[k + a] == __builtin_inff() || boxes_[k + D + a] == -__builtin_inff();
+    }
+    return some;
+  }
+
   /// Keeps, of the pairs in doubt, those that overlap in the numbers given.
   COLD void retest() {
     u64* list = pairs.list.data();
@@ -922,28 +957,47 @@ template <int D> class Space {
       kept += until - at;
       at = until;
     };
-    bool all = !(watching >> u32(ran_) & 1);
+    bool all = !(watching >> u32(ran_) & 1) || (!rounding_ && some_nowhere());
     for (u32 k = 0; k < (all ? 1 : pairs.doubt_count); k++) {
       if (!all) keep(pairs.doubts[2 * k]);
       u64 until = all ? pairs.count : pairs.doubts[2 * k + 1];
-      kept = Pairs::between(list, retest(list + at, list + until, list + kept));
+      u64* end = rounding_ ? retest(exact_.data(), list + at, list + until, list + kept)
+                           : retest(boxes_.data(), list + at, list + until, list + kept);
+      kept = Pairs::between(list, end);
       at = until;
     }
     keep(pairs.count);
     pairs.count = kept;
   }
-  NOINLINE u64* retest(const u64* from, const u64* until, u64* to) const {
-    const f64* exact = exact_.data();
+  template <class T> NOINLINE u64* retest(const T* boxes, const u64* from, const u64* until, u64* to) const {
+    bool touching = options_.touching;
     for (; from < until; from++) {
       u64 pair = *from;
-      const f64* first = exact + u64(filters_.slot(u32(pair))) * width;
-      const f64* second = exact + u64(filters_.slot(u32(pair >> 32))) * width;
-      bool overlap = true;
-      for (int k = 0; k < D; k++) overlap &= first[k] <= second[D + k] && second[k] <= first[D + k];
+      const T* first = boxes + u64(filters_.slot(u32(pair))) * width;
+      const T* second = boxes + u64(filters_.slot(u32(pair >> 32))) * width;
+      bool overlap = true, touch = false;
+      for (int k = 0; k < D; k++) {
+        overlap &= first[k] <= second[D + k] && second[k] <= first[D + k];
+        touch |= first[k] == second[D + k] || second[k] == first[D + k];
+      }
       *to = pair;
-      to += overlap;
+      to += overlap & (touching | !touch);
     }
     return to;
+  }
+
+  /// Takes pairs within a group out.
+  COLD void part() {
+    u64* list = pairs.list.data();
+    const u32* groups = groups_.data();
+    u64 kept = 0;
+    for (u64 p = 0; p < pairs.count; p++) {
+      u64 pair = list[p];
+      list[kept] = pair;
+      kept += !one_group(groups[u32(pair)], groups[pair >> 32]);
+    }
+    if (kept < pairs.count) pairs.stable = 0;
+    pairs.count = kept;
   }
 
   /// Slots to ids, the smaller first.

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "check.hpp"
+#include "own_calls.hpp"
 #include "scenes.hpp"
 
 /// Bytes to decide by; zeros once they are used up.
@@ -84,6 +85,7 @@ template <int D> class Calls {
       if (with % 16 == 3) instance_->settings.wrap[a] = 64 * (1 + bytes_.below(4)) + 0.1 * bytes_.below(4);
     }
     if (with % 16 == 4) instance_->settings.margin = 0.25 * bytes_.below(32);
+    model_.touching = instance_->settings.touching = with % 4 != 3 || bytes_.below(3) > 0;
   }
 
   /// Makes all calls that the bytes ask for, then compares once more.
@@ -113,6 +115,7 @@ template <int D> class Calls {
         fresh->space.exclude(fresh->ids.slot(id), bit, rule.excluded & bit);
       }
       fresh->space.enable(fresh->ids.slot(id), !rule.is_off());
+      fresh->space.put_in_group(fresh->ids.slot(id), model_.group(id));
     }
     CHECK(fresh->space.update() == -1);
     return sorted_pairs(fresh->space);
@@ -124,6 +127,7 @@ template <int D> class Calls {
     if (wraps() && (what == 23 || (what >= 27 && what <= 29))) return update();
     switch (what) {
       default: return set(id(), box());
+      case 7: return give();
       case 8: case 9: case 10: return remove(id());
       case 11: return replace_by_a_scene();
       case 12: return replace_by_few();
@@ -199,7 +203,12 @@ template <int D> class Calls {
     u32 someone = all[random.below(u32(all.size()))];
     f64 size = std::exp2(f64(random.below(9)));
     Box<D> box = box_of<D>([&](u32) { return Extent{f64(random.below(200)), size}; });
-    switch (random.below(8)) {
+    switch (random.below(9)) {
+      case 8: {
+        u32 group = random.below(3);
+        space_.put_in_group(ids_.slot(someone), group);
+        return model_.put_in_group(someone, group);
+      }
       case 0: return set(model_.count(), box);
       case 1: return remove(someone);
       case 2: case 3: return set(someone, box);
@@ -356,6 +365,13 @@ template <int D> class Calls {
     if (made([&] { space_.filter(ids_.slot(id), layer, mask); })) model_.filter(id, layer, mask);
   }
 
+  void give() {
+    Own own = Own::from(bytes_);
+    if (model_.count() == 0) return;
+    u32 id = someone();
+    if (made([&] { own.give(space_, ids_.slot(id)); })) model_.put_in_group(id, own.group);
+  }
+
   u32 someone() {
     std::vector<u32> all = model_.ids();
     return all[bytes_.next16() % all.size()];
@@ -416,7 +432,9 @@ template <int D> class Calls {
 
   /// The model of what stands in the space, whatever it is.
   void restored_others() {
+    bool touching = model_.touching;
     model_ = Model<D>();
+    model_.touching = touching;
     Boxes<D> boxes;
     for (u32 s = 0; s < ids_.count(); s++) {
       Box<D> box;
@@ -432,6 +450,7 @@ template <int D> class Calls {
       space_.filter(ids_.slot(id), ~0u, ~0u);
       for (u32 bit : {u32(is_static), u32(is_red), u32(is_blue)}) space_.exclude(ids_.slot(id), bit, false);
       space_.enable(ids_.slot(id), true);
+      space_.put_in_group(ids_.slot(id), 0);
     }
     CHECK(space_.update() == -1);
     updated_ = true;
@@ -493,6 +512,7 @@ template <int D> class Calls {
     Question<D>& question = space_.question;
     question = {};
     question.radius = -1;
+    question.touching = bytes_.below(3) > 0;
     question.mask = bytes_.below(3) ? ~0u : bytes_.below(8);
     question.ignored = bytes_.below(3) ? ~0u : id();
     Box<D> given = box();
@@ -559,7 +579,10 @@ template <int D> class Calls {
     std::vector<u32> expected;
     for (u32 id : eligible(asks)) {
       const Box<D>& its = seen_->at(id);
-      bool within = is_circle ? squared_distance(asks, its) <= asks.radius * asks.radius : overlap(box.data(), its.data(), D);
+      f64 squared = squared_distance(asks, its), most = asks.radius * asks.radius;
+      // A circle without size, where touching does not count, is a point.
+      bool is_round = is_circle && (asks.touching || asks.radius > 0);
+      bool within = !is_round ? overlap(box.data(), its.data(), D, asks.touching) : asks.touching ? squared <= most : squared < most;
       if (within) expected.push_back(id);
     }
     std::sort(answer.begin(), answer.end());
@@ -701,6 +724,7 @@ template <int D> class Calls {
     for (u32 id : model_.ids()) {
       Box<D> held;
       same &= space_.get(id, held.data()) && held == model_.at(id);
+      same &= space_.group(ids_.slot(id)) == model_.group(id);
     }
     CHECK(same);
     u32 other = id();

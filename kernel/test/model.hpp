@@ -25,9 +25,11 @@ using PairList = std::vector<u64>;  // sorted; the smaller id in the low half
 /// The number of techniques, `automatic` included.
 inline constexpr u32 technique_count = u32(Technique::automatic) + 1;
 
-inline bool overlap(const f64* a, const f64* b, int dimensions) {
+/// `touching`: whether it is enough that they touch.
+inline bool overlap(const f64* a, const f64* b, int dimensions, bool touching = true) {
   for (int k = 0; k < dimensions; k++) {
     if (a[k] > b[dimensions + k] || b[k] > a[dimensions + k]) return false;
+    if (!touching && (a[k] == b[dimensions + k] || b[k] == a[dimensions + k])) return false;
   }
   return true;
 }
@@ -47,6 +49,7 @@ template <int D> class Model {
   struct Entry {
     Box<D> box = {};
     Rule rule{~0u, ~0u, 0};
+    u32 group = 0;
   };
   std::map<u32, Entry> entries_;
   std::set<u32> gone_;  // deleted since the last update
@@ -59,6 +62,8 @@ template <int D> class Model {
   }
 
  public:
+  bool touching = true;  // whether boxes that only touch are pairs
+
   u32 count() const { return u32(entries_.size()); }
   bool has(u32 id) const { return entries_.count(id) > 0; }
   const Box<D>& at(u32 id) const { return entries_.at(id).box; }
@@ -76,6 +81,8 @@ template <int D> class Model {
   }
   void clear() { renumber(0); }
   const Rule& rule(u32 id) const { return entries_.at(id).rule; }
+  u32 group(u32 id) const { return entries_.at(id).group; }
+  void put_in_group(u32 id, u32 group) { entries_.at(id).group = group; }
   bool is_gone(u64 pair) const { return !gone_.empty() && (gone_.count(u32(pair)) || gone_.count(u32(pair >> 32))); }
   void updated() { gone_.clear(); }
   void replace(const Boxes<D>& boxes) {
@@ -111,7 +118,11 @@ template <int D> class Model {
     std::vector<u32> partners(ids.size());
     for (u32 k = 0; k < ids.size(); k++) {
       u32 count = meet_before(k, boxes.data(), rules.data(), partners.data());
-      for (u32 n = 0; n < count; n++) found.push_back(ids[partners[n]] | u64(ids[k]) << 32);
+      for (u32 n = 0; n < count; n++) {
+        u32 other = ids[partners[n]], its = group(other);
+        if (!touching && !overlap(at(other).data(), at(ids[k]).data(), D, false)) continue;
+        if (its == 0 || its != group(ids[k])) found.push_back(other | u64(ids[k]) << 32);
+      }
     }
     return found;
   }

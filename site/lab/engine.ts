@@ -179,7 +179,7 @@ export class Engine implements Record<keyof Requests, unknown> {
 
   #makeSpace({ technique, cellSize }: Setup, feed = this.#feed): BroadPhase<2 | 3> {
     const { dimensions = 2, frame } = feed ?? {};
-    const options = { dimensions, technique, cellSize, wrap: frame?.wrap };
+    const options = { dimensions, technique, cellSize, wrap: frame?.wrap, touching: frame?.touching };
     return new BroadPhase(options as BroadPhaseOptions<2 | 3>); // what is undefined is as if it were not there
   }
 
@@ -203,8 +203,8 @@ export class Engine implements Record<keyof Requests, unknown> {
   #record(): void {
     const recording = this.#recording;
     if (!recording || recording.full) return;
-    const { boxes, ids, rules } = this.#need().frame;
-    const piece = recording.writer.frame(boxes, ids, rules);
+    const { frame } = this.#need();
+    const piece = recording.writer.frame(frame.boxes, frame.ids, frame.rules, frame);
     recording.pieces.push(piece);
     recording.bytes += piece.length;
     recording.full = recording.bytes > mostRecorded;

@@ -83,9 +83,9 @@ function exportRaw(source: FrameSource): Uint8Array {
 }
 
 function exportTrace(source: FrameSource): Uint8Array {
-  const writer = new TraceWriter(source.dimensions, source.wrap);
+  const writer = new TraceWriter(source.dimensions, source.wrap, source.touching);
   const pieces: Uint8Array[] = [writer.header()];
-  for (const { boxes, ids, rules } of source) pieces.push(writer.frame(boxes, ids, rules));
+  for (const frame of source) pieces.push(writer.frame(frame.boxes, frame.ids, frame.rules, frame));
   pieces.push(writer.end());
   return Buffer.concat(pieces);
 }
@@ -100,6 +100,7 @@ function slice(source: FrameSource, range: string): FrameSource {
   return {
     dimensions: source.dimensions,
     wrap: source.wrap,
+    touching: source.touching,
     frames: to - from + 1,
     *[Symbol.iterator](): Generator<Frame> {
       for (const frame of source) {

@@ -2,7 +2,7 @@
 // taken only for boxes whose numbers are there, at most some 100 bytes for each byte of the file. Time goes with the bytes
 // too: of what stays as it was nothing is touched, however many boxes there are.
 import { Cursor } from './bytes.ts';
-import { doublesFlag, type Frame, frameKind, marks, maxBoxes, ruleBits, rulesFlag } from './format.ts';
+import { doublesFlag, type Frame, frameKind, marks, maxBoxes, ruleBits, rulesFlag, worldBits } from './format.ts';
 import { predict, takeDistance } from './numbers.ts';
 import { all, grown, IdSet, TraceState } from './state.ts';
 
@@ -11,8 +11,9 @@ export class FrameDecoder {
   /** The ids of all boxes, and how many of them are not their place. */
   readonly #taken = new IdSet();
   #named = 0;
-  /** How many boxes have a rule of their own. */
+  /** How many boxes have a rule of their own, and how many a group. */
   #ruled = 0;
+  #grouped = 0;
   /** The boxes once more as float32. */
   #floats = new Float32Array();
   /** Where boxes changed in the last frame: from, until, from, until, … */
@@ -21,17 +22,20 @@ export class FrameDecoder {
   /** What may be set in the first byte of a frame. */
   readonly #flags: number;
   readonly #wraps: boolean;
+  /** Whether boxes that only touch are pairs. */
+  readonly touching: boolean;
   /** The size of the world, where it wraps around: once the first frame is read. */
   wrap: readonly number[] | undefined;
 
   /**
    * @param version of the trace: older ones know less
-   * @param wraps whether its world wraps around
+   * @param world what kind it is: see `worldBits`
    */
-  constructor(dimensions: 2 | 3, version: number, wraps: boolean) {
+  constructor(dimensions: 2 | 3, version: number, world: number) {
     this.#state = new TraceState(dimensions);
     this.#flags = doublesFlag | (version > 1 ? rulesFlag : 0);
-    this.#wraps = wraps;
+    this.#wraps = (world & worldBits.wraps) !== 0;
+    this.touching = (world & worldBits.apart) === 0;
   }
 
   /** How many frames have been read. */
@@ -89,22 +93,32 @@ export class FrameDecoder {
     this.#readIds(cursor, idsAt, count);
     if (flags & rulesFlag) this.#readRules(cursor, rulesAt);
     state.ruled = this.#ruled > 0;
+    state.grouped = this.#grouped > 0;
     cursor.at = sizesAt + (changed * width) / 2;
     this.#readNumbers(cursor, runsAt, sizesAt, doubles, had);
     this.#finish(cursor);
     const boxes = (doubles ? state.was : this.#floats).subarray(0, count * width);
     const ids = state.named ? state.ids.subarray(0, count) : undefined;
     const rules = state.ruled ? state.rules.subarray(0, 3 * count) : undefined;
-    return { index: this.#index++, count, ids, rules, wrap: this.wrap, boxes, changed };
+    const groups = state.grouped ? state.groups.subarray(0, count) : undefined;
+    const { wrap, touching } = this;
+    return { index: this.#index++, count, ids, rules, groups, wrap, touching, boxes, changed };
   }
 
   /** Boxes from this place on go. */
   #release(from: number): void {
-    const { rules, count } = this.#state;
+    const { groups, count } = this.#state;
     for (let place = from; place < count; place++) {
       this.#drop(place);
-      if (3 * place < rules.length) this.#ruled -= Number(isOwn(rules, place));
+      if (place < groups.length) this.#countRule(place, -1);
     }
+  }
+
+  /** Adds to the counts of what boxes have of their own, or takes away. */
+  #countRule(place: number, more: 1 | -1): void {
+    const { rules, groups } = this.#state;
+    if (isOwn(rules, place)) this.#ruled += more;
+    if (groups[place] !== 0) this.#grouped += more;
   }
 
   #drop(place: number): void {
@@ -154,11 +168,12 @@ export class FrameDecoder {
       place += cursor.varint('', maxBoxes);
       const bits = cursor.byte('');
       const filtered = (bits & ruleBits.filter) !== 0;
-      this.#ruled -= Number(isOwn(state.rules, place));
+      this.#countRule(place, -1);
       state.rules[3 * place] = filtered ? cursor.varint('', all) : all;
       state.rules[3 * place + 1] = filtered ? cursor.varint('', all) : all;
       state.rules[3 * place + 2] = (bits & ruleBits.still ? marks.still : 0) | (bits & ruleBits.off ? marks.off : 0);
-      this.#ruled += Number(isOwn(state.rules, place));
+      state.groups[place] = bits & ruleBits.group ? cursor.varint('', all) : 0;
+      this.#countRule(place, 1);
     }
   }
 
@@ -223,6 +238,8 @@ export class FrameDecoder {
 const isOwn = (rules: Uint32Array, place: number): boolean =>
   rules[3 * place] !== all || rules[3 * place + 1] !== all || rules[3 * place + 2] !== 0;
 
+const knownBits = ruleBits.still | ruleBits.filter | ruleBits.off | ruleBits.group;
+
 /** Looks whether a list of new ids is sound. */
 function skipIds(cursor: Cursor, count: number): void {
   const renamed = cursor.varint('the number of new ids', count);
@@ -243,11 +260,12 @@ function skipRules(cursor: Cursor, count: number): void {
     const place = next + cursor.varint('the place of a rule', maxBoxes);
     if (place >= count) cursor.fail(`a rule for place ${place} of ${count}`);
     const bits = cursor.byte('a rule');
-    if (bits > (ruleBits.still | ruleBits.filter | ruleBits.off)) cursor.fail(`a rule of unknown kind ${bits}`);
+    if (bits > knownBits) cursor.fail(`a rule of unknown kind ${bits}`);
     if (bits & ruleBits.filter) {
       cursor.varint('a layer', all);
       cursor.varint('a mask', all);
     }
+    if (bits & ruleBits.group) cursor.varint('a group', all);
     next = place + 1;
   }
 }

@@ -1,12 +1,14 @@
 // The exact answer, without the kernel: what a replay is checked against. Sorts along one axis and sweeps, in doubles.
 // A set of pairs is a sorted Float64Array with one number a pair: the smaller id times 2^24, plus the larger.
+import type { Own, World } from '../watch.ts';
 import { marks } from './format.ts';
 
 const idLimit = 2 ** 24;
 
 /**
  * The pairs of closed boxes that overlap and may meet. Box k has the id `ids[k]`, or k; `rules` are those of
- * {@link Frame.rules}. In a world that wraps around every two boxes are looked at.
+ * {@link Frame.rules}, `own` has its groups, and says
+ * whether boxes that only touch are pairs. In a world that wraps around every two boxes are looked at.
  *
  * @param boxes minima then maxima, box after box
  * @returns the sorted set of pairs, one number for each: the smaller id times 2^24, plus the larger
@@ -20,8 +22,11 @@ export function exactPairs(
   ids?: ArrayLike<number>,
   rules?: ArrayLike<number>,
   wrap?: readonly number[],
+  own: Own & Pick<World, 'touching'> = {},
 ): Float64Array {
-  if (wrap) return wrappedPairs(boxes, wrap, ids, rules);
+  const apart = (a: number, b: number) => (rules && !mayMeet(rules, 3 * a, 3 * b)) || areOne(own.groups, a, b);
+  const closed = own.touching ?? true;
+  if (wrap) return wrappedPairs(boxes, wrap, ids, apart, closed);
   const width = 2 * dimensions;
   const count = boxes.length / width;
   const axis = longestAxis(boxes, dimensions);
@@ -29,7 +34,7 @@ export function exactPairs(
   const order = Uint32Array.from(starts, (_, box) => box).sort((a, b) =>
     starts[a] < starts[b] ? -1 : starts[a] > starts[b] ? 1 : 0,
   );
-  const others = [0, 1, 2].slice(0, dimensions).filter((other) => other !== axis);
+  const others = [0, 1, 2].slice(0, dimensions).filter((other) => other !== axis || !closed);
   const keys: number[] = [];
   for (let i = 0; i < count; i++) {
     const box = order[i];
@@ -37,14 +42,15 @@ export function exactPairs(
     const end = boxes[at + dimensions + axis];
     for (let j = i + 1; j < count && starts[order[j]] <= end; j++) {
       const other = order[j];
-      let apart = false;
+      let misses = false;
       for (const a of others) {
         const p = at + a;
         const q = other * width + a;
-        apart ||= boxes[p] > boxes[q + dimensions] || boxes[q] > boxes[p + dimensions];
+        misses ||= !(closed
+          ? boxes[p] <= boxes[q + dimensions] && boxes[q] <= boxes[p + dimensions]
+          : boxes[p] < boxes[q + dimensions] && boxes[q] < boxes[p + dimensions]);
       }
-      if (!apart && rules) apart = !mayMeet(rules, 3 * box, 3 * other);
-      if (!apart) keys.push(ids ? key(ids[box], ids[other]) : key(box, other));
+      if (!(misses || apart(box, other))) keys.push(ids ? key(ids[box], ids[other]) : key(box, other));
     }
   }
   return Float64Array.from(keys).sort();
@@ -53,18 +59,19 @@ export function exactPairs(
 function wrappedPairs(
   boxes: ArrayLike<number>,
   wrap: readonly number[],
-  ids?: ArrayLike<number>,
-  rules?: ArrayLike<number>,
+  ids: ArrayLike<number> | undefined,
+  apart: (a: number, b: number) => boolean,
+  closed: boolean,
 ): Float64Array {
   const d = wrap.length;
   const count = boxes.length / (2 * d);
   const keys: number[] = [];
   for (let i = 0; i < count; i++) {
     for (let j = i + 1; j < count; j++) {
-      if (rules && !mayMeet(rules, 3 * i, 3 * j)) continue;
+      if (apart(i, j)) continue;
       const [p, q] = [2 * d * i, 2 * d * j];
       const meet = wrap.every((size, a) =>
-        wrapsOver(boxes[p + a], boxes[p + d + a], boxes[q + a], boxes[q + d + a], size),
+        wrapsOver(boxes[p + a], boxes[p + d + a], boxes[q + a], boxes[q + d + a], size, closed),
       );
       if (meet) keys.push(ids ? key(ids[i], ids[j]) : key(i, j));
     }
@@ -72,8 +79,8 @@ function wrappedPairs(
   return Float64Array.from(keys).sort();
 }
 
-/** Whether some whole number of worlds, added to the one, makes the two overlap. */
-function wrapsOver(aMin: number, aMax: number, bMin: number, bMax: number, size: number): boolean {
+/** Whether some whole number of worlds, added to the one, makes the two overlap; what reaches all around meets all. */
+function wrapsOver(aMin: number, aMax: number, bMin: number, bMax: number, size: number, closed: boolean): boolean {
   const most = (bMax - aMin) / size;
   const least = (bMin - aMax) / size;
   if (!(Number.isFinite(most) && Number.isFinite(least))) return true; // without an end: it reaches all around
@@ -82,7 +89,9 @@ function wrapsOver(aMin: number, aMax: number, bMin: number, bMax: number, size:
   const sure = (x: number) => Math.abs(x - Math.round(x)) > rounded && Math.abs(x) < 1e9;
   if (sure(most) && sure(least)) return Math.ceil(least) <= Math.floor(most);
   const world = whole(size);
-  return floorOf(whole(bMax) - whole(aMin), world) >= -floorOf(whole(aMax) - whole(bMin), world);
+  const [a, c, b, d] = [whole(aMin), whole(aMax), whole(bMin), whole(bMax)];
+  if (closed || c - a >= world || d - b >= world) return floorOf(d - a, world) >= -floorOf(c - b, world);
+  return floorOf(d - a - 1n, world) >= -floorOf(c - b - 1n, world);
 }
 
 const floorOf = (a: bigint, b: bigint): bigint => (a >= 0n || a % b === 0n ? a / b : a / b - 1n);
@@ -141,6 +150,10 @@ function mayMeet(rules: ArrayLike<number>, a: number, b: number): boolean {
   const off = (rules[a + 2] | rules[b + 2]) & marks.off;
   return filtered && !off && !(rules[a + 2] & rules[b + 2] & marks.still);
 }
+
+/** Whether two boxes are of one group. */
+const areOne = (groups: ArrayLike<number> | undefined, a: number, b: number): boolean =>
+  groups !== undefined && groups[a] !== 0 && groups[a] === groups[b];
 
 const key = (a: number, b: number): number => (a < b ? a * idLimit + b : b * idLimit + a);
 

@@ -1,5 +1,7 @@
 // The numbers that make up a trace file (docs/trace-format.md), and the error that says where one is broken.
 
+import type { Own, World } from '../watch.ts';
+
 /** Like PNG's: not text, and broken visibly by whatever changes line ends. */
 export const magic = Uint8Array.of(0x89, 0x42, 0x50, 0x54, 0x0d, 0x0a, 0x1a, 0x0a);
 
@@ -22,13 +24,13 @@ export const doublesFlag = 0x10;
 export const rulesFlag = 0x20;
 
 /**
- * What kind of world: 0, or 1 where it wraps around, and the first frame has its size. Readers that know nothing of it
- * refuse all but 0.
+ * What kind of world, as bits: that it wraps around, and the first frame has its size; that boxes that only touch are no
+ * pairs. Readers refuse bits of which they know nothing.
  */
-export const wrapsAround = 1;
+export const worldBits = { wraps: 1, apart: 2 } as const;
 
-/** What a rule says: that a box is static, that a layer and a mask follow, and that it is off. */
-export const ruleBits = { still: 1, filter: 2, off: 4 } as const;
+/** What a rule says: that a box is static, that a layer and a mask follow, that it is off, and that its group follows. */
+export const ruleBits = { still: 1, filter: 2, off: 4, group: 8 } as const;
 
 /** What the third number of a rule says: that a box is static, and that it is off. */
 export const marks = { still: 1, off: 2 } as const;
@@ -37,7 +39,7 @@ export const marks = { still: 1, off: 2 } as const;
 export const maxBoxes = 2 ** 24;
 
 /** No body is longer: every box new, in 3D, all numbers doubles of 8 bytes, its id and its rule. */
-export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10 + 16) + 64 + 24;
+export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10 + 16 + 5) + 64 + 24;
 
 /**
  * A trace that cannot be read: what is wrong, and where.
@@ -66,7 +68,7 @@ export class TraceError extends Error {
 }
 
 /** One frame as it is read. Its arrays are views that are valid until the next frame is read. */
-export interface Frame {
+export interface Frame extends Own, World {
   /** From 0. */
   readonly index: number;
   /** How many boxes stand in the space. */
@@ -75,8 +77,6 @@ export interface Frame {
   readonly ids: Uint32Array | undefined;
   /** Layer, mask, and marks of each box, 1 where it is static plus 2 where it is off; left out where none has a rule of its own. */
   readonly rules?: Uint32Array | undefined;
-  /** The size of the world along each axis, where it wraps around. */
-  readonly wrap?: readonly number[] | undefined;
   /** Minima then maxima of each box: float32 where that holds all of them exactly. */
   readonly boxes: Float32Array | Float64Array;
   /** How many boxes are new or differ from the frame before. */
@@ -84,15 +84,15 @@ export interface Frame {
 }
 
 /** Frames to go through, as often as wanted: a trace or an imported recording. */
-export interface FrameSource extends Iterable<Frame> {
+export interface FrameSource extends Iterable<Frame>, World {
   /** How many axes its boxes have. */
   readonly dimensions: 2 | 3;
   /** How many frames there are. */
   readonly frames: number;
-  /** The size of the world along each axis, where it wraps around. */
-  readonly wrap?: readonly number[] | undefined;
 }
 
-/** As an option of a space. */
-export const worldOf = ({ wrap }: { wrap?: readonly number[] | undefined }): { wrap?: readonly number[] } =>
-  wrap ? { wrap } : {};
+/** As options of a space. */
+export const worldOf = ({ wrap, touching }: World): { wrap?: readonly number[]; touching?: boolean } => ({
+  ...(wrap && { wrap }),
+  ...(touching === false && { touching }),
+});

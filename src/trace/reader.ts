@@ -12,7 +12,7 @@ import {
   magic,
   maxBodyBytes,
   TraceError,
-  wrapsAround,
+  worldBits,
 } from './format.ts';
 
 /** How a trace is opened. */
@@ -41,21 +41,23 @@ export class Trace implements FrameSource {
   readonly frames: number;
   /** The size of the world along each axis, where it wraps around. */
   readonly wrap: readonly number[] | undefined;
+  /** Whether boxes that only touch are pairs. */
+  readonly touching: boolean;
   /** With `salvage`: what is wrong with the file behind its last good frame. */
   readonly fault: TraceError | undefined;
   readonly #bytes: Uint8Array;
   readonly #version: number;
-  readonly #wraps: boolean;
+  readonly #world: number;
 
   /** @throws TraceError that says what is wrong, in which frame, at which byte */
   constructor(bytes: Uint8Array, options: OpenOptions = {}) {
     this.#bytes = bytes;
-    const { dimensions, version, wraps, checksum } = readHeader(bytes);
+    const { dimensions, version, world, checksum } = readHeader(bytes);
     this.dimensions = dimensions;
     this.#version = version;
-    this.#wraps = wraps;
+    this.#world = world;
     let frames = 0;
-    const decoder = new FrameDecoder(dimensions, version, wraps);
+    const decoder = new FrameDecoder(dimensions, version, world);
     try {
       const bodies = checkedBodies(bytes, checksum);
       // Decoded once here, so that what goes through the frames later never meets an error.
@@ -66,6 +68,7 @@ export class Trace implements FrameSource {
     }
     this.frames = frames;
     this.wrap = decoder.wrap;
+    this.touching = decoder.touching;
   }
 
   /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
@@ -75,7 +78,7 @@ export class Trace implements FrameSource {
 
   /** The frames, one after the other: each is valid until the next. */
   *[Symbol.iterator](): Generator<Frame> {
-    const decoder = new FrameDecoder(this.dimensions, this.#version, this.#wraps);
+    const decoder = new FrameDecoder(this.dimensions, this.#version, this.#world);
     let at = headerBytes;
     for (let k = 0; k < this.frames; k++) {
       const start = at + frameHeaderBytes;
@@ -125,8 +128,8 @@ export async function* readTrace(
   const queue = new ChunkQueue('getReader' in chunks ? chunksOf(chunks) : chunks);
   const head = await queue.take(headerBytes);
   if (!head) throw truncatedHeader(queue.bytesLeft);
-  let { dimensions, version, wraps, checksum } = readHeader(head);
-  const decoder = new FrameDecoder(dimensions, version, wraps);
+  let { dimensions, version, world, checksum } = readHeader(head);
+  const decoder = new FrameDecoder(dimensions, version, world);
   let offset = headerBytes;
   for (let index = 0; ; index++) {
     const start = await queue.take(frameHeaderBytes);
@@ -143,9 +146,8 @@ export async function* readTrace(
   if (await queue.take(1)) throw tooMany(decoder.frames, offset);
 }
 
-function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; version: number; wraps: boolean; checksum: number } {
-  const known = Math.min(bytes.length, magic.length);
-  for (let k = 0; k < known; k++) {
+function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; version: number; world: number; checksum: number } {
+  for (let k = 0; k < Math.min(bytes.length, magic.length); k++) {
     if (bytes[k] === magic[k]) continue;
     const hint = bytes[0] === 0x1f && bytes[1] === 0x8b ? ': it looks like gzip, decompress it first' : '';
     throw new TraceError(`not a trace${hint}`, -1, k);
@@ -159,9 +161,10 @@ function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; version: number; wr
   if (uint32At(bytes, headerBytes - 4) !== checksum) throw new TraceError('corrupted: wrong checksum', -1, 12);
   const dimensions = bytes[10];
   if (dimensions !== 2 && dimensions !== 3) throw new TraceError(`${dimensions} dimensions, expected 2 or 3`, -1, 10);
-  const wraps = version > 1 && bytes[11] === wrapsAround;
-  if (version === 0 || (bytes[11] !== 0 && !wraps)) throw new TraceError('not a header of this format', -1, 8);
-  return { dimensions, version, wraps, checksum };
+  const world = bytes[11];
+  const known = version > 1 ? worldBits.wraps | worldBits.apart : 0;
+  if (version === 0 || (world & ~known) !== 0) throw new TraceError('not a header of this format', -1, 8);
+  return { dimensions, version, world, checksum };
 }
 
 /** The bodies of all frames, the end's included, each after its checksum was found right. */

@@ -55,9 +55,9 @@ export class Recording {
     this.#sink = openSink(options.to, (error) => this.#fail(error));
     // Attached last: where anything fails, the space is as it was.
     try {
-      const wrap = space[watch]((...frame) => this.#record(frame));
+      const { wrap, touching } = space[watch]((...frame) => this.#record(frame));
       this.#space = space;
-      this.#writer = new TraceWriter(space.dimensions, wrap);
+      this.#writer = new TraceWriter(space.dimensions, wrap, touching);
       this.#write(this.#writer.header());
     } catch (error) {
       this.#detach();

@@ -9,6 +9,7 @@ interface Applied {
   count: number;
   ids: Uint32Array | undefined;
   rules: Uint32Array | undefined;
+  groups: Uint32Array | undefined;
 }
 
 const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
@@ -35,7 +36,7 @@ export function applyFrame(space: BroadPhase<2 | 3>, frame: Frame): void {
   // Boxes with ids of their own stand in the order in which they were set, so that other ids begin anew.
   if (!before || !sameIds(before.ids, ids) || (ids && space.size !== count)) {
     space.clear();
-    before = { count: 0, ids: ids?.slice(), rules: undefined };
+    before = { count: 0, ids: ids?.slice(), rules: undefined, groups: undefined };
     applied.set(space, before);
   }
   if (!ids) space.setAll(boxes);
@@ -49,7 +50,18 @@ export function applyFrame(space: BroadPhase<2 | 3>, frame: Frame): void {
     }
   }
   if (frame.rules || before.rules) applyRules(space, frame, before);
+  if (frame.groups || before.groups) applyGroups(space, frame, before);
   before.count = count;
+}
+
+function applyGroups(space: BroadPhase<2 | 3>, { ids, groups, count }: Frame, before: Applied): void {
+  const were = before.groups;
+  for (let place = 0; place < count; place++) {
+    const group = groups?.[place] ?? 0;
+    const was = place < before.count ? (were?.[place] ?? 0) : 0;
+    if (group !== was) space.setGroup(ids ? ids[place] : place, group);
+  }
+  before.groups = groups?.slice();
 }
 
 function applyRules(space: BroadPhase<2 | 3>, { ids, rules, count }: Frame, before: Applied): void {
@@ -134,7 +146,8 @@ export function* replay(source: FrameSource, options: ReplayOptions = {}, verify
       yield result;
       continue;
     }
-    const expected = exactPairs(frame.boxes, source.dimensions, frame.ids, frame.rules, options.wrap ?? source.wrap);
+    const { ids, rules } = frame;
+    const expected = exactPairs(frame.boxes, source.dimensions, ids, rules, options.wrap ?? source.wrap, frame);
     yield { ...result, difference: differenceOf(pairKeys(space.pairs), expected) ?? null };
   }
   space.dispose();

@@ -11,6 +11,10 @@ export class TraceState {
   /** Whether any box has a rule of its own; only then there are rules. */
   ruled = false;
   rules = new Uint32Array();
+  /** Whether any box has a group. */
+  grouped = false;
+  /** Of each box, as long as there are rules. */
+  groups = new Uint32Array();
   /** Whether `rules` are kept: from the first one on. */
   #keepsRules = false;
   ids = new Uint32Array();
@@ -25,7 +29,7 @@ export class TraceState {
   /** A snapshot starts from nothing. */
   forget(): void {
     this.resize(0);
-    this.named = this.ruled = false;
+    this.named = this.ruled = this.grouped = false;
   }
 
   /** For as many boxes: new ones have their place as id, and zeros. */
@@ -59,23 +63,28 @@ export class TraceState {
 
   /** Makes room for rules, where there were none. */
   startRules(): void {
-    this.ruled = true;
     if (this.#keepsRules) return;
     this.#keepsRules = true;
     this.#meetAll(0, this.count);
   }
 
-  /** Looks whether any box has a rule of its own. */
+  /** Looks whether any box has a rule of its own, or a group. */
   lookAtRules(): void {
-    const { rules, count } = this;
+    if (!this.#keepsRules) return;
+    const { rules, groups, count } = this;
     let own = false;
     for (let k = 0; k < 3 * count && !own; k += 3) own = rules[k] !== all || rules[k + 1] !== all || rules[k + 2] !== 0;
     this.ruled = own;
+    if (this.grouped) this.grouped = groups.subarray(0, count).some((group) => group !== 0);
   }
 
   /** Places from `had` on have no rule of their own. */
   #meetAll(had: number, count: number): void {
-    if (3 * count > this.rules.length) this.rules = grown(this.rules, new Uint32Array(3 * this.ids.length));
+    if (count > this.groups.length) {
+      this.rules = grown(this.rules, new Uint32Array(3 * this.ids.length));
+      this.groups = grown(this.groups, new Uint32Array(this.ids.length));
+    }
+    this.groups.fill(0, had, count);
     for (let k = 3 * had; k < 3 * count; k += 3) {
       this.rules[k] = this.rules[k + 1] = all;
       this.rules[k + 2] = 0;

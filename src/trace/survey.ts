@@ -18,6 +18,8 @@ export interface Survey {
   rules: boolean;
   /** The size of the world along each axis, where it wraps around. */
   wrap?: readonly number[];
+  /** False where boxes that only touch are no pairs. */
+  touching?: boolean;
   /** Whether any number is no float32. */
   doubles: boolean;
   /** How many boxes a frame has. */

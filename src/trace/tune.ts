@@ -5,6 +5,7 @@
 // Machines are noisy, so every time is the fastest of several, candidates take turns, and what is far behind the best
 // is given up early. Whether a technique looks at a parameter at all is found by trying: its counters change.
 import { BroadPhase, type TechniqueName } from 'broadphase';
+import type { World } from '../watch.ts';
 import { type Frame, type FrameSource, worldOf } from './format.ts';
 import { applyFrame, begin, timeUpdate } from './replay.ts';
 import { percentile, type Summary, summarize } from './statistics.ts';
@@ -209,7 +210,7 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
     techniques: techniques.map((name) => screened.find(({ technique }) => technique === name)!).sort(byTime),
     curves,
     frames: counted(frames, describeFrames(frames, dimensions)),
-    code: codeOf(best, dimensions, source.wrap),
+    code: codeOf(best, dimensions, source),
   };
 }
 
@@ -234,7 +235,13 @@ function keepFrames(source: FrameSource): Frame[] {
     }
     const windowLength = Math.ceil(allowed / windows);
     if (allowed < source.frames && frame.index % Math.ceil(source.frames / windows) >= windowLength) continue;
-    kept.push({ ...frame, boxes: frame.boxes.slice(), ids: frame.ids?.slice(), rules: frame.rules?.slice() });
+    kept.push({
+      ...frame,
+      boxes: frame.boxes.slice(),
+      ids: frame.ids?.slice(),
+      rules: frame.rules?.slice(),
+      groups: frame.groups?.slice(),
+    });
   }
   return kept;
 }
@@ -393,11 +400,12 @@ export const isLean = (technique: TechniqueName): boolean => lean.includes(techn
 export function codeOf(
   { technique, cellSize, margin }: Candidate,
   dimensions: 2 | 3,
-  wrap?: readonly number[],
+  { wrap, touching = true }: World = {},
 ): string {
   const options = [
     dimensions === 3 ? 'dimensions: 3' : '',
     wrap ? `wrap: [${wrap.join(', ')}]` : '',
+    touching ? '' : 'touching: false',
     technique === 'auto' ? '' : `technique: '${technique}'`,
     cellSize === undefined ? '' : `cellSize: ${cellSize}`,
     margin === undefined ? '' : `margin: ${margin}`,

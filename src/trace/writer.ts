@@ -1,5 +1,6 @@
 // Writes traces: frames in, bytes out, nothing kept but the last two frames. Where the bytes go is the caller's.
 import { isFloat64Array } from '../values.ts';
+import type { Own } from '../watch.ts';
 import { ByteWriter } from './bytes.ts';
 import { crc32 } from './crc32.ts';
 import {
@@ -13,7 +14,7 @@ import {
   maxBoxes,
   ruleBits,
   rulesFlag,
-  wrapsAround,
+  worldBits,
 } from './format.ts';
 import { predict, putDistance } from './numbers.ts';
 import { all, IdSet, TraceState } from './state.ts';
@@ -42,17 +43,20 @@ export class TraceWriter {
   readonly #reruled: number[] = [];
   readonly #seen = new IdSet();
   readonly #wrap: readonly number[] | undefined;
+  readonly #touching: boolean;
 
   /**
    * @param wrap the size of the world along each axis, where it wraps around
+   * @param touching whether boxes that only touch are pairs
    * @throws RangeError for other than 2 or 3 dimensions
    */
-  constructor(dimensions: 2 | 3, wrap?: readonly number[]) {
+  constructor(dimensions: 2 | 3, wrap?: readonly number[], touching = true) {
     if (dimensions !== 2 && dimensions !== 3) throw new RangeError(`a trace has 2 or 3 dimensions, not ${dimensions}`);
     if (wrap && wrap.length !== dimensions)
       throw new RangeError(`trace: a world of ${wrap} in ${dimensions} dimensions`);
     this.dimensions = dimensions;
     this.#wrap = wrap;
+    this.#touching = touching;
     this.#state = new TraceState(dimensions);
   }
 
@@ -72,7 +76,7 @@ export class TraceWriter {
     out.bytes.set(magic);
     out.bytes[8] = formatVersion;
     out.bytes[10] = this.dimensions;
-    out.bytes[11] = this.#wrap ? wrapsAround : 0;
+    out.bytes[11] = (this.#wrap ? worldBits.wraps : 0) | (this.#touching ? 0 : worldBits.apart);
     this.#checksum = crc32(out.bytes, 0, headerBytes - 4);
     out.putUint32(headerBytes - 4, this.#checksum);
     return out.bytes.slice(0, headerBytes);
@@ -83,6 +87,7 @@ export class TraceWriter {
    * @param boxes minima then maxima, box after box
    * @param ids the id of each box; left out: 0, 1, 2, …
    * @param rules layer, mask, and marks of each box: 2 among them where it is off, any other where it is static; left out: none has a rule of its own
+   * @param own the group of each box: 0 is none; left out: none has one
    * @throws RangeError for a box that is none, for an id twice or out of range, and where lengths do not fit: nothing
    *   is written then
    *
@@ -91,7 +96,12 @@ export class TraceWriter {
    * writer.header();
    * writer.frame(Float32Array.of(9, 0, 1, 1)); // throws RangeError
    */
-  frame(boxes: Float32Array | Float64Array, ids?: ArrayLike<number>, rules?: Uint32Array): Uint8Array<ArrayBuffer> {
+  frame(
+    boxes: Float32Array | Float64Array,
+    ids?: ArrayLike<number>,
+    rules?: Uint32Array,
+    own: Own = {},
+  ): Uint8Array<ArrayBuffer> {
     const state = this.#state;
     const { width } = state;
     const count = boxes.length / width;
@@ -103,21 +113,20 @@ export class TraceWriter {
     if (rules && rules.length !== 3 * count) {
       throw new RangeError(`trace: ${rules.length} numbers of rules, expected 3 for each of ${count} boxes`);
     }
+    checkOwn('groups', own.groups, count);
     const doubles = isFloat64Array(boxes);
     const had = state.count;
     state.resize(count);
     const renamed = this.#findIds(ids);
-    // Where rules end, they become those of everybody.
-    const ruled = rules ?? (state.ruled ? everybody(count) : undefined);
-    const reruled = this.#findRules(ruled);
+    const reruled = this.#findRules(rules, own);
     const kind = this.frames === 0 ? frameKind.snapshot : frameKind.changes;
     const out = this.#begin(kind | (doubles ? doublesFlag : 0) | (reruled.length > 0 ? rulesFlag : 0));
     const wrap = this.frames === 0 ? this.#wrap : undefined;
     for (const byte of new Uint8Array(Float64Array.from(wrap ?? []).buffer)) out.byte(byte);
     out.varint(count);
     this.#writeIds(ids, renamed);
-    if (ruled && reruled.length > 0) this.#writeRules(ruled, reruled);
-    else if (ruled) state.lookAtRules();
+    if (reruled.length > 0) this.#writeRules(reruled, rules, own);
+    state.lookAtRules();
     const changed = this.#findRuns(boxes, had);
     out.varint(this.#runs.length / 2);
     for (let k = 0, end = 0; k < this.#runs.length; k += 2) {
@@ -190,40 +199,49 @@ export class TraceWriter {
   }
 
   /** The places whose rules differ from the frame before. */
-  #findRules(rules: Uint32Array | undefined): readonly number[] {
+  #findRules(rules: Uint32Array | undefined, { groups }: Own): readonly number[] {
     const state = this.#state;
     const changed = this.#reruled;
     changed.length = 0;
-    if (!rules) return changed;
+    if (!rules && !groups && !state.ruled && !state.grouped) return changed;
     state.startRules();
     const were = state.rules;
     for (let place = 0, k = 0; place < state.count; place++, k += 3) {
-      const same = were[k] === rules[k] && were[k + 1] === rules[k + 1] && were[k + 2] === marksOf(rules[k + 2]);
-      if (!same) changed.push(place);
+      // Where rules end, they become those of everybody.
+      const same = rules
+        ? were[k] === rules[k] && were[k + 1] === rules[k + 1] && were[k + 2] === marksOf(rules[k + 2])
+        : were[k] === all && were[k + 1] === all && were[k + 2] === 0;
+      if (!same || state.groups[place] !== (groups?.[place] ?? 0)) changed.push(place);
     }
     return changed;
   }
 
-  #writeRules(rules: Uint32Array, changed: readonly number[]): void {
+  #writeRules(changed: readonly number[], rules: Uint32Array | undefined, { groups }: Own): void {
     const state = this.#state;
     const out = this.#out;
     out.varint(changed.length);
     let next = 0;
     for (const place of changed) {
-      const [layer, mask, given] = rules.subarray(3 * place, 3 * place + 3);
+      const [layer, mask, given] = rules?.subarray(3 * place, 3 * place + 3) ?? [all, all, 0];
+      const group = groups?.[place] ?? 0;
       const its = marksOf(given);
       const filtered = layer !== all || mask !== all;
       out.varint(place - next);
       const still = its & marks.still ? ruleBits.still : 0;
-      out.byte(still | (its & marks.off ? ruleBits.off : 0) | (filtered ? ruleBits.filter : 0));
+      const off = its & marks.off ? ruleBits.off : 0;
+      out.byte(still | off | (filtered ? ruleBits.filter : 0) | (group !== 0 ? ruleBits.group : 0));
       if (filtered) {
         out.varint(layer);
         out.varint(mask);
       }
+      if (group !== 0) {
+        out.varint(group);
+        state.grouped = true;
+      }
       state.rules.set([layer, mask, its], 3 * place);
+      state.groups[place] = group;
       next = place + 1;
     }
-    state.lookAtRules();
   }
 
   /** Where the boxes differ from the frame before; returns how many do. All that are new count. */
@@ -276,9 +294,9 @@ export class TraceWriter {
 /** Marks as they are kept, of marks as a space has them. */
 const marksOf = (given: number): number => (given & ~marks.off ? marks.still : 0) | (given & marks.off);
 
-/** The rules of boxes that have none of their own. */
-function everybody(count: number): Uint32Array {
-  return Uint32Array.from({ length: 3 * count }, (_, k) => (k % 3 === 2 ? 0 : all));
+/** One number for each box, if any. */
+function checkOwn(name: string, numbers: ArrayLike<number> | undefined, count: number): void {
+  if (numbers && numbers.length !== count) throw new RangeError(`trace: ${numbers.length} ${name} for ${count} boxes`);
 }
 
 function checkBoxes(boxes: Float32Array | Float64Array, dimensions: number): void {

@@ -47,6 +47,9 @@ export function play(tape: Float64Array, technique: number): string {
       case calls.setEnabled:
         space.setEnabled(next(), next() === 1);
         break;
+      case calls.setGroup:
+        space.setGroup(next(), next());
+        break;
       case calls.setAll:
         space.setAll(take(next() * 2 * dimensions));
         break;

@@ -20,18 +20,22 @@ export const calls = {
   sweep: 13, // box, displacement
   collisionsOf: 14, // id
   setEnabled: 15, // id, 0 or 1
+  setGroup: 16, // id, group
 } as const;
+
+/** What a tape may have more of than the others, and how many values each call takes. */
+const extras = { setEnabled: 2, setGroup: 4 };
 
 /**
  * A tape of random calls: boxes that touch, move a little, jump, come and go, and are asked about.
- * @param switches whether they are switched off and on too
+ * @param extra what else is done with them, if anything
  */
 export function randomTape(
   dimensions: 2 | 3,
   techniques: number,
   seed: number,
   count: number,
-  switches = false,
+  extra?: keyof typeof extras,
 ): Float64Array {
   const random = createRandom(seed);
   const integer = (below: number) => Math.floor(random() * below);
@@ -62,7 +66,7 @@ export function randomTape(
     });
   };
   for (let n = 0; n < count; n++) {
-    if (switches && known.size && random() < 0.2) tape.push(calls.setEnabled, someone(), integer(2));
+    if (extra && known.size && random() < 0.2) tape.push(calls[extra], someone(), integer(extras[extra]));
     const chance = random();
     if (chance < 0.3) set(id(), fresh());
     else if (chance < 0.5 && known.size) {

@@ -8,6 +8,7 @@ export interface GivenFrame {
   ids?: number[];
   /** Layer, mask, static: for each box. */
   rules?: Uint32Array;
+  groups?: Uint32Array;
 }
 
 const place = fc.oneof(
@@ -39,18 +40,20 @@ export const someFrames = (dimensions: 2 | 3): fc.Arbitrary<GivenFrame[]> =>
         ),
         doubles: fc.boolean(),
         rules: fc.option(fc.array(aRule, { minLength: 12, maxLength: 12 })),
+        groups: fc.option(fc.array(bits, { minLength: 12, maxLength: 12 })),
       }),
       { maxLength: 8 },
     )
     .map((frames) => {
       let was: number[][] = [];
-      return frames.map(({ boxes, ids, doubles, rules }) => {
+      return frames.map(({ boxes, ids, doubles, rules, groups }) => {
         was = boxes.map(([box, stays], k) => (stays && was[k]) || box);
         const numbers = new (doubles ? Float64Array : Float32Array)(was.flat());
         return {
           boxes: numbers,
           ...(ids && { ids: ids.slice(0, was.length) }),
           ...(rules && { rules: Uint32Array.from(rules.slice(0, was.length).flat()) }),
+          ...(groups && { groups: Uint32Array.from(groups.slice(0, was.length)) }),
         };
       });
     });
@@ -59,7 +62,7 @@ export function write(dimensions: 2 | 3, frames: readonly GivenFrame[]): Uint8Ar
   const writer = new TraceWriter(dimensions);
   return concat([
     writer.header(),
-    ...frames.map(({ boxes, ids, rules }) => writer.frame(boxes, ids, rules)),
+    ...frames.map(({ boxes, ids, rules, groups }) => writer.frame(boxes, ids, rules, { groups })),
     writer.end(),
   ]);
 }
@@ -71,7 +74,17 @@ export function concat(pieces: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
 /** What a frame says, kept for comparison: bits, so that -0 is not 0. */
 export function factsOf(
   dimensions: number,
-  { boxes, ids, rules }: { boxes: Float32Array | Float64Array; ids?: unknown; rules?: Uint32Array | undefined },
+  {
+    boxes,
+    ids,
+    rules,
+    groups,
+  }: {
+    boxes: Float32Array | Float64Array;
+    ids?: unknown;
+    rules?: Uint32Array | undefined;
+    groups?: Uint32Array | undefined;
+  },
 ) {
   const count = boxes.length / (2 * dimensions);
   const named = ids ? [...(ids as ArrayLike<number> as number[])] : undefined;
@@ -79,6 +92,7 @@ export function factsOf(
     doubles: boxes instanceof Float64Array,
     numbers: [...new Uint8Array(boxes.slice().buffer)],
     rules: rules?.some((number, k) => number !== (k % 3 === 2 ? 0 : 0xffffffff)) ? [...rules] : undefined,
+    groups: groups?.some((group) => group !== 0) ? [...groups] : undefined,
     ids: named?.some((id, k) => id !== k) ? named : Array.from({ length: count }, (_, k) => k),
   };
 }

@@ -73,6 +73,7 @@ template <int D> class Player {
       case 13: return sweep();
       case 14: return partners();
       case 15: return enable();
+      case 16: return group();
       default: std::fprintf(stderr, "play: the tape has no such call\n"); std::exit(1);
     }
   }
@@ -95,6 +96,10 @@ template <int D> class Player {
   void enable() {
     u32 slot = ids_.slot(whole());
     space_.enable(slot, next() == 1);
+  }
+  void group() {
+    u32 slot = ids_.slot(whole());
+    space_.put_in_group(slot, whole());
   }
   void replace() {
     u32 count = whole();

@@ -1,0 +1,62 @@
+// A number of each box that most spaces never give: 0 until it is given, and it belongs to the id.
+// Idea: nothing is kept, and nothing costs anything, until the first box has one; then one for each slot.
+// Cost: its size, for each box there is room for.
+#pragma once
+#include "boxes/ids.hpp"
+
+template <class T> class PerBox {
+  bool some_ = false;     // some box may have one
+  bool changed_ = false;  // since the last update
+  Buffer<T> values_;      // per slot
+  Buffer<T> staged_;      // what `replace` puts in their place
+
+ public:
+  bool some() const { return some_; }
+  bool changed() const { return some_ && changed_; }
+  void updated() { changed_ = false; }
+  /// Per slot; null where no box has one.
+  const T* data() const { return some_ ? values_.data() : nullptr; }
+  T of(u32 slot) const { return some_ ? values_[slot] : T(0); }
+
+  COLD void clear() { some_ = false; }
+
+  /// Gives a slot one, with room for `capacity` of them.
+  COLD void set(u32 slot, T value, u64 capacity) {
+    if (!some_) values_.reserve(capacity);
+    for (u64 s = 0; !some_ && s < capacity; s++) values_[s] = 0;
+    some_ = changed_ = true;
+    values_[slot] = value;
+  }
+
+  /// Room for the numbers that `replace` will put in the place of all.
+  COLD T* stage(u32 count) { return staged_.reserve(larger(count, 1u)); }
+  COLD void replace() {
+    values_.swap(staged_);
+    some_ = changed_ = true;
+  }
+
+  // The slots' doings, as in Space.
+  COLD void make_room(u64 count, u32 keep) {
+    if (some_) values_.grow(count, keep);
+  }
+  u64 room() const { return values_.capacity(); }
+  COLD void insert(u32 slot) { move_in(slot, 0); }
+  COLD void move(u32 from, u32 to) { move_in(to, of(from)); }
+  COLD void renumber(const Ids& ids, u32 count) {
+    if (!some_) return;
+    Buffer<T>& moved = staged_;
+    moved.reserve(larger(count, 1u));
+    for (u32 id = 0; id < count; id++) {
+      u32 slot = ids.slot(id);
+      moved[id] = slot == Ids::none ? T(0) : values_[slot];
+    }
+    replace();
+  }
+
+ private:
+  void move_in(u32 slot, T value) {
+    if (!some_) return;
+    values_[slot] = value;
+    changed_ = true;
+  }
+};
