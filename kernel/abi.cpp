@@ -111,7 +111,13 @@ EXPORT(set_group)(u32 id, u32 group) -> u32 {
   with_space([&](auto& space) { space.put_in_group(slot, group); });
   return 1;
 }
-/// In io: layer, mask, whether it is static, whether it is enabled, and its group. 0 where there is no such box.
+EXPORT(set_reach)(u32 id, f64 distance) -> u32 {
+  u32 slot = ids.slot(id);
+  if (slot == Ids::none) return 0;
+  with_space([&](auto& space) { space.set_reach(slot, distance); });
+  return 1;
+}
+/// In io: layer, mask, whether it is static, whether it is enabled, its group and its reach. 0 where there is no such box.
 EXPORT(get_rule)(u32 id) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
@@ -122,6 +128,7 @@ EXPORT(get_rule)(u32 id) -> u32 {
     io[2] = (rule.excluded & is_static) != 0;
     io[3] = !rule.is_off();
     io[4] = space.group(slot);
+    io[5] = space.reach_of(slot);
   });
   return 1;
 }

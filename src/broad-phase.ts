@@ -836,9 +836,9 @@ export class BroadPhase<D extends Dimensions = 2> extends Pairing<D> {
 
   /**
    * What stands in the space, as bytes to go back to with `restore`, or to save: boxes as they were given, ids, their order,
-   * filters, groups, which boxes are static, the technique, and with `events: true` the pairs of the last update, and those
+   * filters, groups, reaches, which boxes are static, the technique, and with `events: true` the pairs of the last update, and those
    * that began and ended with it. Options of the constructor are not in it. A box takes 16 bytes in 2D and 24 in 3D, twice that where some box is not a
-   * float32, 4 more where ids have gaps, and 4 where a box was deleted before another, up to 9 more with filters, 4 with groups; a pair 8.
+   * float32, 4 more where ids have gaps, and 4 where a box was deleted before another, up to 9 more with filters, 4 with groups, 8 with reaches; a pair 8.
    *
    * From the first call on, and from `restore` on, the order of the pairs depends on what stands in the space alone,
    * so that a restored space gives them in the very order of the one that went on. `auto` then keeps nothing from
@@ -1010,14 +1010,17 @@ export class BroadPhase<D extends Dimensions = 2> extends Pairing<D> {
 
   #show(watcher: Watcher): void {
     this.kernel.contents();
-    const [ids, boxes, doubles, rules, groups] = this.io();
+    const [ids, boxes, doubles, rules, groups, reaches] = this.io();
     const { buffer } = this.kernel.memory;
     const length = this.size * this.width;
     watcher(
       doubles ? new Float64Array(buffer, doubles, length) : new Float32Array(buffer, boxes, length),
       ids ? new Uint32Array(buffer, ids, this.size) : undefined,
       rules ? new Uint32Array(buffer, rules, 3 * this.size) : undefined,
-      { groups: groups ? new Uint32Array(buffer, groups, this.size) : undefined },
+      {
+        groups: groups ? new Uint32Array(buffer, groups, this.size) : undefined,
+        reaches: reaches ? new Float64Array(buffer, reaches, this.size) : undefined,
+      },
     );
   }
 

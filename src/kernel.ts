@@ -28,6 +28,7 @@ export interface KernelExports {
   set_enabled(id: number, on: number): number;
   set_touching(on: number): void;
   set_group(id: number, group: number): number;
+  set_reach(id: number, distance: number): number;
   get_rule(id: number): number;
   list_ids(): number;
   contents(): void;

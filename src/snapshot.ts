@@ -22,7 +22,7 @@ export function badSnapshot(fault: number, bytes: Uint8Array, dimensions: 2 | 3,
     `got a snapshot of format ${bytes[4]}, expected at most ${newest}: it was made by a newer version of this library`,
     `got ${bytes.length} bytes, expected another number of them: the snapshot was cut off, or something is behind it`,
     'the snapshot is damaged: its checksum or its header is wrong',
-    `got a snapshot of a space with ${bytes[5]} dimensions, expected ${dimensions}`,
+    `got a snapshot of a space with ${bytes[5]! & 15} dimensions, expected ${dimensions}`,
     `got a snapshot of a space with the technique ${technique}, expected one that there is: 'broadphase/all' has all`,
     'the snapshot holds what no space holds, so it was not made by snapshot()',
   ];

@@ -16,6 +16,8 @@ export const watch: unique symbol = Symbol.for('broadphase.watch') as never;
 export interface Own {
   /** The group of each box: two boxes of one are never a pair; 0 is none. */
   readonly groups?: Uint32Array | undefined;
+  /** How far each box reaches: it is in a pair as if it were so much larger to all sides. */
+  readonly reaches?: Float64Array | undefined;
 }
 
 /**

@@ -1,5 +1,5 @@
 // A space and a plain model of it, driven together by random calls: what the tests of filters, events and queries
-// compare. The model holds each box's numbers, layer, mask, group, and whether it is static or off; its pairs are the reference's.
+// compare. The model holds each box's numbers, layer, mask, group, reach, and whether it is static or off; its pairs are the reference's.
 import { BroadPhase, type BroadPhaseOptions } from 'broadphase';
 import { createRandom } from '../src/scenes/random.ts';
 import { overlap, pairOf, referencePairs } from './reference.ts';
@@ -12,6 +12,7 @@ export interface Entry {
   isStatic: boolean;
   isOff?: boolean;
   group?: number;
+  reach?: number;
 }
 
 const all = 0xffffffff;
@@ -24,9 +25,14 @@ export const meet = (a: Entry, b: Entry): boolean =>
   (b.layer & a.mask) !== 0 &&
   !(a.isStatic && b.isStatic);
 
+/** The box of an entry with what it reaches. */
+export function grown({ box, reach = 0 }: Entry): number[] {
+  return box.map((x, k) => (k < box.length / 2 ? x - reach : x + reach));
+}
+
 /** The keys of all pairs of the entries that overlap and meet, sorted. */
 export function pairsOf(entries: ReadonlyMap<number, Entry>, dimensions: number): Float64Array {
-  const boxes = [...entries.values()].flatMap((entry) => entry.box);
+  const boxes = [...entries.values()].flatMap(grown);
   return referencePairs(boxes, dimensions, [...entries.keys()]).filter((key) => {
     const [a, b] = pairOf(key);
     return meet(entries.get(a)!, entries.get(b)!);
@@ -99,6 +105,12 @@ export class Modelled {
     if (!this.entries.has(id)) return;
     this.space.setGroup(id, group);
     this.entries.get(id)!.group = group;
+  }
+
+  setReach(id: number, reach: number): void {
+    if (!this.entries.has(id)) return;
+    this.space.setReach(id, reach);
+    this.entries.get(id)!.reach = reach;
   }
 
   setEnabled(id: number, enabled: boolean): void {

@@ -77,6 +77,16 @@ describe.each(combinations)(`%s in %d dimensions (SEED=${seed})`, (technique, di
     }
   });
 
+  test('two boxes that are nowhere along an axis only touch there, as doubles too', () => {
+    for (const x of [3, 0.1]) {
+      const space = new BroadPhase({ technique, dimensions, touching: false });
+      const low = [x, ...Array(dimensions - 1).fill(Infinity)];
+      const high = [x + 10, ...Array(dimensions - 1).fill(Infinity)];
+      for (let id = 0; id < 40; id++) setBox(space, id, [...low, ...high]);
+      expect(space.update().pairCount).toBe(0);
+    }
+  });
+
   test('a floor of tiles: none touches its neighbours, until one is a little larger', () => {
     const space = new BroadPhase({ technique, dimensions, touching: false });
     const side = dimensions === 2 ? 20 : 8;

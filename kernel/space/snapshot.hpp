@@ -1,6 +1,6 @@
 // A space as bytes, to go back to or to save: what its bytes say, and whether they are to be believed.
 // A header, then what stands in the space, in the order of the slots: the pairs of the last update, where events are
-// kept; the boxes, as float32 where that holds all of them; ids, when boxes came, layers, masks, groups and exclusion bits, each
+// kept; the boxes, as float32 where that holds all of them; ids, when boxes came, layers, masks, groups, reaches and exclusion bits, each
 // only where it says something. What techniques keep is not in it: it is built again, and the pairs and their order do not depend
 // on it. The checksum turns 8 bytes at a time into another number, each of them into a different one, so that no
 // change within 8 bytes goes unseen, and others do once in 2^64.
@@ -13,8 +13,9 @@
 /// Little endian, as WebAssembly is.
 struct SnapshotHeader {
   u32 magic;
-  u8 version;     // 2 where there are parts that 1 does not know
-  u8 dimensions;
+  u8 version;         // 2 where there are parts that 1 does not know
+  u8 dimensions : 4;
+  u8 reaches : 4;     // 1: they are a part too
   u8 parts;      // SnapshotPart
   u8 technique;  // its number, or `automatic`
   u64 checksum;  // of all bytes, with this one 0
@@ -34,7 +35,7 @@ class Snapshot {
   Buffer<u64> words_;
   SnapshotHeader head_ = {};
   // Where each part begins, in bytes.
-  u32 pairs_ = 0, boxes_ = 0, ids_ = 0, order_ = 0, layers_ = 0, masks_ = 0, groups_ = 0, bits_ = 0, end_ = 0;
+  u32 pairs_ = 0, boxes_ = 0, ids_ = 0, order_ = 0, layers_ = 0, masks_ = 0, groups_ = 0, reaches_ = 0, bits_ = 0, end_ = 0;
 
   u8* at(u64 byte) const { return reinterpret_cast<u8*>(words_.data()) + byte; }
   bool has(u8 parts) const { return head_.parts & parts; }
@@ -54,6 +55,7 @@ class Snapshot {
     layers_ = take(has(has_layers), count * sizeof(u32));
     masks_ = take(has(has_masks), count * sizeof(u32));
     groups_ = take(has(has_groups), count * sizeof(u32));
+    reaches_ = take(head_.reaches, count * sizeof(f64));
     bits_ = take(has(has_bits), count);
     place = (place + 7) & ~u64(7);
     end_ = u32(place);
@@ -80,7 +82,7 @@ class Snapshot {
 
   /// Writes all but the boxes, for which there is room then. `events`: where there are some.
   COLD void write(u32 dimensions, u8 technique, bool doubles, const Ids& ids, const Filters& filters, const u32* groups,
-                  const Events* events) {
+                  const f64* reaches, const Events* events) {
     u32 n = ids.count();
     const Rule* rules = filters.active() ? filters.rules() : nullptr;
     u32 parts = (ids.same() ? 0 : has_ids) | (ids.since() ? has_order : 0) | (doubles ? has_doubles : 0) | (events ? has_pairs : 0);
@@ -92,8 +94,10 @@ class Snapshot {
     for (u32 s = 0; groups && s < n; s++) {
       if (groups[s]) parts |= has_groups;
     }
-    u8 version = parts & has_groups ? 2 : 1;
-    head_ = {SnapshotHeader::right_magic, version, u8(dimensions), u8(parts), technique, 0, n, 0};
+    u8 reach = 0;
+    for (u32 s = 0; reaches && s < n; s++) reach |= reaches[s] > 0;
+    u8 version = reach || parts & has_groups ? 2 : 1;
+    head_ = {SnapshotHeader::right_magic, version, u8(dimensions & 15), reach, u8(parts), technique, 0, n, 0};
     if (events) head_.pairs = u32(events->count());
     if (!lay_out()) fail(Fault::out_of_memory, f64(u64(1) << 32));
     words_.reserve(end_ / sizeof(u64));
@@ -106,6 +110,7 @@ class Snapshot {
       if (has(has_layers)) store(at(layers_ + s * sizeof(u32)), rules[s].layer);
       if (has(has_masks)) store(at(masks_ + s * sizeof(u32)), rules[s].mask);
       if (has(has_groups)) store(at(groups_ + s * sizeof(u32)), groups[s]);
+      if (reach) store(at(reaches_ + s * sizeof(f64)), reaches[s]);
       if (has(has_bits)) *at(bits_ + s) = u8(rules[s].excluded >> 24 | rules[s].excluded);
     }
   }
@@ -122,7 +127,8 @@ class Snapshot {
   COLD SnapshotFault stage(const SnapshotHeader& head, u32 size, u32 dimensions, u32 built) {
     if (size < sizeof(SnapshotHeader) || head.magic != SnapshotHeader::right_magic) return SnapshotFault::foreign;
     if (head.version > SnapshotHeader::newest) return SnapshotFault::newer;
-    bool good = head.version > 0 && head.count <= max_slots && (head.version > 1 || head.parts < has_groups);
+    bool good = head.version > 0 && head.count <= max_slots && head.reaches <= 1;
+    good &= head.version > 1 || (head.parts < has_groups && !head.reaches);
     if (!good || (head.dimensions != 2 && head.dimensions != 3)) return SnapshotFault::damaged;
     head_ = head;
     if (!lay_out() || end_ != size) return SnapshotFault::length;
@@ -141,7 +147,7 @@ class Snapshot {
   }
 
   /// Looks at all but the boxes, and makes room for it; nothing changes. False where it is nothing that was written.
-  COLD bool check(Filters& filters, PerBox<u32>& groups, Events* events) const {
+  COLD bool check(Filters& filters, PerBox<u32>& groups, PerBox<f64>& reaches, Events* events) const {
     Rule* rules = has(has_layers | has_masks | has_bits) ? filters.stage(head_.count) : nullptr;
     for (u32 s = 0; rules && s < head_.count; s++) {
       rules[s].layer = has(has_layers) ? load<u32>(at(layers_ + s * sizeof(u32))) : ~0u;
@@ -151,6 +157,11 @@ class Snapshot {
       if (rules[s].excluded & ~(is_static | is_red | is_blue | Rule::off)) return false;
     }
     if (has(has_groups)) __builtin_memcpy(groups.stage(head_.count), at(groups_), head_.count * sizeof(u32));
+    f64* reach = head_.reaches ? reaches.stage(head_.count) : nullptr;
+    for (u32 s = 0; reach && s < head_.count; s++) {
+      reach[s] = load<f64>(at(reaches_ + s * sizeof(f64)));
+      if (!(reach[s] >= 0 && reach[s] < __builtin_inf())) return false;
+    }
     if (has(has_order) && !has(has_ids)) return false;
     for (u32 s = 0; has(has_order) && s < head_.count; s++) {
       if (load<u32>(at(order_ + (s + 1) * sizeof(u32))) >= load<u32>(at(order_))) return false;
@@ -166,7 +177,7 @@ class Snapshot {
   }
 
   /// Takes over all but the boxes, after `check`; false, and nothing has changed, where the ids are bad.
-  COLD bool take(Ids& ids, Filters& filters, PerBox<u32>& groups, Events* events) const {
+  COLD bool take(Ids& ids, Filters& filters, PerBox<u32>& groups, PerBox<f64>& reaches, Events* events) const {
     const u32* order = has(has_order) ? reinterpret_cast<const u32*>(at(order_)) : nullptr;
     if (!has(has_ids)) ids.reset(head_.count);
     else if (!ids.replace(reinterpret_cast<const u32*>(at(ids_)), head_.count, order ? order + 1 : nullptr, order ? *order : 0)) return false;
@@ -174,6 +185,8 @@ class Snapshot {
     if (has(has_layers | has_masks | has_bits)) filters.replace();
     groups.clear();
     if (has(has_groups)) groups.replace();
+    reaches.clear();
+    if (head_.reaches) reaches.replace();
     if (events) events->restore(reinterpret_cast<const u64*>(at(pairs_)), (boxes_ - pairs_) / sizeof(u64));
     return true;
   }

@@ -56,6 +56,9 @@ template <int D> class Space {
   Filters filters_;
   PerBox<u32> groups_;
   Buffer<u32> searched_groups_;  // where not all boxes are searched
+  PerBox<f64> reaches_;
+  Buffer<f32> grown_;        // by their reaches: the boxes that are searched, where some box has one
+  Buffer<f64> grown_exact_;  // the same as doubles, of which they are made
   Changes changes_;  // since the last update, for the technique that asks
   Wrap wrap_;
   Techniques<D> techniques_;
@@ -153,6 +156,7 @@ template <int D> class Space {
     u32 last = ids_.count();
     if (filters_.active()) filters_.move(last, slot);
     groups_.move(last, slot);
+    reaches_.move(last, slot);
     if (slot == last) return true;
     changes_.note(slot);
     __builtin_memcpy(boxes_.data() + u64(slot) * width, boxes_.data() + u64(last) * width, width * sizeof(f32));
@@ -179,6 +183,7 @@ template <int D> class Space {
     ids_.reset(0);
     filters_.clear();
     groups_.clear();
+    reaches_.clear();
     changes_.note_all();
     exposed_ = false;
     shown_count_ = 0;
@@ -187,13 +192,14 @@ template <int D> class Space {
   }
 
   /// Where everything stands, for a recorder and right after an update: the ids (0: slots), the boxes, the doubles they
-  /// were given as (0: none), the rules (0: none), the groups (0: none).
+  /// were given as (0: none), the rules (0: none), the groups and the reaches (0: none).
   COLD void contents(f64* out) const {
     out[0] = f64(u64(ids_.names()));
     out[1] = f64(u64(boxes_.data()));
     out[2] = rounding_ ? f64(u64(exact_.data())) : 0;
     out[3] = filters_.active() ? f64(u64(filters_.rules())) : 0;
     out[4] = f64(u64(groups_.data()));
+    out[5] = f64(u64(reaches_.data()));
   }
 
   /// Memory into which the next `replace` expects its boxes, as float32 or as doubles.
@@ -286,6 +292,15 @@ template <int D> class Space {
     if (group != groups_.of(slot)) groups_.set(slot, group, boxes_.capacity() / width);
   }
 
+  f64 reach_of(u32 slot) const { return reaches_.of(slot); }
+
+  /// Says how far a box reaches.
+  COLD void set_reach(u32 slot, f64 distance) {
+    if (distance == reaches_.of(slot)) return;
+    reaches_.set(slot, distance, boxes_.capacity() / width);
+    changes_.note(slot);
+  }
+
   /// Writes what stands in the space to `snapshot`. Returns the first bad id among boxes written in place, or -1.
   COLD i32 save() {
     see_shown();
@@ -296,7 +311,7 @@ template <int D> class Space {
     ordered_ = true;
     bool doubles = rounding_ && !are_floats(exact_.data(), ids_.count(), width);
     u8 used = technique == Technique::automatic ? SnapshotHeader::automatic : u8(technique);
-    snapshot.write(D, used, doubles, ids_, filters_, groups_.data(), keeps_events ? &events : nullptr);
+    snapshot.write(D, used, doubles, ids_, filters_, groups_.data(), reaches_.data(), keeps_events ? &events : nullptr);
     const void* boxes = doubles ? static_cast<const void*>(exact_.data()) : boxes_.data();
     if (ids_.count()) __builtin_memcpy(snapshot.boxes(), boxes, snapshot.box_bytes());
     snapshot.seal();
@@ -313,7 +328,7 @@ template <int D> class Space {
     if (head.count) __builtin_memcpy(staged, snapshot.boxes(), snapshot.box_bytes());
     i32 bad = doubles ? round_staged(head.count, rounded) : first_bad(staged_.data(), head.count);
     Events* kept = keeps_events ? &events : nullptr;
-    if (bad >= 0 || !snapshot.check(filters_, groups_, kept) || !snapshot.take(ids_, filters_, groups_, kept)) return SnapshotFault::content;
+    if (bad >= 0 || !snapshot.check(filters_, groups_, reaches_, kept) || !snapshot.take(ids_, filters_, groups_, reaches_, kept)) return SnapshotFault::content;
     changes_.note_all();
     take_staged(rounded);
     technique = head.technique == SnapshotHeader::automatic ? Technique::automatic : Technique(head.technique);
@@ -360,12 +375,16 @@ template <int D> class Space {
     searching_ = true;
     bool follows = chosen == Technique::incremental;
     bool wraps = options_.wrap[0] > 0;
-    Scene<D> scene{boxes_.data(), ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_};
+    bool reaches = reaches_.some();
+    if (reaches) grow();
+    const f32* boxes = reaches ? grown_.data() : boxes_.data();
+    const f64* doubles = reaches ? grown_exact_.data() : rounding_ ? exact_.data() : nullptr;
+    Scene<D> scene{boxes, ids_.count(), nullptr, follows ? &changes_ : nullptr, ordered_};
     if (filters_.active()) {
       scene.filtered = filters_.changed();
       scene.boxes = filters_.select(scene.boxes, scene.count, width);
       scene.excluded = filters_.excluded();
-      if (scene.filtered || scene.boxes != boxes_.data()) scene.changes = nullptr;
+      if (scene.filtered || scene.boxes != boxes) scene.changes = nullptr;
     }
     if (groups_.some() && !wraps) {  // ghosts have none: `part` sees to them
       scene.groups = filters_.select(groups_.data(), scene.count, searched_groups_);
@@ -373,13 +392,12 @@ template <int D> class Space {
     }
     groups_.updated();
     if (wraps) {
-      const f64* doubles = rounding_ ? exact_.data() : nullptr;
       scene.changes = nullptr;
       scene.filtered |= scene.excluded != nullptr;  // of the ghosts, too
-      scene.boxes = wrap_.unfold(scene.count, scene.excluded, filters_, boxes_.data(), doubles, options_.wrap, D);
+      scene.boxes = wrap_.unfold(scene.count, scene.excluded, filters_, boxes, doubles, options_.wrap, D);
     }
     pairs.count = pairs.doubt_count = 0;
-    pairs.watch = (rounding_ || !options_.touching) && !wraps;
+    pairs.watch = (doubles || !options_.touching) && !wraps;
     stats = Stats{};
     if (chosen != ran_) {
       release_techniques();
@@ -390,7 +408,7 @@ template <int D> class Space {
     Settings mapped = options_;
     for (u32 n = 0; options_.bounds[0] < options_.bounds[D] && n < width; n++) mapped.bounds[n] = map_.map(options_.bounds[n], n % D);
     techniques_.with(ran_, [&](auto& chosen) { chosen.update(scene, mapped, pairs, stats); });
-    bool same = pairs.same && !renamed_ && !rounding_;  // doubles may have changed below float32
+    bool same = pairs.same && !renamed_ && !doubles;  // doubles may have changed below float32
     if (filters_.active() || wraps || !ids_.same()) pairs.stable = 0;
     follow_with_index();
     if (follows) changes_.clear(ids_.count());
@@ -404,7 +422,7 @@ template <int D> class Space {
       return false;
     }
     if (wraps) wrap_.fold(pairs, options_.touching);
-    else if (pairs.watch) retest();
+    else if (pairs.watch) retest(doubles);
     if (filters_.active()) filters_.finish(pairs);
     if (groups_.some()) part();
     if (!ids_.same()) name_pairs();
@@ -691,6 +709,7 @@ template <int D> class Space {
     changes_.make_room(all);
     if (filters_.active()) filters_.make_room(all, keep);
     groups_.make_room(all, keep);
+    reaches_.make_room(all, keep);
     if (rounding_) {
       exact_.grow(all * width, u64(keep) * width);
     }
@@ -703,6 +722,7 @@ template <int D> class Space {
     all = smaller(all, u64(changes_.room()));
     if (filters_.active()) all = smaller(all, filters_.room());
     if (groups_.some()) all = smaller(all, groups_.room());
+    if (reaches_.some()) all = smaller(all, reaches_.room());
     if (rounding_) all = smaller(all, exact_.capacity() / width);
     return u32(larger(all, u64(ids_.count())));
   }
@@ -741,6 +761,7 @@ template <int D> class Space {
     renamed_ = true;
     if (filters_.active()) filters_.insert(slot);
     groups_.insert(slot);
+    reaches_.insert(slot);
     changes_.note(slot);
     return slot;
   }
@@ -888,8 +909,10 @@ template <int D> class Space {
     renamed_ = true;
     room_to_forget();
     if (groups_.some()) groups_.stage(count);
+    if (reaches_.some()) reaches_.stage(count);
     if (filters_.active()) filters_.renumber(ids_, count);
     groups_.renumber(ids_, count);
+    reaches_.renumber(ids_, count);
     forget_from(count);
     ids_.reset(count);
   }
@@ -948,8 +971,23 @@ template <int D> class Space {
     return some;
   }
 
-  /// Keeps, of the pairs in doubt, those that overlap in the numbers given.
-  COLD void retest() {
+  /// Makes the boxes that are searched where some reach beyond themselves.
+  COLD void grow() {
+    u32 n = ids_.count();
+    f32* to = grown_.reserve(u64(n) * width + padding);
+    f64* exact = grown_exact_.reserve(larger(u64(n) * width, u64(1)));
+    for (u32 s = 0; s < n; s++) {
+      f64* box = exact + u64(s) * width;
+      for (u32 k = 0; k < width; k++) {
+        f64 given = rounding_ ? exact_[u64(s) * width + k] : f64(boxes_[u64(s) * width + k]), reach = reaches_.of(s);
+        box[k] = k < D ? given - reach : given + reach;
+      }
+      round(box, to + u64(s) * width);
+    }
+  }
+
+  /// Keeps, of the pairs in doubt, those that overlap in the numbers given, or grown from these.
+  COLD void retest(const f64* doubles) {
     u64* list = pairs.list.data();
     u64 at = 0, kept = 0;
     auto keep = [&](u64 until) {
@@ -957,12 +995,12 @@ template <int D> class Space {
       kept += until - at;
       at = until;
     };
-    bool all = !(watching >> u32(ran_) & 1) || (!rounding_ && some_nowhere());
+    bool all = !(watching >> u32(ran_) & 1) || (!options_.touching && some_nowhere());
     for (u32 k = 0; k < (all ? 1 : pairs.doubt_count); k++) {
       if (!all) keep(pairs.doubts[2 * k]);
       u64 until = all ? pairs.count : pairs.doubts[2 * k + 1];
-      u64* end = rounding_ ? retest(exact_.data(), list + at, list + until, list + kept)
-                           : retest(boxes_.data(), list + at, list + until, list + kept);
+      u64* end = doubles ? retest(doubles, list + at, list + until, list + kept)
+                         : retest(boxes_.data(), list + at, list + until, list + kept);
       kept = Pairs::between(list, end);
       at = until;
     }

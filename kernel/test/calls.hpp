@@ -116,6 +116,7 @@ template <int D> class Calls {
       }
       fresh->space.enable(fresh->ids.slot(id), !rule.is_off());
       fresh->space.put_in_group(fresh->ids.slot(id), model_.group(id));
+      fresh->space.set_reach(fresh->ids.slot(id), model_.reach(id));
     }
     CHECK(fresh->space.update() == -1);
     return sorted_pairs(fresh->space);
@@ -207,6 +208,9 @@ template <int D> class Calls {
       case 8: {
         u32 group = random.below(3);
         space_.put_in_group(ids_.slot(someone), group);
+        f64 reach = random.below(3) == 0 ? 0.25 * random.below(8) : 0;
+        space_.set_reach(ids_.slot(someone), reach);
+        model_.set_reach(someone, reach);
         return model_.put_in_group(someone, group);
       }
       case 0: return set(model_.count(), box);
@@ -370,6 +374,7 @@ template <int D> class Calls {
     if (model_.count() == 0) return;
     u32 id = someone();
     if (made([&] { own.give(space_, ids_.slot(id)); })) model_.put_in_group(id, own.group);
+    if (made([&] { own.give_reach(space_, ids_.slot(id)); })) model_.set_reach(id, own.reach);
   }
 
   u32 someone() {
@@ -451,6 +456,7 @@ template <int D> class Calls {
       for (u32 bit : {u32(is_static), u32(is_red), u32(is_blue)}) space_.exclude(ids_.slot(id), bit, false);
       space_.enable(ids_.slot(id), true);
       space_.put_in_group(ids_.slot(id), 0);
+      space_.set_reach(ids_.slot(id), 0);
     }
     CHECK(space_.update() == -1);
     updated_ = true;
@@ -725,6 +731,7 @@ template <int D> class Calls {
       Box<D> held;
       same &= space_.get(id, held.data()) && held == model_.at(id);
       same &= space_.group(ids_.slot(id)) == model_.group(id);
+      same &= space_.reach_of(ids_.slot(id)) == model_.reach(id);
     }
     CHECK(same);
     u32 other = id();

@@ -50,6 +50,7 @@ template <int D> class Model {
     Box<D> box = {};
     Rule rule{~0u, ~0u, 0};
     u32 group = 0;
+    f64 reach = 0;
   };
   std::map<u32, Entry> entries_;
   std::set<u32> gone_;  // deleted since the last update
@@ -82,6 +83,17 @@ template <int D> class Model {
   void clear() { renumber(0); }
   const Rule& rule(u32 id) const { return entries_.at(id).rule; }
   u32 group(u32 id) const { return entries_.at(id).group; }
+  f64 reach(u32 id) const { return entries_.at(id).reach; }
+  void set_reach(u32 id, f64 distance) { entries_.at(id).reach = distance; }
+  /// A box with what it reaches.
+  Box<D> grown(u32 id) const {
+    Box<D> box = at(id);
+    for (u32 a = 0; a < D; a++) {
+      box[a] -= reach(id);
+      box[D + a] += reach(id);
+    }
+    return box;
+  }
   void put_in_group(u32 id, u32 group) { entries_.at(id).group = group; }
   bool is_gone(u64 pair) const { return !gone_.empty() && (gone_.count(u32(pair)) || gone_.count(u32(pair >> 32))); }
   void updated() { gone_.clear(); }
@@ -111,7 +123,8 @@ template <int D> class Model {
     std::vector<Rule> rules;
     for (const auto& [id, entry] : entries_) {
       ids.push_back(id);
-      boxes.insert(boxes.end(), entry.box.begin(), entry.box.end());
+      Box<D> box = grown(id);
+      boxes.insert(boxes.end(), box.begin(), box.end());
       rules.push_back(entry.rule);
     }
     PairList found;
@@ -120,7 +133,7 @@ template <int D> class Model {
       u32 count = meet_before(k, boxes.data(), rules.data(), partners.data());
       for (u32 n = 0; n < count; n++) {
         u32 other = ids[partners[n]], its = group(other);
-        if (!touching && !overlap(at(other).data(), at(ids[k]).data(), D, false)) continue;
+        if (!touching && !overlap(grown(other).data(), grown(ids[k]).data(), D, false)) continue;
         if (its == 0 || its != group(ids[k])) found.push_back(other | u64(ids[k]) << 32);
       }
     }

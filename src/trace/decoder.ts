@@ -11,9 +11,10 @@ export class FrameDecoder {
   /** The ids of all boxes, and how many of them are not their place. */
   readonly #taken = new IdSet();
   #named = 0;
-  /** How many boxes have a rule of their own, and how many a group. */
+  /** How many boxes have a rule of their own, a group, a reach. */
   #ruled = 0;
   #grouped = 0;
+  #reaching = 0;
   /** The boxes once more as float32. */
   #floats = new Float32Array();
   /** Where boxes changed in the last frame: from, until, from, until, … */
@@ -94,6 +95,7 @@ export class FrameDecoder {
     if (flags & rulesFlag) this.#readRules(cursor, rulesAt);
     state.ruled = this.#ruled > 0;
     state.grouped = this.#grouped > 0;
+    state.reaching = this.#reaching > 0;
     cursor.at = sizesAt + (changed * width) / 2;
     this.#readNumbers(cursor, runsAt, sizesAt, doubles, had);
     this.#finish(cursor);
@@ -101,8 +103,9 @@ export class FrameDecoder {
     const ids = state.named ? state.ids.subarray(0, count) : undefined;
     const rules = state.ruled ? state.rules.subarray(0, 3 * count) : undefined;
     const groups = state.grouped ? state.groups.subarray(0, count) : undefined;
+    const reaches = state.reaching ? state.reaches.subarray(0, count) : undefined;
     const { wrap, touching } = this;
-    return { index: this.#index++, count, ids, rules, groups, wrap, touching, boxes, changed };
+    return { index: this.#index++, count, ids, rules, groups, reaches, wrap, touching, boxes, changed };
   }
 
   /** Boxes from this place on go. */
@@ -116,9 +119,10 @@ export class FrameDecoder {
 
   /** Adds to the counts of what boxes have of their own, or takes away. */
   #countRule(place: number, more: 1 | -1): void {
-    const { rules, groups } = this.#state;
+    const { rules, groups, reaches } = this.#state;
     if (isOwn(rules, place)) this.#ruled += more;
     if (groups[place] !== 0) this.#grouped += more;
+    if (reaches[place] !== 0) this.#reaching += more;
   }
 
   #drop(place: number): void {
@@ -173,6 +177,7 @@ export class FrameDecoder {
       state.rules[3 * place + 1] = filtered ? cursor.varint('', all) : all;
       state.rules[3 * place + 2] = (bits & ruleBits.still ? marks.still : 0) | (bits & ruleBits.off ? marks.off : 0);
       state.groups[place] = bits & ruleBits.group ? cursor.varint('', all) : 0;
+      state.reaches[place] = bits & ruleBits.reach ? readReach(cursor) : 0;
       this.#countRule(place, 1);
     }
   }
@@ -238,7 +243,18 @@ export class FrameDecoder {
 const isOwn = (rules: Uint32Array, place: number): boolean =>
   rules[3 * place] !== all || rules[3 * place + 1] !== all || rules[3 * place + 2] !== 0;
 
-const knownBits = ruleBits.still | ruleBits.filter | ruleBits.off | ruleBits.group;
+const knownBits = ruleBits.still | ruleBits.filter | ruleBits.off | ruleBits.group | ruleBits.reach;
+
+/** A double that is a reach. */
+function readReach(cursor: Cursor): number {
+  for (let k = 0; k < 8; k++) reachBytes[k] = cursor.byte('a reach');
+  const [reach] = reachNumber;
+  if (!(reach >= 0 && reach < Number.POSITIVE_INFINITY))
+    cursor.fail(`a reach of ${reach}, expected finite, at least 0`);
+  return reach;
+}
+const reachNumber = new Float64Array(1);
+const reachBytes = new Uint8Array(reachNumber.buffer);
 
 /** Looks whether a list of new ids is sound. */
 function skipIds(cursor: Cursor, count: number): void {
@@ -266,6 +282,7 @@ function skipRules(cursor: Cursor, count: number): void {
       cursor.varint('a mask', all);
     }
     if (bits & ruleBits.group) cursor.varint('a group', all);
+    if (bits & ruleBits.reach) readReach(cursor);
     next = place + 1;
   }
 }

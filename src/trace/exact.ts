@@ -7,17 +7,17 @@ const idLimit = 2 ** 24;
 
 /**
  * The pairs of closed boxes that overlap and may meet. Box k has the id `ids[k]`, or k; `rules` are those of
- * {@link Frame.rules}, `own` has its groups, and says
+ * {@link Frame.rules}, `own` has its groups and reaches, and says
  * whether boxes that only touch are pairs. In a world that wraps around every two boxes are looked at.
  *
- * @param boxes minima then maxima, box after box
+ * @param given minima then maxima, box after box
  * @returns the sorted set of pairs, one number for each: the smaller id times 2^24, plus the larger
  *
  * @example
  * exactPairs([0, 0, 10, 10, 5, 5, 15, 15], 2); // → Float64Array [1]
  */
 export function exactPairs(
-  boxes: ArrayLike<number>,
+  given: ArrayLike<number>,
   dimensions: 2 | 3,
   ids?: ArrayLike<number>,
   rules?: ArrayLike<number>,
@@ -26,6 +26,7 @@ export function exactPairs(
 ): Float64Array {
   const apart = (a: number, b: number) => (rules && !mayMeet(rules, 3 * a, 3 * b)) || areOne(own.groups, a, b);
   const closed = own.touching ?? true;
+  const boxes = own.reaches ? grownBy(own.reaches, given, dimensions) : given;
   if (wrap) return wrappedPairs(boxes, wrap, ids, apart, closed);
   const width = 2 * dimensions;
   const count = boxes.length / width;
@@ -150,6 +151,13 @@ function mayMeet(rules: ArrayLike<number>, a: number, b: number): boolean {
   const off = (rules[a + 2] | rules[b + 2]) & marks.off;
   return filtered && !off && !(rules[a + 2] & rules[b + 2] & marks.still);
 }
+
+/** Boxes larger by their reaches. */
+const grownBy = (reaches: ArrayLike<number>, boxes: ArrayLike<number>, dimensions: number): Float64Array =>
+  Float64Array.from(boxes, (x, k) => {
+    const reach = reaches[Math.floor(k / (2 * dimensions))];
+    return k % (2 * dimensions) < dimensions ? x - reach : x + reach;
+  });
 
 /** Whether two boxes are of one group. */
 const areOne = (groups: ArrayLike<number> | undefined, a: number, b: number): boolean =>

@@ -29,8 +29,8 @@ export const rulesFlag = 0x20;
  */
 export const worldBits = { wraps: 1, apart: 2 } as const;
 
-/** What a rule says: that a box is static, that a layer and a mask follow, that it is off, and that its group follows. */
-export const ruleBits = { still: 1, filter: 2, off: 4, group: 8 } as const;
+/** What a rule says: that a box is static, that a layer and a mask follow, that it is off, that its group and that its reach follow. */
+export const ruleBits = { still: 1, filter: 2, off: 4, group: 8, reach: 16 } as const;
 
 /** What the third number of a rule says: that a box is static, and that it is off. */
 export const marks = { still: 1, off: 2 } as const;
@@ -39,7 +39,7 @@ export const marks = { still: 1, off: 2 } as const;
 export const maxBoxes = 2 ** 24;
 
 /** No body is longer: every box new, in 3D, all numbers doubles of 8 bytes, its id and its rule. */
-export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10 + 16 + 5) + 64 + 24;
+export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10 + 16 + 5 + 8) + 64 + 24;
 
 /**
  * A trace that cannot be read: what is wrong, and where.

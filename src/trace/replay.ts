@@ -10,6 +10,7 @@ interface Applied {
   ids: Uint32Array | undefined;
   rules: Uint32Array | undefined;
   groups: Uint32Array | undefined;
+  reaches: Float64Array | undefined;
 }
 
 const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
@@ -36,7 +37,7 @@ export function applyFrame(space: BroadPhase<2 | 3>, frame: Frame): void {
   // Boxes with ids of their own stand in the order in which they were set, so that other ids begin anew.
   if (!before || !sameIds(before.ids, ids) || (ids && space.size !== count)) {
     space.clear();
-    before = { count: 0, ids: ids?.slice(), rules: undefined, groups: undefined };
+    before = { count: 0, ids: ids?.slice(), rules: undefined, groups: undefined, reaches: undefined };
     applied.set(space, before);
   }
   if (!ids) space.setAll(boxes);
@@ -50,18 +51,30 @@ export function applyFrame(space: BroadPhase<2 | 3>, frame: Frame): void {
     }
   }
   if (frame.rules || before.rules) applyRules(space, frame, before);
-  if (frame.groups || before.groups) applyGroups(space, frame, before);
+  if (frame.groups || before.groups) {
+    applyEach(frame, frame.groups, before, before.groups, (id, group) => space.setGroup(id, group));
+    before.groups = frame.groups?.slice();
+  }
+  if (frame.reaches || before.reaches) {
+    applyEach(frame, frame.reaches, before, before.reaches, (id, reach) => space.setReach(id, reach));
+    before.reaches = frame.reaches?.slice();
+  }
   before.count = count;
 }
 
-function applyGroups(space: BroadPhase<2 | 3>, { ids, groups, count }: Frame, before: Applied): void {
-  const were = before.groups;
+/** Gives each box the number it has of its own where that is another than before; without one it is 0. */
+function applyEach(
+  { ids, count }: Frame,
+  now: ArrayLike<number> | undefined,
+  before: Applied,
+  were: ArrayLike<number> | undefined,
+  give: (id: number, value: number) => void,
+): void {
   for (let place = 0; place < count; place++) {
-    const group = groups?.[place] ?? 0;
+    const value = now?.[place] ?? 0;
     const was = place < before.count ? (were?.[place] ?? 0) : 0;
-    if (group !== was) space.setGroup(ids ? ids[place] : place, group);
+    if (value !== was) give(ids ? ids[place] : place, value);
   }
-  before.groups = groups?.slice();
 }
 
 function applyRules(space: BroadPhase<2 | 3>, { ids, rules, count }: Frame, before: Applied): void {

@@ -15,6 +15,9 @@ export class TraceState {
   grouped = false;
   /** Of each box, as long as there are rules. */
   groups = new Uint32Array();
+  /** Whether any box has a reach; and of each box, as long as there are rules. */
+  reaching = false;
+  reaches = new Float64Array();
   /** Whether `rules` are kept: from the first one on. */
   #keepsRules = false;
   ids = new Uint32Array();
@@ -29,7 +32,7 @@ export class TraceState {
   /** A snapshot starts from nothing. */
   forget(): void {
     this.resize(0);
-    this.named = this.ruled = this.grouped = false;
+    this.named = this.ruled = this.grouped = this.reaching = false;
   }
 
   /** For as many boxes: new ones have their place as id, and zeros. */
@@ -68,14 +71,15 @@ export class TraceState {
     this.#meetAll(0, this.count);
   }
 
-  /** Looks whether any box has a rule of its own, or a group. */
+  /** Looks whether any box has a rule of its own, a group, or a reach. */
   lookAtRules(): void {
     if (!this.#keepsRules) return;
-    const { rules, groups, count } = this;
+    const { rules, groups, reaches, count } = this;
     let own = false;
     for (let k = 0; k < 3 * count && !own; k += 3) own = rules[k] !== all || rules[k + 1] !== all || rules[k + 2] !== 0;
     this.ruled = own;
     if (this.grouped) this.grouped = groups.subarray(0, count).some((group) => group !== 0);
+    if (this.reaching) this.reaching = reaches.subarray(0, count).some((reach) => reach !== 0);
   }
 
   /** Places from `had` on have no rule of their own. */
@@ -83,8 +87,10 @@ export class TraceState {
     if (count > this.groups.length) {
       this.rules = grown(this.rules, new Uint32Array(3 * this.ids.length));
       this.groups = grown(this.groups, new Uint32Array(this.ids.length));
+      this.reaches = grown(this.reaches, new Float64Array(this.ids.length));
     }
     this.groups.fill(0, had, count);
+    this.reaches.fill(0, had, count);
     for (let k = 3 * had; k < 3 * count; k += 3) {
       this.rules[k] = this.rules[k + 1] = all;
       this.rules[k + 2] = 0;

@@ -241,6 +241,7 @@ function keepFrames(source: FrameSource): Frame[] {
       ids: frame.ids?.slice(),
       rules: frame.rules?.slice(),
       groups: frame.groups?.slice(),
+      reaches: frame.reaches?.slice(),
     });
   }
   return kept;

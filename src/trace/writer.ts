@@ -87,7 +87,7 @@ export class TraceWriter {
    * @param boxes minima then maxima, box after box
    * @param ids the id of each box; left out: 0, 1, 2, …
    * @param rules layer, mask, and marks of each box: 2 among them where it is off, any other where it is static; left out: none has a rule of its own
-   * @param own the group of each box: 0 is none; left out: none has one
+   * @param own the group of each box, 0 where it is in none, and how far it reaches; left out: all are 0
    * @throws RangeError for a box that is none, for an id twice or out of range, and where lengths do not fit: nothing
    *   is written then
    *
@@ -114,6 +114,7 @@ export class TraceWriter {
       throw new RangeError(`trace: ${rules.length} numbers of rules, expected 3 for each of ${count} boxes`);
     }
     checkOwn('groups', own.groups, count);
+    checkOwn('reaches', own.reaches, count);
     const doubles = isFloat64Array(boxes);
     const had = state.count;
     state.resize(count);
@@ -199,11 +200,11 @@ export class TraceWriter {
   }
 
   /** The places whose rules differ from the frame before. */
-  #findRules(rules: Uint32Array | undefined, { groups }: Own): readonly number[] {
+  #findRules(rules: Uint32Array | undefined, { groups, reaches }: Own): readonly number[] {
     const state = this.#state;
     const changed = this.#reruled;
     changed.length = 0;
-    if (!rules && !groups && !state.ruled && !state.grouped) return changed;
+    if (!(rules || groups || reaches || state.ruled || state.grouped || state.reaching)) return changed;
     state.startRules();
     const were = state.rules;
     for (let place = 0, k = 0; place < state.count; place++, k += 3) {
@@ -211,12 +212,13 @@ export class TraceWriter {
       const same = rules
         ? were[k] === rules[k] && were[k + 1] === rules[k + 1] && were[k + 2] === marksOf(rules[k + 2])
         : were[k] === all && were[k + 1] === all && were[k + 2] === 0;
-      if (!same || state.groups[place] !== (groups?.[place] ?? 0)) changed.push(place);
+      const own = state.groups[place] === (groups?.[place] ?? 0) && state.reaches[place] === (reaches?.[place] ?? 0);
+      if (!(same && own)) changed.push(place);
     }
     return changed;
   }
 
-  #writeRules(changed: readonly number[], rules: Uint32Array | undefined, { groups }: Own): void {
+  #writeRules(changed: readonly number[], rules: Uint32Array | undefined, { groups, reaches }: Own): void {
     const state = this.#state;
     const out = this.#out;
     out.varint(changed.length);
@@ -224,12 +226,14 @@ export class TraceWriter {
     for (const place of changed) {
       const [layer, mask, given] = rules?.subarray(3 * place, 3 * place + 3) ?? [all, all, 0];
       const group = groups?.[place] ?? 0;
+      const reach = reaches?.[place] ?? 0;
       const its = marksOf(given);
       const filtered = layer !== all || mask !== all;
       out.varint(place - next);
       const still = its & marks.still ? ruleBits.still : 0;
       const off = its & marks.off ? ruleBits.off : 0;
-      out.byte(still | off | (filtered ? ruleBits.filter : 0) | (group !== 0 ? ruleBits.group : 0));
+      const more = (group !== 0 ? ruleBits.group : 0) | (reach !== 0 ? ruleBits.reach : 0);
+      out.byte(still | off | (filtered ? ruleBits.filter : 0) | more);
       if (filtered) {
         out.varint(layer);
         out.varint(mask);
@@ -238,8 +242,13 @@ export class TraceWriter {
         out.varint(group);
         state.grouped = true;
       }
+      if (reach !== 0) {
+        for (const byte of new Uint8Array(Float64Array.of(reach).buffer)) out.byte(byte);
+        state.reaching = true;
+      }
       state.rules.set([layer, mask, its], 3 * place);
       state.groups[place] = group;
+      state.reaches[place] = reach;
       next = place + 1;
     }
   }

@@ -9,6 +9,7 @@ export interface GivenFrame {
   /** Layer, mask, static: for each box. */
   rules?: Uint32Array;
   groups?: Uint32Array;
+  reaches?: Float64Array;
 }
 
 const place = fc.oneof(
@@ -27,6 +28,7 @@ const aBox = (dimensions: number) =>
   });
 
 const bits = fc.constantFrom(0, 1, 2, 5, 0xffffffff);
+const aReach = fc.constantFrom(0, 0, 1, 0.1, 1e300, 5e-324);
 const aRule = fc.oneof(fc.constant([0xffffffff, 0xffffffff, 0]), fc.tuple(bits, bits, fc.integer({ min: 0, max: 1 })));
 
 /** Frames that follow from each other: some boxes stay, the others are replaced; doubles and floats take turns. */
@@ -41,12 +43,13 @@ export const someFrames = (dimensions: 2 | 3): fc.Arbitrary<GivenFrame[]> =>
         doubles: fc.boolean(),
         rules: fc.option(fc.array(aRule, { minLength: 12, maxLength: 12 })),
         groups: fc.option(fc.array(bits, { minLength: 12, maxLength: 12 })),
+        reaches: fc.option(fc.array(aReach, { minLength: 12, maxLength: 12 })),
       }),
       { maxLength: 8 },
     )
     .map((frames) => {
       let was: number[][] = [];
-      return frames.map(({ boxes, ids, doubles, rules, groups }) => {
+      return frames.map(({ boxes, ids, doubles, rules, groups, reaches }) => {
         was = boxes.map(([box, stays], k) => (stays && was[k]) || box);
         const numbers = new (doubles ? Float64Array : Float32Array)(was.flat());
         return {
@@ -54,6 +57,7 @@ export const someFrames = (dimensions: 2 | 3): fc.Arbitrary<GivenFrame[]> =>
           ...(ids && { ids: ids.slice(0, was.length) }),
           ...(rules && { rules: Uint32Array.from(rules.slice(0, was.length).flat()) }),
           ...(groups && { groups: Uint32Array.from(groups.slice(0, was.length)) }),
+          ...(reaches && { reaches: Float64Array.from(reaches.slice(0, was.length)) }),
         };
       });
     });
@@ -62,7 +66,7 @@ export function write(dimensions: 2 | 3, frames: readonly GivenFrame[]): Uint8Ar
   const writer = new TraceWriter(dimensions);
   return concat([
     writer.header(),
-    ...frames.map(({ boxes, ids, rules, groups }) => writer.frame(boxes, ids, rules, { groups })),
+    ...frames.map(({ boxes, ids, rules, ...own }) => writer.frame(boxes, ids, rules, own)),
     writer.end(),
   ]);
 }
@@ -79,11 +83,13 @@ export function factsOf(
     ids,
     rules,
     groups,
+    reaches,
   }: {
     boxes: Float32Array | Float64Array;
     ids?: unknown;
     rules?: Uint32Array | undefined;
     groups?: Uint32Array | undefined;
+    reaches?: Float64Array | undefined;
   },
 ) {
   const count = boxes.length / (2 * dimensions);
@@ -93,6 +99,7 @@ export function factsOf(
     numbers: [...new Uint8Array(boxes.slice().buffer)],
     rules: rules?.some((number, k) => number !== (k % 3 === 2 ? 0 : 0xffffffff)) ? [...rules] : undefined,
     groups: groups?.some((group) => group !== 0) ? [...groups] : undefined,
+    reaches: reaches?.some((reach) => reach !== 0) ? [...reaches] : undefined,
     ids: named?.some((id, k) => id !== k) ? named : Array.from({ length: count }, (_, k) => k),
   };
 }

@@ -93,8 +93,8 @@ function checksumBefore(dimensions: 2 | 3, frames: GivenFrame[]): number {
   const writer = new TraceWriter(dimensions);
   const header = writer.header();
   let checksum = new DataView(header.buffer).getUint32(12, true);
-  for (const { boxes, ids, rules, groups } of frames) {
-    checksum = new DataView(writer.frame(boxes, ids, rules, { groups }).buffer).getUint32(4, true);
+  for (const { boxes, ids, rules, ...own } of frames) {
+    checksum = new DataView(writer.frame(boxes, ids, rules, own).buffer).getUint32(4, true);
   }
   return checksum;
 }
@@ -193,7 +193,8 @@ describe('errors say where', () => {
       'the number of new rules is 1, expected at most 0',
     ],
     ['a rule of a place that is not', [0x21, 2, 0, 1, 2, 1, 0], 'a rule for place 2 of 2'],
-    ['a rule of unknown kind', [0x21, 2, 0, 1, 0, 16, 0], 'a rule of unknown kind 16'],
+    ['a rule of unknown kind', [0x21, 2, 0, 1, 0, 32, 0], 'a rule of unknown kind 32'],
+    ['a reach below 0', [0x21, 2, 0, 1, 0, 16, 0, 0, 0, 0, 0, 0, 0xf0, 0xbf, 0], 'a reach of -1'],
     ['a group of more than 32 bits', [0x21, 2, 0, 1, 0, 8, 255, 255, 255, 255, 127, 0], 'a group is 34359738367'],
     ['a layer of more than 32 bits', [0x21, 2, 0, 1, 0, 2, 255, 255, 255, 255, 127, 1, 0], 'a layer is 34359738367'],
     ['an unknown kind', [7], 'unknown kind'],
