@@ -961,12 +961,12 @@ template <int D> class Space {
     return -1;
   }
 
-  /// Whether some box is nowhere along an axis, as float32: differences of its bounds are no numbers, and doubts may go
-  /// unnoticed.
-  COLD bool some_nowhere() const {
+  /// Whether some box is nowhere along an axis: the difference of its bounds is no number, or, where they were rounded,
+  /// infinite, so that doubts go unnoticed.
+  template <class T> NOINLINE bool some_nowhere(const T* boxes) const {
     bool some = false;
     for (u64 k = 0; k < u64(ids_.count()) * width; k += width) {
-      for (u32 a = 0; a < D; a++) some |= boxes_[k + a] == __builtin_inff() || boxes_[k + D + a] == -__builtin_inff();
+      for (u32 a = 0; a < D; a++) some |= boxes[k + a] == __builtin_inff() || boxes[k + D + a] == -__builtin_inff();
     }
     return some;
   }
@@ -995,7 +995,8 @@ template <int D> class Space {
       kept += until - at;
       at = until;
     };
-    bool all = !(watching >> u32(ran_) & 1) || (!options_.touching && some_nowhere());
+    bool all = !(watching >> u32(ran_) & 1);
+    if (!options_.touching) all |= doubles ? some_nowhere(doubles) : some_nowhere(boxes_.data());
     for (u32 k = 0; k < (all ? 1 : pairs.doubt_count); k++) {
       if (!all) keep(pairs.doubts[2 * k]);
       u64 until = all ? pairs.count : pairs.doubts[2 * k + 1];
