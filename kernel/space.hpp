@@ -8,6 +8,7 @@
 #pragma once
 #include "auto.hpp"
 #include "bulk.hpp"
+#include "changed_ids.hpp"
 #include "events.hpp"
 #include "filters.hpp"
 #include "gap_map.hpp"
@@ -83,6 +84,7 @@ template <int D> class Space {
   Buffer<u32> answers;  // ids, of the last question
   Hits hits;            // where the question asks for an order
   Bulk<D> bulk;         // many questions, and their answers
+  ChangedIds changed;   // for who keeps pairs with another space
   Stats stats;
   Buffer<f32> cells;  // what structure() has written
   u32 cell_count = 0;
@@ -144,6 +146,7 @@ template <int D> class Space {
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
     if (keeps_events) events.make_room(id);
+    changed.remove(id);
     ids_.erase(id);
     renamed_ = true;
     if (keeps_events) events.forget(id);
@@ -422,6 +425,7 @@ template <int D> class Space {
   COLD u32 ask_area(u32& from, u32 most) {
     if (lost_) return unknown;
     if (!can_answer()) return 0;
+    if (index_.world()) question.wrap(index_.world());
     Queries<D> queries(index_, question);
     u32 found = queries.area(from, most, answers);
     index_.looked_at(queries.looks());
@@ -443,6 +447,7 @@ template <int D> class Space {
   COLD u32 ask_order(bool moving, u32 most, const Hit* after) {
     if (lost_) return unknown;
     if (!can_answer()) return 0;
+    if (index_.world()) question.wrap(index_.world());
     hits.begin(most, question.limit, after);
     Queries<D> queries(index_, question);
     if (moving) queries.cast(hits);
@@ -466,6 +471,16 @@ template <int D> class Space {
     }
     return count;
   }
+
+  /// From now on the ids are kept that have changed, and what the last update saw. Returns their epoch, or `unknown`.
+  COLD u32 keep_changes() {
+    if (lost_) return unknown;
+    asked_ = true;
+    if (!holds_) see();
+    return changed.keep();
+  }
+  /// What the last update saw.
+  const Index<D>& seen() const { return index_; }
 
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
   /// all finite boxes.
@@ -498,6 +513,7 @@ template <int D> class Space {
   COLD void recover() {
     release_techniques();
     changes_.note_all();
+    changed.note_all();
     pairs.stable = 0;
     if (searching_) {
       pairs.list.release();
@@ -624,27 +640,30 @@ template <int D> class Space {
 
   /// Before a change: what the last update saw is kept, once.
   COLD void hold(u32 most = spared) {
-    if (options_.wrap[0] > 0) return;  // no questions there
     if (asked_ || ids_.count() <= most) see();
     else lost_ = holds_ = true;  // holds_: so that it is not asked for again
   }
 
   /// After an update, while its changes are known.
   COLD void follow_with_index() {
-    if (options_.wrap[0] > 0) return;
+    changed.note(changes_.all(), changes_.list(), changes_.count(), ids_.count(), [&](u32 slot) { return ids_.id(slot); });
     const f64* exact = rounding_ ? exact_.data() : nullptr;
     const Rule* rules = filters_.active() ? filters_.rules() : nullptr;
     u32 few = larger(ids_.count() / 32, 8u);  // more are dearer to follow than the index is to make
     holds_ = holds_ && !changes_.all() && changes_.count() <= few &&
-             index_.follow(boxes_.data(), exact, ids_, rules, changes_.list(), changes_.count());
+             index_.follow(boxes_.data(), exact, ids_, rules, changes_.list(), changes_.count(), world());
     // Who writes in place does not say when.
     if (exposed_ && !holds_ && (asked_ || ids_.count() <= spared_in_place)) see();
   }
 
+  /// The size of the world, where it wraps around.
+  const f64* world() const { return options_.wrap[0] > 0 ? options_.wrap : nullptr; }
+
   /// The index takes over what stands in the space.
   COLD void see() {
     see_shown();
-    index_.see(boxes_.data(), rounding_ ? exact_.data() : nullptr, ids_, filters_.active() ? filters_.rules() : nullptr);
+    const Rule* rules = filters_.active() ? filters_.rules() : nullptr;
+    index_.see(boxes_.data(), rounding_ ? exact_.data() : nullptr, ids_, rules, world());
     holds_ = true;
   }
 

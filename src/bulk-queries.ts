@@ -1,6 +1,6 @@
 // Many questions in one call: numbers of all of them in, the answers of all of them out, in typed arrays.
 // The kernel answers them (kernel/bulk.hpp); here they are checked, and the answers copied.
-import { isNumber, known, limitAt, noQueries, number, point2, point3 } from './answers.ts';
+import { isNumber, known, limitAt, number, point2, point3, tooFar } from './answers.ts';
 import type { Dimensions } from './dimensions.ts';
 import {
   badId,
@@ -203,7 +203,6 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
     options: Options | undefined,
     most = 1,
   ): Answer {
-    if (this.wraps) noQueries(where);
     checkNumberArray(where, numbers);
     const { length } = numbers;
     const count = length / names.length;
@@ -217,6 +216,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
     const { ignoreEach, maxDistance = Number.POSITIVE_INFINITY, out } = options ?? {};
     const mask = maskOf(where, options);
     checkDistance(`${where}: maxDistance`, maxDistance);
+    this.#checkFar(where, kind, numbers, maxDistance);
     if (ignoreEach !== undefined) checkIgnored(where, ignoreEach, count);
     if (out !== undefined) checkAnswer(where, out, parts);
     try {
@@ -232,6 +232,24 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
       return this.#collect(kind, asked, parts, out);
     } catch (error) {
       this.recover(error, where);
+    }
+  }
+
+  /** In a world that wraps around: rays and ways do not lead through too many. */
+  #checkFar(where: string, kind: number, numbers: ArrayLike<number>, maxDistance: number): void {
+    const most = this.farthest;
+    if (most === Number.POSITIVE_INFINITY) return;
+    if (kind === kinds.ray && maxDistance > most && maxDistance < Number.POSITIVE_INFINITY) {
+      tooFar(`${where}: maxDistance`, maxDistance, most);
+    }
+    const each = this.width + this.dimensions;
+    for (
+      let k = this.width;
+      kind === kinds.way && k < numbers.length;
+      k += k % each === each - 1 ? this.width + 1 : 1
+    ) {
+      if (Math.abs(numbers[k]!) > most)
+        tooFar(`${where}: question ${Math.floor(k / each)}: the way`, numbers[k]!, most);
     }
   }
 
