@@ -20,11 +20,19 @@ export const calls = {
   sweep: 13, // box, displacement
   collisionsOf: 14, // id
   setEnabled: 15, // id, 0 or 1
+  many: 16, // kind, as kernel/bulk.hpp counts, k, count, numbers of so many questions
 } as const;
+
+/** Numbers of a question of each kind, as kernel/bulk.hpp counts them. */
+export const manyNumbers = {
+  2: [2, 4, 6, 4, 4, 2, 3, 0],
+  3: [3, 6, 9, 6, 6, 3, 4, 0],
+};
 
 /**
  * A tape of random calls: boxes that touch, move a little, jump, come and go, and are asked about.
  * @param switches whether they are switched off and on too
+ * @param many whether many questions are asked in a call too
  */
 export function randomTape(
   dimensions: 2 | 3,
@@ -32,6 +40,7 @@ export function randomTape(
   seed: number,
   count: number,
   switches = false,
+  many = false,
 ): Float64Array {
   const random = createRandom(seed);
   const integer = (below: number) => Math.floor(random() * below);
@@ -61,7 +70,19 @@ export function randomTape(
       known.set(k, box);
     });
   };
+  /** So many questions of any kind. */
+  const askMany = () => {
+    const kind = integer(8);
+    const questions = Array.from({ length: kind === 7 ? 0 : integer(40) }, () => {
+      if (manyNumbers[dimensions][kind] === 2 * dimensions && kind > 1) return fresh();
+      const way = axes.map(() => integer(80) - 40 + random());
+      if (kind === 2) return [...fresh(), ...way];
+      return [...axes.map(place), ...(kind === 1 ? way : kind === 6 ? [integer(9)] : [])];
+    });
+    tape.push(calls.many, kind, 1 + integer(9), questions.length, ...questions.flat());
+  };
   for (let n = 0; n < count; n++) {
+    if (many && random() < 0.1) askMany();
     if (switches && known.size && random() < 0.2) tape.push(calls.setEnabled, someone(), integer(2));
     const chance = random();
     if (chance < 0.3) set(id(), fresh());
