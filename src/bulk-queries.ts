@@ -48,6 +48,14 @@ const arrays = {
 };
 type Part = keyof typeof arrays;
 
+const circle2 = [...point2, 'radius'];
+const circle3 = [...point3, 'radius'];
+/** All boxes ask: no numbers are given. */
+const nothing: readonly number[] = [];
+const others = ['box'];
+
+const isDistance = (distance: unknown): boolean => typeof distance === 'number' && distance >= 0;
+
 const idParts: readonly Part[] = ['ids', 'offsets'];
 const nearParts: readonly Part[] = [...idParts, 'distances'];
 const ofParts: readonly Part[] = [...nearParts, 'of'];
@@ -113,7 +121,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
    */
   queryCircles(circles: ArrayLike<number>, options?: ManyOptions): ManyIds {
     checkOptions('queryCircles', options, idOptions);
-    return this.#ask('queryCircles', kinds.circle, circles, [...this.#place(), 'radius'], idParts, options);
+    return this.#ask('queryCircles', kinds.circle, circles, this.width === 4 ? circle2 : circle3, idParts, options);
   }
 
   /**
@@ -186,7 +194,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
   nearestsOfAll(k: number, options?: Omit<ManyFarOptions<ManyNearestOfAll>, 'ignoreEach'>): ManyNearestOfAll {
     checkOptions('nearestsOfAll', options, ofAllOptions);
     const most = checkMost('nearestsOfAll', k);
-    return this.#ask('nearestsOfAll', kinds.others, [], ['box'], ofParts, options, most) as ManyNearestOfAll;
+    return this.#ask('nearestsOfAll', kinds.others, nothing, others, ofParts, options, most) as ManyNearestOfAll;
   }
 
   #place(): readonly string[] {
@@ -215,7 +223,8 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
     }
     const { ignoreEach, maxDistance = Number.POSITIVE_INFINITY, out } = options ?? {};
     const mask = maskOf(where, options);
-    checkDistance(`${where}: maxDistance`, maxDistance);
+    // Told apart before the text is made: a string in each call would be garbage.
+    if (!isDistance(maxDistance)) checkDistance(`${where}: maxDistance`, maxDistance);
     this.#checkFar(where, kind, numbers, maxDistance);
     if (ignoreEach !== undefined) checkIgnored(where, ignoreEach, count);
     if (out !== undefined) checkAnswer(where, out, parts);

@@ -228,7 +228,8 @@ export class Kept {
   dropPairs(): void {
     const list = this.#list;
     const { marks } = this.few;
-    const [few, many] = this.#forth ? [0, 1] : [1, 0];
+    const few = this.#forth ? 0 : 1;
+    const many = 1 - few;
     let length = 0;
     for (let k = 0; k < this.length; k += 2) {
       if (marks[list[k + few]!] === this.call || this.#isLoose(list[k + many]!)) continue;
