@@ -306,6 +306,25 @@ EXPORT(many_ids_address)() -> const u32* {
 EXPORT(many_hits_address)() -> const Hit* {
   return with_space([](auto& space) { return space.bulk.hits.data(); });
 }
+/// For who keeps pairs with another space: the epoch of the list of what has changed (-1: nobody has kept what the last
+/// update saw), its length, and the list itself: see changed_ids.hpp.
+EXPORT(log_epoch)() -> u32 {
+  return with_space([](auto& space) { return space.keep_changes(); });
+}
+EXPORT(log_count)() -> u32 {
+  return with_space([](auto& space) { return space.changed.count(); });
+}
+EXPORT(log_address)() -> const u32* {
+  return with_space([](auto& space) { return space.changed.list(); });
+}
+/// How many boxes the last update saw.
+EXPORT(seen_count)() -> u32 {
+  return with_space([](auto& space) { return space.seen().count(); });
+}
+/// Fills rows that were staged in place of questions, and begin with a slot: see Bulk::fill_rows.
+EXPORT(see_rows)(u32 count) -> void {
+  with_space([&](auto& space) { space.bulk.fill_rows(space.seen(), count); });
+}
 EXPORT(hits_address)() -> const Hit* {
   return with_space([](auto& space) { return space.hits.data(); });
 }

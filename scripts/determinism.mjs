@@ -46,6 +46,9 @@ for (const dimensions of [2, 3]) {
   tapes[`switched${dimensions}d`] = randomTape(dimensions, techniques.length, 4, callsPlayed, 'setEnabled');
   tapes[`grouped${dimensions}d`] = randomTape(dimensions, techniques.length, 5, callsPlayed, 'setGroup');
 }
+for (const dimensions of [2, 3]) {
+  tapes[`many${dimensions}d`] = randomTape(dimensions, techniques.length, 6, callsPlayed, 'many');
+}
 for (const [name, file] of Object.entries(recordings)) {
   const recording = readRecording(gunzipSync(readFileSync(join(root, file))));
   const frames = Array.from({ length: Math.min(framesPlayed, recording.frames) }, (_, k) => recording.frame(k));

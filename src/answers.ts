@@ -105,7 +105,6 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
     names: readonly string[] = idsOptions,
     planes = shape,
   ): number[] {
-    if (this.wraps) noQueries(where);
     checkOptions(where, options, names);
     this.tellTouching(where, options);
     const mask = maskOf(where, options);
@@ -133,7 +132,6 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
 
   /** Asks for the first boxes that the box in the kernel's array meets, or for the nearest; returns how many. @internal */
   protected order(where: string, kind: number, options: QueryOptions | undefined, most: number): number {
-    if (this.wraps) noQueries(where);
     const mask = maskOf(where, options);
     const ignored = ignoredOf(where, options);
     const others = othersIgnored(options);
@@ -227,7 +225,6 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
     call: Visitor | Accept,
     into?: Hit,
   ): boolean {
-    if (this.wraps) noQueries(where);
     const mask = maskOf(where, options);
     const ignored = ignoredOf(where, options);
     const others = othersIgnored(options);
@@ -348,8 +345,7 @@ function updatedInside(where: string): never {
   throw new Error(`${where}: update was called by the visitor, expected it to wait until the search has ended`);
 }
 
-export function noQueries(where: string): never {
-  throw new Error(
-    `${where}: this world wraps around, in which queries are not answered, expected a space without wrap`,
-  );
+/** A way, or a distance, in a world that wraps around. */
+export function tooFar(where: string, distance: number, most: number): never {
+  badValue(where, distance, `at most ${most}, since each world on the way costs a search`);
 }

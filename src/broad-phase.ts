@@ -41,8 +41,8 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
   /**
    * The size of a world that wraps around, along each axis: what leaves it on one side comes in on the other, as in
    * Asteroids. Boxes may be given anywhere; two are a pair where they overlap once both are moved by whole worlds. A
-   * box as long as the world, or without an end, reaches all around. The numbers stay as they were given; queries
-   * cannot be asked. Numbers above 0, up to 1e300. Left out: the world has no end.
+   * box as long as the world, or without an end, reaches all around. The numbers stay as they were given. Questions see
+   * a copy of each box in every world, and answer each once: see the guide to queries. Numbers above 0, up to 1e300. Left out: the world has no end.
    */
   wrap?: readonly number[];
   /**
@@ -218,7 +218,6 @@ export class BroadPhase<D extends Dimensions = 2> extends Pairing<D> {
   readonly #beganViews: Uint32Array[] = [];
   readonly #endedViews: Uint32Array[] = [];
   readonly #events: boolean;
-  readonly #wrap: readonly number[] | undefined;
   #technique: TechniqueName;
   /** What `boxes()` gave last, while it is in use. */
   #view: Float32Array | undefined;
@@ -261,7 +260,7 @@ export class BroadPhase<D extends Dimensions = 2> extends Pairing<D> {
     checkHeeded({ cellSize, bounds, margin });
     if (wrap !== undefined) checkWrap(wrap, dimensions);
 
-    super(dimensions, wrap !== undefined, touching);
+    super(dimensions, wrap?.slice(), touching);
     this.#technique = technique;
     this.kernel.set_technique(techniques.indexOf(technique));
     this.#events = events;
@@ -274,7 +273,6 @@ export class BroadPhase<D extends Dimensions = 2> extends Pairing<D> {
     }
     if (margin !== undefined) this.kernel.set_margin(margin);
     if (wrap) {
-      this.#wrap = [...wrap];
       io.set(wrap);
       this.kernel.set_wrap();
     }
@@ -990,7 +988,7 @@ export class BroadPhase<D extends Dimensions = 2> extends Pairing<D> {
   [watch](watcher?: Watcher): World {
     if (watcher && this.#watcher) throw new Error('this BroadPhase is being recorded already');
     this.#watcher = watcher;
-    return { wrap: this.#wrap, touching: this.touching };
+    return { wrap: this.wrap, touching: this.touching };
   }
 
   static {

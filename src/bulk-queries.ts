@@ -1,6 +1,6 @@
 // Many questions in one call: numbers of all of them in, the answers of all of them out, in typed arrays.
 // The kernel answers them (kernel/questions/bulk.hpp); here they are checked, and the answers copied.
-import { isNumber, known, limitAt, noQueries, number, point2, point3 } from './answers.ts';
+import { isNumber, known, limitAt, number, point2, point3, tooFar } from './answers.ts';
 import type { Dimensions } from './dimensions.ts';
 import {
   badId,
@@ -48,6 +48,14 @@ const arrays = {
   normals: Int8Array,
 };
 type Part = keyof typeof arrays;
+
+const circle2 = [...point2, 'radius'];
+const circle3 = [...point3, 'radius'];
+/** All boxes ask: no numbers are given. */
+const nothing: readonly number[] = [];
+const others = ['box'];
+
+const isDistance = (distance: unknown): boolean => typeof distance === 'number' && distance >= 0;
 
 const idParts: readonly Part[] = ['ids', 'offsets'];
 const nearParts: readonly Part[] = [...idParts, 'distances'];
@@ -115,7 +123,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
    */
   queryCircles(circles: ArrayLike<number>, options?: ManyAreaOptions): ManyIds {
     checkOptions('queryCircles', options, areaOptions);
-    return this.#ask('queryCircles', kinds.circle, circles, [...this.#place(), 'radius'], idParts, options);
+    return this.#ask('queryCircles', kinds.circle, circles, this.width === 4 ? circle2 : circle3, idParts, options);
   }
 
   /**
@@ -188,7 +196,7 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
   nearestsOfAll(k: number, options?: Omit<ManyFarOptions<ManyNearestOfAll>, 'ignoreEach'>): ManyNearestOfAll {
     checkOptions('nearestsOfAll', options, ofAllOptions);
     const most = checkMost('nearestsOfAll', k);
-    return this.#ask('nearestsOfAll', kinds.others, [], ['box'], ofParts, options, most) as ManyNearestOfAll;
+    return this.#ask('nearestsOfAll', kinds.others, nothing, others, ofParts, options, most) as ManyNearestOfAll;
   }
 
   #place(): readonly string[] {
@@ -205,7 +213,6 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
     options: Options | undefined,
     most = 1,
   ): Answer {
-    if (this.wraps) noQueries(where);
     checkNumberArray(where, numbers);
     const { length } = numbers;
     const count = length / names.length;
@@ -219,7 +226,9 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
     const { ignoreEach, maxDistance = Number.POSITIVE_INFINITY, out } = options ?? {};
     const mask = maskOf(where, options);
     this.tellTouching(where, options);
-    checkDistance(`${where}: maxDistance`, maxDistance);
+    // Told apart before the text is made: a string in each call would be garbage.
+    if (!isDistance(maxDistance)) checkDistance(`${where}: maxDistance`, maxDistance);
+    this.#checkFar(where, kind, numbers, maxDistance);
     if (ignoreEach !== undefined) checkIgnored(where, ignoreEach, count);
     if (out !== undefined) checkAnswer(where, out, parts);
     try {
@@ -235,6 +244,24 @@ export abstract class BulkQueries<D extends Dimensions> extends Queries<D> {
       return this.#collect(kind, asked, parts, out);
     } catch (error) {
       this.recover(error, where);
+    }
+  }
+
+  /** In a world that wraps around: rays and ways do not lead through too many. */
+  #checkFar(where: string, kind: number, numbers: ArrayLike<number>, maxDistance: number): void {
+    const most = this.farthest;
+    if (most === Number.POSITIVE_INFINITY) return;
+    if (kind === kinds.ray && maxDistance > most && maxDistance < Number.POSITIVE_INFINITY) {
+      tooFar(`${where}: maxDistance`, maxDistance, most);
+    }
+    const each = this.width + this.dimensions;
+    for (
+      let k = this.width;
+      kind === kinds.way && k < numbers.length;
+      k += k % each === each - 1 ? this.width + 1 : 1
+    ) {
+      if (Math.abs(numbers[k]!) > most)
+        tooFar(`${where}: question ${Math.floor(k / each)}: the way`, numbers[k]!, most);
     }
   }
 

@@ -1,7 +1,7 @@
 // What stands in a space, read back as from a Map; and boxes that are given by their centre.
-import { BulkQueries } from './bulk-queries.ts';
 import type { BoxOfId, CentredBoxOfId, Dimensions } from './dimensions.ts';
 import { badCentred, badId, isId } from './errors.ts';
+import { PairsBetween } from './pairs-between.ts';
 
 /** Whom a box meets: see {@link BroadPhase.setFilter}. */
 export interface Filter {
@@ -12,7 +12,7 @@ export interface Filter {
 }
 
 /** A space whose boxes can be read back. */
-export abstract class Contents<D extends Dimensions> extends BulkQueries<D> {
+export abstract class Contents<D extends Dimensions> extends PairsBetween<D> {
   abstract set(...box: BoxOfId<D>): this;
   abstract has(id: number): boolean;
   abstract get(id: number): Float64Array | undefined;

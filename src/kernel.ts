@@ -64,6 +64,11 @@ export interface KernelExports {
   many_ids_address(): number;
   many_hits_address(): number;
   hits_address(): number;
+  log_epoch(): number;
+  log_count(): number;
+  log_address(): number;
+  seen_count(): number;
+  see_rows(count: number): void;
   updates(): number;
   stats_address(): number;
   structure(): number;

@@ -14,6 +14,7 @@ import {
   onWay,
   point2,
   point3,
+  tooFar,
   type Visitor,
 } from './answers.ts';
 import type { Dimensions, NearestQuestion, RayQuestion, SweepQuestion } from './dimensions.ts';
@@ -195,6 +196,9 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
     io[4] = e;
     io[5] = f;
     io[limitAt] = 1;
+    for (let k = this.width; this.farthest < Number.POSITIVE_INFINITY && k < this.width + this.dimensions; k++) {
+      if (Math.abs(io[k]!) > this.farthest) tooFar('sweep: the way', io[k]!, this.farthest);
+    }
     checkOptions('sweep', options, sweepOptions);
     if (options?.visit !== undefined) {
       this.visitOrder('sweep', onWay, options, everything, options.visit as Visitor);
@@ -308,6 +312,9 @@ export abstract class Queries<D extends Dimensions> extends PlaneQueries<D> {
     checkOptions(where, options, known);
     const { maxDistance = Number.POSITIVE_INFINITY } = options ?? {};
     io[limitAt] = checkDistance(`${where}: maxDistance`, maxDistance);
+    if (maxDistance > this.farthest && maxDistance < Number.POSITIVE_INFINITY) {
+      tooFar(`${where}: maxDistance`, maxDistance, this.farthest);
+    }
     return options;
   }
 }

@@ -11,6 +11,8 @@ const ringHead = 3;
 const ringBoxes = 512;
 /** Numbers in the kernel's array: see kernel/abi.cpp. */
 export const ioLength = 48;
+/** Through how many worlds a ray or a way may lead, where they wrap around: each costs a search. */
+const mostWorlds = 1000;
 /** Behind the last word of any memory. */
 const nowhere = 2 ** 30;
 
@@ -32,16 +34,19 @@ export abstract class Space<D extends Dimensions> {
   #words = new Uint32Array();
   /** Numbers in a box. @internal */
   protected readonly width: number;
-  /** Whether the world wraps around. @internal */
-  protected readonly wraps: boolean;
+  /** The size of the world, where it wraps around. @internal */
+  protected readonly wrap: readonly number[] | undefined;
+  /** How far a ray or a way may lead: without an end, but where the world wraps around. @internal */
+  protected readonly farthest: number;
   /** Whether boxes that only touch overlap. @internal */
   protected readonly touching: boolean;
   readonly #stackTop: number;
   #io = new Float64Array();
 
-  constructor(dimensions: D, wraps: boolean, touching: boolean) {
+  constructor(dimensions: D, wrap: readonly number[] | undefined, touching: boolean) {
     this.dimensions = dimensions;
-    this.wraps = wraps;
+    this.wrap = wrap;
+    this.farthest = wrap === undefined ? Number.POSITIVE_INFINITY : mostWorlds * Math.min(...wrap);
     this.touching = touching;
     this.width = 2 * dimensions;
     this.#own = instantiate();

@@ -255,11 +255,6 @@ describe('what is refused', () => {
       () => space.sweeps([0, 0, 1, 1, Infinity, 0]),
       'sweeps: question 0: dx: got Infinity, expected a finite number',
     ],
-    [
-      'a wrapped world',
-      () => new BroadPhase({ wrap: [10, 10] }).queryPoints([1, 1]),
-      'queryPoints: this world wraps around',
-    ],
   ];
   test.each(bad)('%s', (_, call, message) => {
     expect(call).toThrow(message);

@@ -1,7 +1,7 @@
 // Every method in any order, bad arguments mixed in, against a model: fast-check makes up the calls and makes those that
 // fail fewer. The model is a Map of what each box was given, and what the last update saw.
 // The seed stands in the name of the suite and in the report of a failure: SEED=… runs it again, RUNS=… runs more.
-import { BroadPhase } from 'broadphase';
+import { BroadPhase, type ManyIds, type ManyNearest, type ManySweepHits } from 'broadphase';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { expectKeys } from './expect-pairs.ts';
@@ -326,6 +326,64 @@ function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>
         expect(ascending(hits.map(({ id }) => id))).toEqual(ascending(met));
       }),
     ),
+    fc
+      .tuple(fc.array(fc.tuple(aBox, aPoint, aWay, fc.nat(9)), { maxLength: 6 }), fc.constantFrom(1, 3, 100), asked)
+      .map(([questions, k, { mask }]) =>
+        call(`many questions: ${show([questions.flat(2), k, mask])}`, (model, space) => {
+          const options = mask === undefined ? {} : { mask };
+          const many = <Answer>(method: string, numbers: number[], ...more: number[]) =>
+            on(space)[method](numbers, ...more, options) as Answer & ManyIds;
+          const of = ({ ids, offsets }: ManyIds, n: number) => [...ids.subarray(offsets[n], offsets[n + 1])];
+          const inBoxes = many(
+            'queryBoxes',
+            questions.flatMap(([box]) => box),
+          );
+          const atPoints = many(
+            'queryPoints',
+            questions.flatMap(([, point]) => point),
+          );
+          const inCircles = many(
+            'queryCircles',
+            questions.flatMap(([, point, , radius]) => [...point, radius]),
+          );
+          const nearests = many<ManyNearest>(
+            'nearests',
+            questions.flatMap(([, point]) => point),
+            k,
+          );
+          const rays = many(
+            'rayCasts',
+            questions.flatMap(([, point, way]) => [...point, ...way]),
+          );
+          const sweeps = many<ManySweepHits>(
+            'sweeps',
+            questions.flatMap(([box, , way]) => [...box, ...way]),
+          );
+          questions.forEach(([box, point, way, radius], n) => {
+            expect(ascending(of(inBoxes, n))).toEqual(inBox(seen(model), box, options));
+            expect(ascending(of(atPoints, n))).toEqual(inBox(seen(model), [...point, ...point], options));
+            expect(ascending(of(inCircles, n))).toEqual(inCircle(seen(model), point, radius, options));
+            expect(of(nearests, n)).toEqual(near(seen(model), point, k, options).map(({ id }) => id));
+            const first = on(space).rayCast(...point, ...way, options) as { id: number } | undefined;
+            expect(of(rays, n)).toEqual(first ? [first.id] : []);
+            const met = ahead(seen(model), box, way, 1, options).slice(0, 1);
+            expect(of(sweeps, n)).toEqual(met.map(({ id }) => id));
+            expect([...sweeps.times.subarray(sweeps.offsets[n], sweeps.offsets[n + 1])]).toEqual(
+              met.map(({ rank }) => rank),
+            );
+          });
+          const others = space.nearestsOfAll(k, options);
+          const asking = [...seen(model)].filter(([, { isOff }]) => !isOff);
+          expect(ascending(others.of)).toEqual(ascending(seen(model).keys()));
+          for (const [id, { box }] of asking) {
+            const n = others.of.indexOf(id);
+            const rest = inBox(seen(model), box, { ...options, ignore: id });
+            const apart = [...others.distances.subarray(others.offsets[n], others.offsets[n + 1])];
+            expect(apart.filter((distance) => distance === 0).length).toBe(Math.min(k, rest.length));
+            expect(apart).toEqual(apart.toSorted((a, b) => a - b));
+          }
+        }),
+      ),
     fc.constant(
       call('structure()', (_, space) => {
         const cells = space.structure();
@@ -440,6 +498,25 @@ function commands(dimensions: 2 | 3): fc.Arbitrary<fc.Command<Model, BroadPhase>
         noNumber,
       ),
     ),
+    ...(
+      [
+        ['queryBoxes', 2 * dimensions],
+        ['queryPoints', dimensions],
+        ['queryCircles', dimensions + 1],
+        ['rayCasts', 2 * dimensions],
+        ['sweeps', 3 * dimensions],
+      ] as const
+    ).flatMap(([method, length]) => [
+      bad(
+        method,
+        fc
+          .tuple(fc.array(fc.constant<unknown>(0), { minLength: length, maxLength: length }), fc.nat(), noNumber)
+          .map(([numbers, at, value]) => [numbers.with(at % length, value)]),
+      ),
+      bad(method, fc.constantFrom<unknown[]>([], [[0]], ['boxes'], [[], { ignore: 1 }], [[], { out: 5 }])),
+    ]),
+    bad('nearests', fc.constantFrom<unknown[]>([[0], 1], [[], 0], [[]], [[], 1, { k: 1 }], [['1', 1, 1], 1])),
+    bad('nearestsOfAll', fc.constantFrom<unknown[]>([], [0], [1.5], ['1'], [1, { ignoreEach: [] }])),
     bad('restore', tuple(noBytes, 1)),
     fc.constantFrom<unknown>('', 'grid', 'Auto', null, undefined, 3, {}).map((name) =>
       call(`technique = ${fc.stringify(name)} is refused`, (_, space) => {

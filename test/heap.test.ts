@@ -27,6 +27,9 @@ const uses = [
   'questions with out',
 ];
 
+/** Whose answers do not depend on the technique. */
+const usesOfAuto = ['many questions in a call, with out', 'pairs with another space'];
+
 let results: Result[] = [];
 
 beforeAll(async () => {
@@ -36,6 +39,14 @@ beforeAll(async () => {
   const { stdout } = await promisify(execFile)(process.execPath, [...flags, script, library, String(nothing)]);
   results = JSON.parse(stdout);
 }, 60_000);
+
+test.each(usesOfAuto)('%s: allocates nothing per frame', (use) => {
+  const here = results.filter((result) => result.use === use);
+  expect(here.length).toBe(2);
+  for (const { dimensions, allocated } of here) {
+    expect(allocated, `bytes a frame in ${dimensions}D`).toBeLessThan(nothing);
+  }
+});
 
 describe.each(uses)('%s', (use) => {
   test.each(BroadPhase.techniques)('allocates nothing per frame with %s', (technique) => {

@@ -27,7 +27,9 @@ test.each([
   ['patrols', 3],
 ] as const)('%s in %iD are kept, though all that move might leave their regions at once', (name, dimensions) => {
   const motion = createMotion(name, dimensions, 3000);
-  const [kept, fresh] = (['auto', 'strip-sweep'] as const).map((technique) => new BroadPhase({ dimensions, technique }));
+  const [kept, fresh] = (['auto', 'strip-sweep'] as const).map(
+    (technique) => new BroadPhase({ dimensions, technique }),
+  );
   let [answered, tests, spent] = [0, 0, 0];
   for (let frame = 1; frame <= 250; frame++) {
     motion.step(frame);

@@ -75,7 +75,7 @@ export function inCircle(entries: Entries, centre: readonly number[], radius: nu
 }
 
 /** The distance, which has no larger square than a double holds only where it is not very large. */
-function distance(point: readonly number[], entry: Entry): number {
+export function distance(point: readonly number[], entry: Entry): number {
   const square = squared(point, entry);
   if (square < 1e300) return Math.sqrt(square);
   const { box } = entry;
@@ -142,7 +142,7 @@ function timeTo(lo: number, hi: number, face: number, along: number, stops: bool
   return time;
 }
 
-function meeting(moving: readonly number[], way: readonly number[], still: readonly number[], stops: boolean) {
+export function meeting(moving: readonly number[], way: readonly number[], still: readonly number[], stops: boolean) {
   const d = way.length;
   const touched: { axis: number; time: number }[] = [];
   const leaves: number[] = [];

@@ -8,6 +8,7 @@ import { expectKeys } from './expect-pairs.ts';
 import { keysOf, pairOf } from './reference.ts';
 import { runs, seed } from './runs.ts';
 import { setBox } from './set-box.ts';
+import { aBox, aWorld } from './wrapped-boxes.ts';
 import { wrappedPairs } from './wrapped-reference.ts';
 
 const numRuns = runs(20);
@@ -15,34 +16,6 @@ const numRuns = runs(20);
 const combinations = BroadPhase.techniques.flatMap((technique) =>
   ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
 );
-
-const aWorld = fc.constantFrom([10, 7, 4], [0.1, 0.3, 0.7], [1000, 1e-3, 3], [1, 1e-320, 1e300]);
-
-/** Where a box begins and how long it is, along an axis so long: whole steps and borders mostly, and what is hostile. */
-function aSpan(world: number): fc.Arbitrary<[number, number]> {
-  const place = fc.oneof(
-    { weight: 8, arbitrary: fc.integer({ min: 0, max: 9 }).map((tenths) => (world * tenths) / 10) },
-    { weight: 3, arbitrary: fc.integer({ min: -30, max: 30 }).map((tenths) => (world * tenths) / 10) },
-    { weight: 2, arbitrary: fc.constantFrom(-0, 0, world, -world, world * (1 - 2 ** -53), -world * 2 ** -60, 5e-324) },
-    { weight: 1, arbitrary: fc.double({ min: -2 * world, max: 3 * world, noNaN: true }) },
-    {
-      weight: 1,
-      arbitrary: fc.constantFrom(1e9, -1e9, 1e-30, -1e300, Infinity, -Infinity).map((far) => far + world / 3),
-    },
-  );
-  const length = fc.oneof(
-    { weight: 6, arbitrary: fc.integer({ min: 0, max: 4 }).map((tenths) => (world * tenths) / 10) },
-    {
-      weight: 2,
-      arbitrary: fc.constantFrom(world / 2, world * 0.9, world, world * (1 - 2 ** -53), 2.5 * world, Infinity),
-    },
-    { weight: 1, arbitrary: fc.double({ min: 0, max: 1.1 * world, noNaN: true }) },
-  );
-  return fc.tuple(place, length).map(([from, size]) => [from, Math.max(from, from + size) || from]);
-}
-
-const aBox = (wrap: readonly number[]): fc.Arbitrary<number[]> =>
-  fc.tuple(...wrap.map(aSpan)).map((spans) => [...spans.map(([from]) => from), ...spans.map(([, to]) => to)]);
 
 /** The reference takes its time: all techniques share what it has found. */
 const remembered = new Map<string, Float64Array>();
@@ -148,17 +121,22 @@ describe(`in a world that wraps around (SEED=${seed})`, () => {
     expect(space.set(1, 2e-17, 0, 0.5, 1).update().pairCount).toBe(0);
   });
 
-  test('queries say that they are not answered', () => {
-    const space = new BroadPhase({ wrap: [100, 100] }).set(1, 0, 0, 1, 1).update();
-    const message = /^\w+: this world wraps around, .*expected a space without wrap/;
-    expect(() => space.queryBox(0, 0, 1, 1)).toThrow(message);
-    expect(() => space.queryBox(0, 0, 1, 1, { visit: () => true })).toThrow(message);
-    expect(() => space.queryCircle(0, 0, 1)).toThrow(message);
-    expect(() => space.nearest(0, 0, 1)).toThrow(message);
-    expect(() => space.nearest(0, 0, 1, { visit: () => true })).toThrow(message);
-    expect(() => space.rayCast(0, 0, 1, 0)).toThrow(message);
-    expect(() => space.rayCastAll(0, 0, 1, 0)).toThrow(message);
-    expect(() => space.sweep(0, 0, 1, 1, 5, 5)).toThrow(message);
+  test('a ray goes once around, or as far as it is told; too far is refused by name', () => {
+    const space = new BroadPhase({ wrap: [100, 50] }).set(1, 10, 10, 20, 20).update();
+    expect(space.rayCast(50, 15, 1, 0)).toEqual({ id: 1, distance: 60, normal: [-1, 0] });
+    expect(space.rayCast(50, 5, 1, 0.5)).toEqual(space.rayCast(-50, 105, 1, 0.5));
+    expect(space.rayCast(50, 25, 1, 0)).toBeUndefined();
+    expect(space.rayCastAll(15, 0, 0, 1, { maxDistance: 300 })).toEqual([{ id: 1, distance: 10, normal: [0, -1] }]);
+    expect(space.sweep(50, 12, 52, 14, 70, 0)?.time).toBe(58 / 70);
+    const most = 'expected at most 50000, since each world on the way costs a search';
+    expect(() => space.rayCast(0, 0, 1, 0, { maxDistance: 1e9 })).toThrow(
+      `rayCast: maxDistance: got 1000000000, ${most}`,
+    );
+    expect(() => space.rayCasts([0, 0, 1, 0], { maxDistance: 1e9 })).toThrow('rayCasts: maxDistance: got 1000000000');
+    expect(() => space.sweep(0, 0, 1, 1, 0, -1e9)).toThrow(`sweep: the way: got -1000000000, ${most}`);
+    expect(() => space.sweeps([0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 1e9])).toThrow(
+      'sweeps: question 1: the way: got 1000000000',
+    );
   });
 
   test.each([

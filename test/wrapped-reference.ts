@@ -27,6 +27,20 @@ function meet(aMin: number, aMax: number, bMin: number, bMax: number, world: num
   return least <= most;
 }
 
+/** Whether the one lies within the other once it is moved by a whole number of worlds. */
+function lies(aMin: number, aMax: number, bMin: number, bMax: number, world: number): boolean {
+  const size = exactly(world);
+  const isFull = (min: number, max: number) =>
+    !(Number.isFinite(min) && Number.isFinite(max)) || exactly(max) - exactly(min) >= size;
+  if (isFull(bMin, bMax)) return true;
+  if (isFull(aMin, aMax)) return false;
+  return -floor(exactly(aMin) - exactly(bMin), size) <= floor(exactly(bMax) - exactly(aMax), size);
+}
+
+export function wrappedWithin(a: readonly number[], b: readonly number[], wrap: readonly number[]): boolean {
+  return wrap.every((world, k) => lies(a[k], a[k + wrap.length], b[k], b[k + wrap.length], world));
+}
+
 export function wrappedOverlap(
   a: readonly number[],
   b: readonly number[],

@@ -7,7 +7,7 @@
 #include "questions/queries.hpp"
 
 /// What all the questions of a call are.
-enum class Asks : u32 { nearest, ray, way, box, within, point, circle, others };
+enum class Asks : u32 { nearest, ray, way, box, within, point, circle, others, meeting };
 
 template <int D> class Bulk {
   static constexpr u32 width = 2 * D;
@@ -15,10 +15,10 @@ template <int D> class Bulk {
   Buffer<f64> given_;    // numbers of all questions, then of each the id it ignores
   Buffer<u32> offsets_;  // of each question, where its answers begin; and where those of the last end
 
-  static bool has_box(Asks kind) { return kind == Asks::way || kind == Asks::box || kind == Asks::within; }
+  static bool has_box(Asks kind) { return kind == Asks::way || kind == Asks::box || kind == Asks::within || kind == Asks::meeting; }
   static bool moves(Asks kind) { return kind == Asks::ray || kind == Asks::way; }
   static u32 stride(Asks kind) {
-    return (has_box(kind) ? width : u32(D)) + (moves(kind) ? u32(D) : 0) + (kind == Asks::circle ? 1 : 0);
+    return (has_box(kind) ? width : u32(D)) + (moves(kind) ? u32(D) : 0) + (kind == Asks::circle ? 1 : kind == Asks::meeting ? 2 : 0);
   }
   static bool is_finite(f64 x) { return x - x == 0; }
 
@@ -46,10 +46,29 @@ template <int D> class Bulk {
   COLD void answer(const Index<D>& index, Question<D> asked, Asks kind, u32 count, u32 most, Hits& best) {
     offsets_.reserve(u64(count) + 1)[0] = 0;
     looks = 0;
+    f64 limit = asked.limit;
     for (u32 k = 0; k < count; k++) {
       bool asks = kind == Asks::others ? take_box(index, k, asked) : read(kind, k, asked);
       if (kind != Asks::others) asked.ignored = u32(given_[u64(count) * stride(kind) + k]);
+      asked.limit = limit;
+      if (index.world()) asked.wrap(index.world());
       offsets_[k + 1] = asks ? ask(index, asked, kind, most, offsets_[k], best) : offsets_[k];
+    }
+  }
+
+  /// Rows of what the last update saw, each of which has a slot: in place of it comes the id, or -1 where the box meets
+  /// nobody, and behind it the box's numbers, layer and mask.
+  COLD void fill_rows(const Index<D>& index, u32 count) {
+    f64* row = given_.data();
+    for (u32 k = 0; k < count; k++, row += width + 3) {
+      u32 slot = u32(row[0]);
+      Rule rule = slot < index.count() ? index.rule(slot) : Rule{};
+      row[0] = -1;
+      if (rule.is_off() || rule.layer == 0 || rule.mask == 0) continue;
+      row[0] = index.id_of_slot(slot);
+      index.box_of_slot(slot, row + 1);
+      row[width + 1] = rule.layer;
+      row[width + 2] = rule.mask;
     }
   }
 
@@ -81,6 +100,10 @@ template <int D> class Bulk {
     if (kind == Asks::circle) {
       to.radius = from[0];
       return good && to.radius >= 0;
+    }
+    if (kind == Asks::meeting) {
+      to.layer = u32(from[0]);
+      to.mask = u32(from[1]);
     }
     for (int a = 0; a < D && moves(kind); a++) {
       to.along[a] = from[a];

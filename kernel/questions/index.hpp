@@ -14,6 +14,7 @@
 // From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993.
 #pragma once
 #include "base/rounding.hpp"
+#include "rules/copies.hpp"
 #include "rules/filters.hpp"
 #include "search/hilbert.hpp"
 
@@ -30,6 +31,7 @@ template <int D> class Index {
   Buffer<u32> ids_;
   Buffer<Rule> rules_;
   u32 count_ = 0;
+  const f64* world_ = nullptr;  // where it wraps around: then boxes stand in `exact_`, and are moved as they are rounded
   bool rounded_ = false, named_ = false, filtered_ = false;
 
   bool built_ = false;
@@ -65,6 +67,8 @@ template <int D> class Index {
   u32 top() const { return levels_ - 1; }
   const Block& block(u32 level, u32 number) const { return blocks_[first_[level] + number]; }
 
+  /// The size of the world, where it wraps around.
+  const f64* world() const { return world_; }
   /// Whether float32 does not hold all boxes.
   bool rounded() const { return rounded_; }
   u32 id(u32 place) const { return ids()[place]; }
@@ -72,6 +76,14 @@ template <int D> class Index {
   u32 id_of_slot(u32 slot) const { return named_ ? ids_[slot] : slot; }
   /// Of all places.
   const u32* ids() const { return named_ ? placed_ids_.data() : slots_.data(); }
+  /// The rule of a box by its slot, and the numbers it was given with.
+  Rule rule(u32 slot) const { return filtered_ ? rules_[slot] : Rule{0xffffffff, 0xffffffff, 0}; }
+  void box_of_slot(u32 slot, f64* to) const {
+    for (u32 k = 0; k < width; k++) to[k] = rounded_ ? exact_[u64(slot) * width + k] : f64(boxes_[u64(slot) * width + k]);
+  }
+  bool filtered() const { return filtered_; }
+  u32 slot(u32 place) const { return slots_[place]; }
+  const u32* slots() const { return slots_.data(); }
   u32 layer(u32 place) const { return filtered_ ? rules_[slots_[place]].layer : 0xffffffff; }
   /// The numbers the box was given with.
   void box(u32 place, f64* to) const {
@@ -87,13 +99,17 @@ template <int D> class Index {
   }
 
   /// Copies the boxes of a space.
-  COLD void see(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules) {
+  COLD void see(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* world) {
     u32 n = ids.count();
     count_ = 0;
     known_ = smaller(known_, n);
     built_ = false;
-    rounded_ = exact;
-    if (exact) copy(exact_, exact, u64(n) * width, 0);  // hardly any of these copies are asked: `build` rounds
+    world_ = world;
+    rounded_ = exact || world;
+    if (world && !exact) {
+      exact_.reserve(u64(n) * width);
+      for (u64 k = 0; k < u64(n) * width; k++) exact_[k] = boxes[k];
+    } else if (exact) copy(exact_, exact, u64(n) * width, 0);  // hardly any of these copies are asked: `build` rounds
     else copy(boxes_, boxes, u64(n) * width, 4);
     filtered_ = rules;
     if (rules) copy(rules_, rules, n, 0);
@@ -106,8 +122,9 @@ template <int D> class Index {
   }
 
   /// Takes over the slots that have changed, of which new ones are some: false where all has to be seen anew.
-  COLD bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const u32* slots, u32 many) {
-    if (rounded_ != (exact != nullptr) || named_ != !ids.same() || filtered_ != (rules != nullptr)) return false;
+  COLD bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const u32* slots, u32 many,
+                   const f64* world) {
+    if (world_ != world || rounded_ != (exact || world_) || named_ != !ids.same() || filtered_ != (rules != nullptr)) return false;
     u32 n = ids.count(), had = count_;
     if (built_ || !rounded_) boxes_.grow(u64(n) * width + 4, u64(had) * width);
     if (rounded_) exact_.grow(u64(n) * width, u64(had) * width);
@@ -125,8 +142,8 @@ template <int D> class Index {
       u32 s = slots[k];
       if (s >= n) continue;
       if (rounded_) {
-        __builtin_memcpy(&exact_[u64(s) * width], exact + u64(s) * width, width * sizeof(f64));
-        if (built_) round_outward<D>(exact + u64(s) * width, &boxes_[u64(s) * width]);
+        for (u64 k = u64(s) * width; k < (u64(s) + 1) * width; k++) exact_[k] = exact ? exact[k] : f64(boxes[k]);
+        if (built_) round(s);
       } else {
         __builtin_memcpy(&boxes_[u64(s) * width], boxes + u64(s) * width, width * sizeof(f32));
       }
@@ -151,7 +168,7 @@ template <int D> class Index {
     if (built_) return;
     if (rounded_) {
       boxes_.reserve(u64(count_) * width + 4);
-      for (u64 s = 0; s < count_; s++) round_outward<D>(&exact_[s * width], &boxes_[s * width]);
+      for (u32 s = 0; s < count_; s++) round(s);
     }
     room_ = count_ + count_ / 32 + 64;
     if (known_ == 0 || looks_ >= count_ || !keep_order()) put_in_order();
@@ -202,6 +219,14 @@ template <int D> class Index {
   }
 
  private:
+  /// A box outward; where the world wraps around to where it is searched.
+  void round(u32 slot) {
+    const f64* box = &exact_[u64(slot) * width];
+    f32* to = &boxes_[u64(slot) * width];
+    if (world_) Copies<D>::place(world_, box, to);
+    else round_outward<D>(box, to);
+  }
+
   /// Bounds of the k-th block of the level below, where it stands in its own. Of nothing they are nothing.
   void bound(u32 level, u32 k) {
     const Block& from = block(level - 1, k);

@@ -22,6 +22,7 @@ template <int D> struct Question {
   bool touching = true;        // of areas: whether what only touches counts
   u32 mask = 0;                // layers; all bits: every box, even one without a layer
   u32 ignored = 0;             // an id
+  u32 layer = 0;               // where it is a box of another space that asks: its own; else 0
 
   static constexpr f64 within = -2;  // in place of a radius: boxes are to be within the box, wholly
 
@@ -33,19 +34,28 @@ template <int D> struct Question {
     length = is_ray ? most * __builtin_sqrt(sum) : 1;
     stops = !is_ray;
   }
+
+  /// In a world that wraps around, once the way is measured. A ray without a limit ends where it has gone once around.
+  COLD void wrap(const f64* world) {
+    reach_around<D>(world, lo, hi, along);
+    f64 once = __builtin_inf();
+    for (int a = 0; a < D; a++) once = smaller(once, world[a] / __builtin_fabs(along[a]));
+    if (!stops && limit == __builtin_inf() && once < limit) limit = once * length;
+  }
 };
 
 /// Which boxes a question is about, by its mask and by whom it ignores.
 template <int D> class Wanted {
   const Index<D>& index_;
-  const u32 mask_, ignored_;
+  const u32 mask_, ignored_, own_;
 
  public:
-  Wanted(const Index<D>& index, const Question<D>& asked) : index_(index), mask_(asked.mask), ignored_(asked.ignored) {}
+  Wanted(const Index<D>& index, const Question<D>& asked) : index_(index), mask_(asked.mask), ignored_(asked.ignored), own_(asked.layer) {}
 
   /// Whether no box is left out for its layer or its id.
-  bool all() const { return mask_ == 0xffffffff && ignored_ > slot_mask; }
+  bool all() const { return ignored_ > slot_mask && (own_ ? !index_.filtered() : mask_ == 0xffffffff); }
   bool operator()(u32 place) const {
+    if (own_) return meet({own_, mask_, 0}, {index_.rule(index_.slot(place)).layer, index_.rule(index_.slot(place)).mask, 0});
     return (mask_ == 0xffffffff || (index_.layer(place) & mask_)) && index_.id(place) != ignored_;
   }
 };
@@ -141,19 +151,25 @@ template <int D> class Queries {
 
   const Index<D>& index_;
   const Question<D>& asked_;
+  const f64* const world_;     // where it wraps around
+  Copies<D> copies_;           // only there
+  f64 reach_[D];               // how far what moves may come
   f32x4 lo_[D], hi_[D];        // what is to be looked at
   f32x4 above_[D], below_[D];  // the point, or what moves, rounded outward or further
   f32x4 slowness_[D];          // time for a unit of way
   f64 squared_;                // the circle's radius
   f64 scale_ = 1;              // of what is estimated in place of ranks
   bool is_tame_ = true;        // whether times may be estimated
+  const u32* const names_;     // of answers: ids; slots, where another space asks
   const Wanted<D> wanted_;
   const bool all_wanted_;
   u32 from_ = 0, most_ = 0, found_ = 0, looks_ = 0;
 
  public:
   Queries(const Index<D>& index, const Question<D>& asked)
-      : index_(index), asked_(asked), squared_(asked.radius * asked.radius), wanted_(index, asked), all_wanted_(wanted_.all()) {}
+      : index_(index), asked_(asked), world_(index.world()), squared_(asked.radius * asked.radius), names_(asked.layer ? index.slots() : index.ids()), wanted_(index, asked), all_wanted_(wanted_.all()) {
+    if (world_) copies_.begin(world_, asked.lo, asked.hi);
+  }
 
   /// How many blocks have been looked at.
   u32 looks() const { return looks_; }
@@ -162,8 +178,51 @@ template <int D> class Queries {
   /// most so many, behind those found before. Returns how many; `from` becomes the place to go on from, or the number of
   /// boxes.
   COLD u32 area(u32& from, u32 most, Buffer<u32>& answers, u32 found = 0) {
+    most_ = most;
+    found_ = found;
+    from_ = from;
+    if (world_) return area_around(from, answers);
+    aim_area();
+    from = walk(index_.top(), 0, answers) ? index_.places() : from_;
+    return found_;
+  }
+
+  /// The first boxes that the moving box meets, by how far it has moved then.
+  COLD void cast(Hits& hits) {
+    scale_ = (1 + 1e-6) / asked_.length;
     for (int a = 0; a < D; a++) {
-      f64 lo = asked_.lo[a], hi = asked_.hi[a];
+      // The way to the limit, and some more for the roundings.
+      f64 reach = asked_.along[a] * (asked_.limit / asked_.length) * (1 + 1e-9);
+      reach_[a] = reach == reach ? reach : 0;  // no way at all, however long it takes
+    }
+    auto one = [&] {
+      aim_ahead();
+      search<true>(index_.top(), 0, hits);
+    };
+    if (world_) copies_.pass(reach_, one);
+    else one();
+  }
+
+  /// The nearest boxes to the box, most often a point.
+  COLD void near(Hits& hits) {
+    for (u32 turn = 0; turn < (world_ ? Copies<D>::turns : 1); turn++) {
+      if (world_ && !copies_.take(turn)) continue;
+      for (int a = 0; a < D; a++) {
+        above_[a] = splat(round_up(high(a)));
+        below_[a] = splat(round_down(low(a)));
+      }
+      search<false>(index_.top(), 0, hits);
+    }
+  }
+
+ private:
+  /// Where the question is looked for.
+  f64 low(int a) const { return world_ ? copies_.low(a) : asked_.lo[a]; }
+  f64 high(int a) const { return world_ ? copies_.high(a) : asked_.hi[a]; }
+
+  void aim_area() {
+    for (int a = 0; a < D; a++) {
+      f64 lo = low(a), hi = high(a);
       if (is_circle()) {
         // Differences to the edge may have been rounded, and the squares of very small ones are 0.
         lo -= asked_.radius + (asked_.radius + __builtin_fabs(lo)) * 1e-15 + 1e-160;
@@ -173,43 +232,64 @@ template <int D> class Queries {
       lo_[a] = splat(asked_.touching || is_circle() ? round_up(lo) : next_above(lo));
       hi_[a] = splat(asked_.touching || is_circle() ? round_down(hi) : next_below(hi));
     }
-    from_ = from;
-    most_ = most;
-    found_ = found;
-    from = walk(index_.top(), 0, answers) ? index_.places() : from_;
+  }
+
+  void aim_ahead() {
+    is_tame_ = asked_.length > 0;
+    for (int a = 0; a < D; a++) {
+      f64 along = asked_.along[a], far = __builtin_fabs(along), lo = low(a), hi = high(a);
+      f32 least = round_down(lo + smaller(0.0, reach_[a])), most = round_up(hi + larger(0.0, reach_[a]));
+      lo_[a] = splat(detail::is_finite(least) ? next_toward(least, false) : least);
+      hi_[a] = splat(detail::is_finite(most) ? next_toward(most, true) : most);
+      below_[a] = splat(round_down(lo));
+      above_[a] = splat(round_up(hi));
+      slowness_[a] = splat(f32(1 / along));
+      is_tame_ &= lo > -tame && hi < tame && (far == 0 || (far > 1 / tame && far < tame));
+    }
+  }
+
+  /// The area, in a world that wraps around. Places of each turn come behind those of the turn before.
+  COLD u32 area_around(u32& from, Buffer<u32>& answers) {
+    u32 places = index_.places(), turn = from / places;
+    for (from_ = from % places; turn < Copies<D>::turns; turn++, from_ = 0) {
+      if (!copies_.take(turn)) continue;
+      aim_area();
+      if (walk(index_.top(), 0, answers)) continue;
+      from = turn * places + from_;
+      return found_;
+    }
+    from = turn * places;
     return found_;
   }
 
-  /// The first boxes that the moving box meets, by how far it has moved then.
-  COLD void cast(Hits& hits) {
-    is_tame_ = asked_.length > 0;
-    scale_ = (1 + 1e-6) / asked_.length;
-    for (int a = 0; a < D; a++) {
-      f64 along = asked_.along[a], far = __builtin_fabs(along);
-      // The way to the limit, and some more for the roundings.
-      f64 reach = along * (asked_.limit / asked_.length) * (1 + 1e-9);
-      if (!(reach == reach)) reach = 0;  // no way at all, however long it takes
-      f32 low = round_down(asked_.lo[a] + smaller(0.0, reach)), high = round_up(asked_.hi[a] + larger(0.0, reach));
-      lo_[a] = splat(detail::is_finite(low) ? next_toward(low, false) : low);
-      hi_[a] = splat(detail::is_finite(high) ? next_toward(high, true) : high);
-      below_[a] = splat(round_down(asked_.lo[a]));
-      above_[a] = splat(round_up(asked_.hi[a]));
-      slowness_[a] = splat(f32(1 / along));
-      is_tame_ &= asked_.lo[a] > -tame && asked_.hi[a] < tame && (far == 0 || (far > 1 / tame && far < tame));
-    }
-    search<true>(index_.top(), 0, hits);
+  /// Whether the area touches a box here, in a world that wraps around, and not elsewhere before.
+  COLD bool touches_around(const f64* box) const {
+    if (!is_circle()) return copies_.touches(box, asked_.radius == Question<D>::within, asked_.touching);
+    f64 away[D], squared = 0;
+    if (!copies_.away(box, away)) return false;
+    for (int a = 0; a < D; a++) squared += away[a] * away[a];
+    return is_in(squared_ < 1e300 ? squared : length_of(away));
   }
 
-  /// The nearest boxes to the box, most often a point.
-  COLD void near(Hits& hits) {
-    for (int a = 0; a < D; a++) {
-      above_[a] = splat(round_up(asked_.hi[a]));
-      below_[a] = splat(round_down(asked_.lo[a]));
-    }
-    search<false>(index_.top(), 0, hits);
+  /// Whether what is as far away, as a square unless that overflows, is in the circle.
+  bool is_in(f64 away) const {
+    f64 most = squared_ < 1e300 ? squared_ : asked_.radius;
+    return asked_.touching ? away <= most : away < most;
   }
 
- private:
+  /// Without overflow.
+  static f64 length_of(const f64 (&away)[D]) {
+    f64 most = 0, squared = 0, sum = 0;
+    for (int a = 0; a < D; a++) {
+      most = larger(most, away[a]);
+      squared += away[a] * away[a];
+    }
+    if (squared < 1e300) return __builtin_sqrt(squared);
+    if (!(most < __builtin_inf())) return most;
+    for (int a = 0; a < D; a++) sum += (away[a] / most) * (away[a] / most);
+    return most * __builtin_sqrt(sum);
+  }
+
   /// One without size touches what it is at the side of, and so is a point where that does not count.
   bool is_circle() const { return asked_.radius > 0 || (asked_.radius == 0 && asked_.touching); }
 
@@ -246,6 +326,16 @@ template <int D> class Queries {
   /// Of eight boxes that touch in float32, those that touch.
   COLD u32 touching(u32 number, u32 left) const {
     f64 ranks[8];
+    if (world_) {
+      u32 touching = 0;
+      for (; left; left &= left - 1) {
+        u32 lane = u32(__builtin_ctz(left));
+        f64 box[2 * D];
+        index_.box(number * 8 + lane, box);
+        touching |= u32(touches_around(box)) << lane;
+      }
+      return touching;
+    }
     if (is_circle()) left &= distances(number, squared_, ranks);
     bool whole = asked_.radius == Question<D>::within;
     if (whole && !index_.rounded()) return left & within(index_.block(0, number));
@@ -256,10 +346,7 @@ template <int D> class Queries {
       f64 box[2 * D];
       index_.box(number * 8 + lane, box);
       bool touch = true;
-      if (is_circle()) {
-        f64 is = squared_ < 1e300 ? ranks[lane] : distance(number * 8 + lane, ranks[lane]), most = squared_ < 1e300 ? squared_ : asked_.radius;
-        touch = closed ? is <= most : is < most;
-      }
+      if (is_circle()) touch = is_in(squared_ < 1e300 ? ranks[lane] : distance(number * 8 + lane, ranks[lane]));
       for (int a = 0; a < D && !is_circle(); a++) {
         f64 one = box[whole ? D + a : a], other = box[whole ? a : D + a];
         touch &= closed ? one <= asked_.hi[a] && asked_.lo[a] <= other : one < asked_.hi[a] && asked_.lo[a] < other;
@@ -284,11 +371,11 @@ template <int D> class Queries {
           from_ = place;
           return false;
         }
-        answers[found_++] = index_.id(place);
+        answers[found_++] = names_[place];
       }
       return true;
     }
-    u32 inside = all_wanted_ && !is_circle() && !index_.holes() ? within(block) : 0;
+    u32 inside = all_wanted_ && !world_ && !is_circle() && !index_.holes() ? within(block) : 0;
     for (; left; left &= left - 1) {
       u32 lane = u32(__builtin_ctz(left)), child = number * 8 + lane;
       u32 first = child << (3 * level), end = smaller((child + 1) << (3 * level), index_.places());
@@ -300,7 +387,7 @@ template <int D> class Queries {
       first = larger(first, from_);
       u32 taken = smaller(end - first, most_ - found_);
       answers.grow(u64(found_) + taken, found_);
-      __builtin_memcpy(answers.data() + found_, index_.ids() + first, taken * sizeof(u32));
+      __builtin_memcpy(answers.data() + found_, names_ + first, taken * sizeof(u32));
       found_ += taken;
       if (taken < end - first) {
         from_ = first + taken;
@@ -387,15 +474,10 @@ template <int D> class Queries {
   /// The distance to a box whose square is given, which may have overflowed.
   f64 distance(u32 place, f64 squared) const {
     if (squared < 1e300) return __builtin_sqrt(squared);
-    f64 box[2 * D], away[D], most = 0, sum = 0;
+    f64 box[2 * D], away[D];
     index_.box(place, box);
-    for (int a = 0; a < D; a++) {
-      away[a] = larger(0.0, larger(box[a] - asked_.hi[a], asked_.lo[a] - box[D + a]));
-      most = larger(most, away[a]);
-    }
-    if (!(most < __builtin_inf())) return most;
-    for (int a = 0; a < D; a++) sum += (away[a] / most) * (away[a] / most);
-    return most * __builtin_sqrt(sum);
+    for (int a = 0; a < D; a++) away[a] = larger(0.0, larger(box[a] - asked_.hi[a], asked_.lo[a] - box[D + a]));
+    return length_of(away);
   }
 
   /// Writes the squared distances to eight boxes. Returns one bit for each within the limit, and perhaps more.
@@ -431,11 +513,46 @@ template <int D> class Queries {
 
   /// Offers boxes by their distance to the point.
   SHARED void offer_near(u32 number, Hits& hits) const {
+    if (world_) return offer_near_around(number, hits);
     f64 ranks[8];
     for (u32 left = distances(number, squared_limit(hits.limit), ranks); left; left &= left - 1) {
       u32 lane = u32(__builtin_ctz(left)), place = number * 8 + lane;
       if (wanted(place)) hits.offer({distance(place, ranks[lane]), index_.id(place), 0});
     }
+  }
+
+  COLD void offer_near_around(u32 number, Hits& hits) const {
+    u32 least[8];
+    for (u32 left = least_distances(index_.block(0, number), hits.limit, least); left; left &= left - 1) {
+      u32 place = number * 8 + u32(__builtin_ctz(left));
+      f64 box[2 * D], away[D];
+      index_.box(place, box);
+      if (wanted(place) && copies_.away(box, away)) hits.offer({length_of(away), index_.id(place), 0});
+    }
+  }
+
+  /// How the moving box meets a box; false where it does not.
+  bool meets_box(const f64* box, u32 id, Hit& hit) const {
+    Meeting met;
+    if (!meets<D>(asked_.lo, asked_.hi, asked_.along, box, asked_.stops, met)) return false;
+    hit = {met.time * asked_.length, id | (met.corner ? Hit::corner : 0), met.side};
+    return true;
+  }
+
+  /// The same in a world that wraps around; also false where it meets the box at another turn before.
+  COLD bool meets_around(const f64* box, u32 id, Hit& hit, f64 limit) const {
+    f64 copy[2 * D];
+    copies_.copy(box, copy);
+    if (!meets_box(copy, id, hit) || hit.rank > limit) return false;
+    bool first = true, before = true;
+    Copies<D> others = copies_;
+    others.pass(reach_, [&] {
+      Hit other;
+      before &= !others.same_turn(copies_);
+      others.copy(box, copy);
+      if (first && meets_box(copy, id, other)) first = !(other < hit) && (!before || hit < other);
+    });
+    return first;
   }
 
   /// Offers boxes by how far the moving box moves until it meets them.
@@ -445,9 +562,8 @@ template <int D> class Queries {
       if (!wanted(place)) continue;
       f64 box[2 * D];
       index_.box(place, box);
-      Meeting met;
-      if (!meets<D>(asked_.lo, asked_.hi, asked_.along, box, asked_.stops, met)) continue;
-      hits.offer({met.time * asked_.length, index_.id(place) | (met.corner ? Hit::corner : 0), met.side});
+      Hit hit;
+      if (world_ ? meets_around(box, index_.id(place), hit, hits.limit) : meets_box(box, index_.id(place), hit)) hits.offer(hit);
     }
   }
 };

@@ -12,15 +12,83 @@
 #include "base/rounding.hpp"
 #include "rules/filters.hpp"
 
-class Wrap {
+/// A box along one axis of a world that wraps around: from low + shift to low + shift + size + rest.
+struct Span {
+  f64 low, size, rest;  // low: in ]-world, world[
+  f64 shift;            // 0, or the world where low is negative
+  bool full;            // it reaches all around
 
-  /// A box along one axis: from low + shift to low + shift + size + rest.
-  struct Span {
-    f64 low, size, rest;  // low: in ]-world, world[
-    f64 shift;            // 0, or the world where low is negative
-    bool full;            // it reaches all around
+  COLD static Span of(f64 lo, f64 hi, f64 world) {
+    f64 size = hi - lo;
+    f64 back = size - hi;  // -lo, as far as size holds it
+    f64 rest = (hi - (size - back)) - (lo + back);
+    // What has no end reaches all around; so does what is as long as the world.
+    if (!(size < world || (size == world && rest < 0))) return {0, world, 0, 0, true};
+    f64 low = lo >= 0 && lo < world ? lo : remainder(lo, world);
+    return {low, size, rest, low < 0 ? world : 0, false};
+  }
+
+  /// Whether it ends behind where another one begins that much further on, which is a whole number of worlds, or, where
+  /// `touching` counts, just there.
+  bool reaches(const Span& other, f64 further, bool touching) const {
+    return is_below({other.low, -low, -size, -rest, other.shift - shift + further}, touching);
+  }
+
+  /// Whether it lies within another one that is moved so much further on.
+  bool is_within(const Span& other, f64 further, bool touching) const {
+    f64 shifted = other.shift - shift + further;
+    return is_below({other.low, -low, shifted}, touching) &&
+           is_below({low, -other.low, size, -other.size, rest, -other.rest, -shifted}, touching);
+  }
+
+ private:
+  struct Sum {
+    f64 terms[7];
   };
 
+  /// x modulo world, with the sign of x: exact.
+  static f64 remainder(f64 x, f64 world) {
+    f64 rest = __builtin_fabs(x), step = world;
+    while (step <= rest / 2) step *= 2;
+    for (; step >= world; step /= 2) {
+      if (rest >= step) rest -= step;
+    }
+    return x < 0 ? -rest : rest;
+  }
+
+  /// Whether a sum is below 0, or just that.
+  static bool is_below(const Sum& all, bool just) {
+    f64 sum = 0, largest = 0;
+    for (f64 term : all.terms) {
+      sum += term;
+      largest = larger(largest, __builtin_fabs(term));
+    }
+    if (__builtin_fabs(sum) > largest * 0x1p-48) return sum < 0;
+    f64 exact = sign(all);
+    return just ? exact <= 0 : exact < 0;
+  }
+
+  /// The sign of a sum, by Shewchuk's expansions: doubles that add up to it and do not overlap, the largest last.
+  static f64 sign(const Sum& all) {
+    constexpr int most = sizeof(all.terms) / sizeof(f64);
+    f64 parts[most] = {};
+    for (int n = 0; n < most; n++) {
+      f64 sum = all.terms[n];
+      for (int k = 0; k < n; k++) {
+        f64 part = parts[k], total = sum + part, back = total - sum;
+        parts[k] = (sum - (total - back)) + (part - back);
+        sum = total;
+      }
+      parts[n] = sum;
+    }
+    for (int k = most - 1; k >= 0; k--) {
+      if (parts[k] != 0) return parts[k];
+    }
+    return 0;
+  }
+};
+
+class Wrap {
   Buffer<f32> boxes_;     // rounded outward: the boxes, then the ghosts
   Buffer<u32> excluded_;  // of both
   Buffer<u32> owners_;    // per ghost: its box, and above 24 bits the axes along which it is one
@@ -118,30 +186,13 @@ class Wrap {
   }
 
  private:
-  /// x modulo world, with the sign of x: exact.
-  static f64 remainder(f64 x, f64 world) {
-    f64 rest = __builtin_fabs(x), step = world;
-    while (step <= rest / 2) step *= 2;
-    for (; step >= world; step /= 2) {
-      if (rest >= step) rest -= step;
-    }
-    return x < 0 ? -rest : rest;
-  }
-
   f64 number(u32 k, u32 n) const {
     u64 at = u64(filters_->slot(k)) * 2 * dimensions_ + n;
     return doubles_ ? doubles_[at] : f64(given_[at]);
   }
 
-  COLD Span span(u32 k, u32 axis) const {
-    f64 lo = number(k, axis), hi = number(k, dimensions_ + axis), world = world_[axis];
-    f64 size = hi - lo;
-    f64 back = size - hi;  // -lo, as far as size holds it
-    f64 rest = (hi - (size - back)) - (lo + back);
-    // What has no end reaches all around; so does what is as long as the world.
-    if (!(size < world || (size == world && rest < 0))) return {0, world, 0, 0, true};
-    f64 low = lo >= 0 && lo < world ? lo : remainder(lo, world);
-    return {low, size, rest, low < 0 ? world : 0, false};
+  Span span(u32 k, u32 axis) const {
+    return Span::of(number(k, axis), number(k, dimensions_ + axis), world_[axis]);
   }
 
   /// What roundings may amount to.
@@ -170,47 +221,15 @@ class Wrap {
     for (u32 axis = 0; axis < dimensions_; axis++) {
       Span first = span(a, axis), second = span(b, axis);
       bool one = ghost_a >> axis & 1, other = ghost_b >> axis & 1;
-      bool met = first.full || second.full || (reaches(first, second, 0) && reaches(second, first, 0));
+      bool met = first.full || second.full || (first.reaches(second, 0, touching_) && second.reaches(first, 0, touching_));
       if (met) {
         if (one || other) return false;
-      } else if (reaches(second, first, world_[axis])) {
+      } else if (second.reaches(first, world_[axis], touching_)) {
         if (one || !other) return false;
-      } else if (!one || other || !reaches(first, second, world_[axis])) {
+      } else if (!one || other || !first.reaches(second, world_[axis], touching_)) {
         return false;
       }
     }
     return true;
-  }
-
-  /// Whether the one box ends behind where the other one begins that much further on, or just there.
-  bool reaches(const Span& one, const Span& other, f64 further) const {
-    f64 shift = other.shift - one.shift + further;
-    f64 terms[5] = {other.low, -one.low, -one.size, -one.rest, shift};
-    f64 sum = 0, largest = 0;
-    for (f64 term : terms) {
-      sum += term;
-      largest = larger(largest, __builtin_fabs(term));
-    }
-    if (__builtin_fabs(sum) > largest * 0x1p-48) return sum < 0;
-    f64 exact = sign(terms);
-    return touching_ ? exact <= 0 : exact < 0;
-  }
-
-  /// The sign of a sum, by Shewchuk's expansions: doubles that add up to it and do not overlap, the largest last.
-  static f64 sign(const f64 (&terms)[5]) {
-    f64 parts[5] = {};
-    for (int n = 0; n < 5; n++) {
-      f64 sum = terms[n];
-      for (int k = 0; k < n; k++) {
-        f64 part = parts[k], total = sum + part, back = total - sum;
-        parts[k] = (sum - (total - back)) + (part - back);
-        sum = total;
-      }
-      parts[n] = sum;
-    }
-    for (int k = 4; k >= 0; k--) {
-      if (parts[k] != 0) return parts[k];
-    }
-    return 0;
   }
 };

@@ -6,6 +6,7 @@
 // double. Boxes that float32 holds pay nothing.
 // Every change allocates before it writes: when memory ends, the space is as it was.
 #pragma once
+#include "boxes/changed_ids.hpp"
 #include "boxes/gap_map.hpp"
 #include "boxes/per_box.hpp"
 #include "boxes/ring.hpp"
@@ -89,6 +90,7 @@ template <int D> class Space {
   Buffer<u32> answers;  // ids, of the last question
   Hits hits;            // where the question asks for an order
   Bulk<D> bulk;         // many questions, and their answers
+  ChangedIds changed;   // for who keeps pairs with another space
   Stats stats;
   Buffer<f32> cells;  // what structure() has written
   u32 cell_count = 0;
@@ -150,6 +152,7 @@ template <int D> class Space {
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
     if (keeps_events) events.make_room(id);
+    changed.remove(id);
     ids_.erase(id);
     renamed_ = true;
     if (keeps_events) events.forget(id);
@@ -460,6 +463,7 @@ template <int D> class Space {
   COLD u32 ask_area(u32& from, u32 most) {
     if (lost_) return unknown;
     if (!can_answer()) return 0;
+    if (index_.world()) question.wrap(index_.world());
     Queries<D> queries(index_, question);
     u32 found = queries.area(from, most, answers);
     index_.looked_at(queries.looks());
@@ -481,6 +485,7 @@ template <int D> class Space {
   COLD u32 ask_order(bool moving, u32 most, const Hit* after) {
     if (lost_) return unknown;
     if (!can_answer()) return 0;
+    if (index_.world()) question.wrap(index_.world());
     hits.begin(most, question.limit, after);
     Queries<D> queries(index_, question);
     if (moving) queries.cast(hits);
@@ -504,6 +509,16 @@ template <int D> class Space {
     }
     return count;
   }
+
+  /// From now on the ids are kept that have changed, and what the last update saw. Returns their epoch, or `unknown`.
+  COLD u32 keep_changes() {
+    if (lost_) return unknown;
+    asked_ = true;
+    if (!holds_) see();
+    return changed.keep();
+  }
+  /// What the last update saw.
+  const Index<D>& seen() const { return index_; }
 
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
   /// all finite boxes.
@@ -536,6 +551,7 @@ template <int D> class Space {
   COLD void recover() {
     release_techniques();
     changes_.note_all();
+    changed.note_all();
     pairs.stable = 0;
     if (searching_) {
       pairs.list.release();
@@ -662,27 +678,30 @@ template <int D> class Space {
 
   /// Before a change: what the last update saw is kept, once.
   COLD void hold(u32 most = spared) {
-    if (options_.wrap[0] > 0) return;  // no questions there
     if (asked_ || ids_.count() <= most) see();
     else lost_ = holds_ = true;  // holds_: so that it is not asked for again
   }
 
   /// After an update, while its changes are known.
   COLD void follow_with_index() {
-    if (options_.wrap[0] > 0) return;
+    changed.note(changes_.all(), changes_.list(), changes_.count(), ids_.count(), [&](u32 slot) { return ids_.id(slot); });
     const f64* exact = rounding_ ? exact_.data() : nullptr;
     const Rule* rules = filters_.active() ? filters_.rules() : nullptr;
     u32 few = larger(ids_.count() / 32, 8u);  // more are dearer to follow than the index is to make
     holds_ = holds_ && !changes_.all() && changes_.count() <= few &&
-             index_.follow(boxes_.data(), exact, ids_, rules, changes_.list(), changes_.count());
+             index_.follow(boxes_.data(), exact, ids_, rules, changes_.list(), changes_.count(), world());
     // Who writes in place does not say when.
     if (exposed_ && !holds_ && (asked_ || ids_.count() <= spared_in_place)) see();
   }
 
+  /// The size of the world, where it wraps around.
+  const f64* world() const { return options_.wrap[0] > 0 ? options_.wrap : nullptr; }
+
   /// The index takes over what stands in the space.
   COLD void see() {
     see_shown();
-    index_.see(boxes_.data(), rounding_ ? exact_.data() : nullptr, ids_, filters_.active() ? filters_.rules() : nullptr);
+    const Rule* rules = filters_.active() ? filters_.rules() : nullptr;
+    index_.see(boxes_.data(), rounding_ ? exact_.data() : nullptr, ids_, rules, world());
     holds_ = true;
   }
 

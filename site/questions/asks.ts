@@ -2,63 +2,13 @@
 // above them, and how the call reads. They all aim with the same two points: where the pointer went down, and where it
 // is now.
 import type { BroadPhase, RayHit, SweepHit } from 'broadphase';
-import { hues, shades } from '../shared/groups.ts';
-import type { Pen } from './pen.ts';
-
-/** What a question works with. */
-export interface Desk {
-  readonly space: BroadPhase<2 | 3>;
-  readonly boxes: Float32Array;
-  /** The colour slot of every box. */
-  readonly slots: Uint8Array;
-  /** Side of the world. */
-  readonly world: number;
-  /** Where the pointer went down, and where it is: x, y, x, y. */
-  readonly aim: Float64Array;
-  /** Whether that has changed since the last answer. */
-  readonly aimed: boolean;
-  readonly k: number;
-  readonly radius: number;
-  readonly all: boolean;
-  /** The layers that are looked for. */
-  readonly mask: number;
-  readonly pen: Pen;
-}
-
-export type OptionName = 'k' | 'radius' | 'all' | 'mask' | 'meet';
-
-export interface Ask {
-  readonly name: string;
-  readonly label: string;
-  readonly hint: string;
-  /** What the number of answers counts. */
-  readonly counts: string;
-  readonly options: readonly OptionName[];
-  /** Asks, and marks what it found. This alone is timed. */
-  ask(desk: Desk): number;
-  /** Draws what was asked and found. */
-  draw(desk: Desk): void;
-  /** The call and its answer, as they would stand in a program. */
-  text(desk: Desk): string;
-}
-
-const hueSlot = (hue: number, shade = shades - 1) => 1 + (hue % hues) * shades + shade;
-/** The colours of the marks. */
-const found = hueSlot(8);
-const first = hueSlot(0);
-const fresh = 4;
-const gone = 0;
-/** For how many frames a pair flashes that began or ended. */
-const flash = 40;
-
-/** Numbers as one would type them. */
-const short = (value: number) => String(Math.round(value * 10) / 10);
-const list = (ids: readonly number[]) => `[${ids.slice(0, 24).join(', ')}${ids.length > 24 ? ', …' : ''}]`;
-const maskText = ({ mask }: Desk) => (mask === 7 ? '' : `{ mask: ${mask} }`);
-const join = (...parts: string[]) => parts.filter(Boolean).join(', ');
+import { shades } from '../shared/groups.ts';
+import { type Ask, first, flash, found, fresh, gone, hueSlot, join, list, maskText, short } from './ask.ts';
+import { fan, spaces, view } from './more-asks.ts';
 
 const ids: number[] = [];
 const idsOptions = { out: ids, mask: 7 };
+const boxOptions = { out: ids, mask: 7, within: false };
 const rays: RayHit[] = [];
 const raysOptions = { out: rays, mask: 7 };
 const rayOptions = { out: { id: 0, distance: 0, normal: [0, 0] }, mask: 7 };
@@ -74,13 +24,14 @@ function mark(slots: Uint8Array, slot: number): number {
 const box: Ask = {
   name: 'box',
   label: 'Box',
-  hint: 'Drag across the view: what touches the box is found.',
-  counts: 'Boxes that it touches',
-  options: ['mask'],
-  ask({ space, aim, mask, slots }) {
-    idsOptions.mask = mask;
+  hint: 'Drag across the view: what touches the box is found, or what is wholly inside.',
+  counts: 'Boxes found',
+  options: ['within', 'mask'],
+  ask({ space, aim, mask, within, slots }) {
+    boxOptions.mask = mask;
+    boxOptions.within = within;
     const [x, y, toX, toY] = aim;
-    space.queryBox(Math.min(x, toX), Math.min(y, toY), Math.max(x, toX), Math.max(y, toY), idsOptions);
+    space.queryBox(Math.min(x, toX), Math.min(y, toY), Math.max(x, toX), Math.max(y, toY), boxOptions);
     return mark(slots, found);
   },
   draw({ pen, aim: [x, y, toX, toY] }) {
@@ -89,7 +40,8 @@ const box: Ask = {
   text(desk) {
     const [x, y, toX, toY] = desk.aim;
     const numbers = [Math.min(x, toX), Math.min(y, toY), Math.max(x, toX), Math.max(y, toY)].map(short).join(', ');
-    return `space.queryBox(${join(numbers, maskText(desk))});\n// ${list(ids)}`;
+    const options = desk.within ? `{ within: true${desk.mask === 7 ? '' : `, mask: ${desk.mask}`} }` : maskText(desk);
+    return `space.queryBox(${join(numbers, options)});\n// ${list(ids)}`;
   },
 };
 
@@ -339,4 +291,17 @@ export function setLayers(space: BroadPhase<2 | 3>, count: number, meets: readon
   for (let id = 0; id < count; id++) space.setFilter(id, 1 << (id % 3), masks[id % 3]);
 }
 
-export const asks: readonly Ask[] = [box, point, circle, rayCast, sweep, nearest, partners, events, filters];
+export const asks: readonly Ask[] = [
+  box,
+  point,
+  circle,
+  view,
+  rayCast,
+  fan,
+  sweep,
+  nearest,
+  partners,
+  spaces,
+  events,
+  filters,
+];

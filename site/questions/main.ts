@@ -10,7 +10,8 @@ import { makePalette } from '../shared/palette.ts';
 import { createRenderer, type RendererKind } from '../shared/renderer.ts';
 import { type LiveScene, seededScene } from '../shared/scenes.ts';
 import { Timings } from '../shared/timings.ts';
-import { type Ask, asks, type Desk, setLayers } from './asks.ts';
+import type { Ask, Desk } from './ask.ts';
+import { asks, setLayers } from './asks.ts';
 import { Pen } from './pen.ts';
 
 const sharpest = 2;
@@ -32,6 +33,7 @@ const call = find('call');
 const countMenu = find<HTMLSelectElement>('count');
 const sliders = { k: find<HTMLInputElement>('k'), radius: find<HTMLInputElement>('radius') };
 const allBox = find<HTMLInputElement>('all');
+const withinBox = find<HTMLInputElement>('within');
 const write = numberPanel(document);
 const kinds: readonly RendererKind[] = ['webgl2', 'canvas-2d'];
 const wantedKind = new URLSearchParams(location.search).get('renderer');
@@ -54,6 +56,7 @@ const desk: { -readonly [Name in keyof Desk]: Desk[Name] } = {
   k: 10,
   radius: 0,
   all: false,
+  within: false,
   mask: everyone,
   pen,
 };
@@ -157,6 +160,7 @@ function readOptions(): void {
   desk.k = sliders.k.valueAsNumber;
   desk.radius = (sliders.radius.valueAsNumber / 400) * desk.world;
   desk.all = allBox.checked;
+  desk.within = withinBox.checked;
   desk.mask = 0;
   for (const { value, checked } of document.querySelectorAll<HTMLInputElement>('[name=mask]')) {
     if (checked) desk.mask |= Number(value);
@@ -219,7 +223,7 @@ view.addEventListener('pointerdown', (event) => {
   const { aim } = desk;
   pressed = { id: event.pointerId, x: event.clientX, y: event.clientY };
   const [dx, dy] = [aim[2] - aim[0], aim[3] - aim[1]];
-  const alone = ['point', 'circle', 'nearest', 'partners'].includes(ask.name);
+  const alone = ['point', 'circle', 'fan', 'nearest', 'partners', 'spaces'].includes(ask.name);
   if (alone) aim.set([place.x - dx, place.y - dy, place.x, place.y]);
   else aim.set([place.x, place.y, place.x + dx, place.y + dy]);
   desk.aimed = true;

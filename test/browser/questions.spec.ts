@@ -197,3 +197,48 @@ test.describe('on a phone', () => {
     }
   });
 });
+
+test('a box that has to hold them wholly finds fewer', async ({ page }) => {
+  await open(page, 'box');
+  await drag(page, [0.2, 0.2], [0.8, 0.8]);
+  await expectFound(page).toBeGreaterThan(50);
+  const touched = await found(page);
+  await page.getByRole('checkbox', { name: 'Wholly inside' }).check();
+  await expectFound(page).toBeLessThan(touched);
+  await expect(call(page)).toContainText('{ within: true }');
+});
+
+test('a camera sees what is not behind its planes, and is told what is wholly in view', async ({ page }) => {
+  await open(page, 'view');
+  await drag(page, [0.05, 0.5], [0.9, 0.5]);
+  await expectFound(page).toBeGreaterThan(20);
+  await expect(call(page)).toContainText('space.queryPlanes(planes)');
+  const [, all, whole] = /\/\/ (\d+) boxes, (\d+) wholly inside/.exec((await call(page).textContent())!)!;
+  expect(Number(all)).toBe(await found(page));
+  expect(Number(whole)).toBeGreaterThan(5);
+  expect(Number(whole)).toBeLessThan(Number(all));
+});
+
+test('many rays are cast in one call, and move with the point', async ({ page }) => {
+  await open(page, 'fan');
+  await drag(page, [0.5, 0.5], [0.5, 0.5]);
+  await expectFound(page).toBeGreaterThan(20);
+  expect(await found(page)).toBeLessThanOrEqual(90);
+  const before = await call(page).textContent();
+  await drag(page, [0.2, 0.8], [0.2, 0.8]);
+  await expect(call(page)).not.toHaveText(before!);
+  await expect(call(page)).toContainText('space.rayCasts(rays, { maxDistance: ');
+});
+
+test('the pairs of two spaces follow the one that is moved', async ({ page }) => {
+  await open(page, 'spaces');
+  await page.getByRole('slider', { name: 'Radius' }).fill('100');
+  await expectFound(page).toBeGreaterThan(0);
+  await expect(call(page)).toContainText('ring.pairsWith(space)');
+  await drag(page, [0.001, 0.001], [0.001, 0.001]);
+  await page.getByRole('slider', { name: 'Radius' }).fill('0');
+  await expectFound(page).toBeLessThan(40);
+  await drag(page, [0.5, 0.5], [0.5, 0.5]);
+  await page.getByRole('slider', { name: 'Radius' }).fill('60');
+  await expectFound(page).toBeGreaterThan(2);
+});

@@ -1,7 +1,7 @@
 // Makes the calls of a tape (tape.ts) on a space, and hashes all that it answers, in its order, bit by bit.
 // kernel/test/play.cpp does the same without JavaScript.
-import { BroadPhase } from 'broadphase';
-import { calls } from './tape.ts';
+import { BroadPhase, type ManyIds } from 'broadphase';
+import { calls, manyNumbers } from './tape.ts';
 
 type Numbers = [number, number, number, number];
 
@@ -23,6 +23,13 @@ export function play(tape: Float64Array, technique: number): string {
   };
   const double = new Float64Array(1);
   const halves = new Uint32Array(double.buffer);
+  const addDoubles = (numbers: Float64Array) => {
+    for (const number of numbers) {
+      double[0] = number;
+      add(halves[0]!);
+      add(halves[1]!);
+    }
+  };
   let saved = new Uint8Array();
   let at = 2;
   const next = () => tape[at++]!;
@@ -95,6 +102,14 @@ export function play(tape: Float64Array, technique: number): string {
         addAll([hit?.id ?? -1, halves[0]!, halves[1]!]);
         break;
       }
+      case calls.many: {
+        const [kind, most, count] = take(3) as unknown as [number, number, number];
+        const answer = askMany(space, kind, most, take(count * manyNumbers[dimensions][kind]!));
+        addAll(answer.offsets);
+        addAll(answer.ids);
+        addDoubles(answer.distances ?? answer.times ?? new Float64Array());
+        break;
+      }
       case calls.collisionsOf:
         addAll(space.collisionsOf(next()));
         break;
@@ -103,6 +118,22 @@ export function play(tape: Float64Array, technique: number): string {
     }
   }
   return [first, second].map((half) => (half >>> 0).toString(16).padStart(8, '0')).join('');
+}
+
+type Answer = ManyIds & { distances?: Float64Array; times?: Float64Array };
+
+function askMany(space: BroadPhase<2 | 3>, kind: number, most: number, numbers: Float64Array): Answer {
+  const ask: (() => Answer)[] = [
+    () => space.nearests(numbers, most),
+    () => space.rayCasts(numbers),
+    () => space.sweeps(numbers),
+    () => space.queryBoxes(numbers),
+    () => space.queryBoxes(numbers, { within: true }),
+    () => space.queryPoints(numbers),
+    () => space.queryCircles(numbers),
+    () => space.nearestsOfAll(most),
+  ];
+  return ask[kind]!();
 }
 
 export const techniqueNames = (): readonly string[] => BroadPhase.techniques;

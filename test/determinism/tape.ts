@@ -21,21 +21,28 @@ export const calls = {
   collisionsOf: 14, // id
   setEnabled: 15, // id, 0 or 1
   setGroup: 16, // id, group
+  many: 17, // kind, as kernel/questions/bulk.hpp counts, k, count, numbers of so many questions
 } as const;
+
+/** Numbers of a question of each kind, as kernel/questions/bulk.hpp counts them. */
+export const manyNumbers = {
+  2: [2, 4, 6, 4, 4, 2, 3, 0],
+  3: [3, 6, 9, 6, 6, 3, 4, 0],
+};
 
 /** What a tape may have more of than the others, and how many values each call takes. */
 const extras = { setEnabled: 2, setGroup: 4 };
 
 /**
  * A tape of random calls: boxes that touch, move a little, jump, come and go, and are asked about.
- * @param extra what else is done with them, if anything
+ * @param extra what else is done with them, if anything, or `many`: many questions in a call are asked too
  */
 export function randomTape(
   dimensions: 2 | 3,
   techniques: number,
   seed: number,
   count: number,
-  extra?: keyof typeof extras,
+  extra?: keyof typeof extras | 'many',
 ): Float64Array {
   const random = createRandom(seed);
   const integer = (below: number) => Math.floor(random() * below);
@@ -65,8 +72,21 @@ export function randomTape(
       known.set(k, box);
     });
   };
+  /** So many questions of any kind. */
+  const askMany = () => {
+    const kind = integer(8);
+    const questions = Array.from({ length: kind === 7 ? 0 : integer(40) }, () => {
+      if (manyNumbers[dimensions][kind] === 2 * dimensions && kind > 1) return fresh();
+      const way = axes.map(() => integer(80) - 40 + random());
+      if (kind === 2) return [...fresh(), ...way];
+      return [...axes.map(place), ...(kind === 1 ? way : kind === 6 ? [integer(9)] : [])];
+    });
+    tape.push(calls.many, kind, 1 + integer(9), questions.length, ...questions.flat());
+  };
   for (let n = 0; n < count; n++) {
-    if (extra && known.size && random() < 0.2) tape.push(calls[extra], someone(), integer(extras[extra]));
+    if (extra === 'many') {
+      if (random() < 0.1) askMany();
+    } else if (extra && known.size && random() < 0.2) tape.push(calls[extra], someone(), integer(extras[extra]));
     const chance = random();
     if (chance < 0.3) set(id(), fresh());
     else if (chance < 0.5 && known.size) {

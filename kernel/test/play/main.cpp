@@ -74,6 +74,7 @@ template <int D> class Player {
       case 14: return partners();
       case 15: return enable();
       case 16: return group();
+      case 17: return many();
       default: std::fprintf(stderr, "play: the tape has no such call\n"); std::exit(1);
     }
   }
@@ -167,6 +168,32 @@ template <int D> class Player {
     u32 words[] = {met ? space_.hits.data()[0].id & ~Hit::corner : ~0u, u32(time), u32(time >> 32)};
     hash_.add_all(words, 3);
   }
+  void many() {
+    Asks kind = Asks(whole());
+    u32 most = whole(), count = whole();
+    constexpr u32 numbers[2][8] = {{2, 4, 6, 4, 4, 2, 3, 0}, {3, 6, 9, 6, 6, 3, 4, 0}};
+    u32 length = count * numbers[D - 2][u32(kind)];
+    f64* to = space_.bulk.stage(length + count);
+    for (u32 k = 0; k < length; k++) to[k] = next();
+    for (u32 k = 0; k < count; k++) to[length + k] = ~0u;
+    space_.question = {};
+    space_.question.mask = ~0u;
+    space_.question.limit = kind == Asks::way ? 1 : __builtin_inf();
+    bool ordered = kind < Asks::box || kind == Asks::others;
+    count = space_.ask_many(kind, count, moves(kind) ? 1 : most);
+    const u32* offsets = space_.bulk.offsets();
+    hash_.add_all(offsets, count + 1);
+    u32 total = offsets[count];
+    if (!ordered) return hash_.add_all(space_.bulk.ids.data(), total);
+    hash_.add(total);
+    for (u32 k = 0; k < total; k++) hash_.add(space_.bulk.hits[k].id & ~Hit::corner);
+    for (u32 k = 0; k < total; k++) {
+      u64 rank = bits<u64>(space_.bulk.hits[k].rank);
+      hash_.add(u32(rank));
+      hash_.add(u32(rank >> 32));
+    }
+  }
+  static bool moves(Asks kind) { return kind == Asks::ray || kind == Asks::way; }
   void partners() {
     u32 count = space_.partners(whole());
     hash_.add_all(space_.answers.data(), count);

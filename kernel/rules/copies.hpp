@@ -1,0 +1,159 @@
+// Where a question meets boxes in a world that wraps around.
+// Idea: the index has each box once, moved by whole worlds so that its minimum is inside, and so up to two worlds wide.
+// The question is moved by whole worlds, a turn each, and asked again: by one world back and forth along each axis, and
+// along the way of what moves as often as it comes through boxes. A box that is met at several turns is taken from the
+// one where it is met first, or nearest: so nothing comes twice, and nothing has to be remembered.
+// Exact: whether boxes touch is found as for pairs. Distances and times are those to the copy of a box whose numbers are
+// min + k * world and max + k * world, as doubles have them.
+// Cost: up to 9 (2D) or 27 (3D) searches, most of which end at the root.
+#pragma once
+#include "rules/wrap.hpp"
+
+/// What is as long as the world along an axis reaches all around, and moves along it in vain.
+template <int D> COLD void reach_around(const f64* world, f64* lo, f64* hi, f64* along) {
+  for (int a = 0; a < D; a++) {
+    if (!Span::of(lo[a], hi[a], world[a]).full) continue;
+    lo[a] = -__builtin_inf();
+    hi[a] = __builtin_inf();
+    along[a] = 0;
+  }
+}
+
+template <int D> class Copies {
+  static constexpr f64 slack = 0x1p-48;  // of all numbers: what roundings may amount to
+
+  const f64 *world_ = nullptr, *lo_ = nullptr, *hi_ = nullptr;
+  Span span_[D];
+  f64 worlds_[D];     // how many it is away from where `span_` has it
+  f64 turn_[D] = {};  // by how many it is moved
+
+ public:
+  static constexpr u32 turns = D == 2 ? 9 : 27;
+
+  /// Where a box is searched, rounded outward.
+  COLD static void place(const f64* world, const f64* box, f32* to) {
+    for (int a = 0; a < D; a++) {
+      f64 lo = box[a], hi = box[D + a];
+      Span span = Span::of(lo, hi, world[a]);
+      f64 at = span.low + span.shift, more = at == lo ? 0 : slack_of(lo, hi, world[a]);
+      to[a] = span.full ? -__builtin_inff() : round_down(at - more);
+      to[D + a] = span.full ? __builtin_inff() : round_up(at == lo ? hi : at + span.size + more);
+    }
+  }
+
+  COLD void begin(const f64* world, const f64* lo, const f64* hi) {
+    world_ = world;
+    lo_ = lo;
+    hi_ = hi;
+    for (int a = 0; a < D; a++) {
+      span_[a] = Span::of(lo[a], hi[a], world[a]);
+      worlds_[a] = worlds_of(lo[a], span_[a], world[a]);
+    }
+  }
+
+  /// Takes the n-th turn; false where it would be one along an axis along which the question reaches all around.
+  COLD bool take(u32 n) {
+    for (int a = 0; a < D; a++, n /= 3) {
+      turn_[a] = number_of(n % 3);
+      if (turn_[a] != 0 && span_[a].full) return false;
+    }
+    return true;
+  }
+
+  /// Takes each turn at which what moves by `way` may meet boxes, and calls `at`.
+  template <class At> void pass(const f64* way, const At& at, int a = 0, f64 from = 0, f64 until = 1) {
+    if (a == D) return at();
+    if (span_[a].full) return pass(way, at, a + 1, from, until);
+    constexpr f64 more = 1e-9;
+    f64 world = world_[a], lo = span_[a].low + span_[a].shift, hi = lo + span_[a].size;
+    f64 first = way[a] * from, last = way[a] * until;
+    f64 least = __builtin_ceil(-(hi + larger(first, last)) / world - more);
+    f64 most = __builtin_floor((2 * world - (lo + smaller(first, last))) / world + more);
+    for (f64 turn = least; turn <= most; turn++) {
+      f64 enter = from, leave = until;
+      if (way[a] != 0) {
+        f64 one = (-hi - turn * world) / way[a], other = (2 * world - lo - turn * world) / way[a];
+        f64 some = more * (1 + __builtin_fabs(one) + __builtin_fabs(other));
+        enter = larger(enter, smaller(one, other) - some);
+        leave = smaller(leave, larger(one, other) + some);
+      }
+      turn_[a] = turn;
+      if (enter <= leave) pass(way, at, a + 1, enter, leave);
+    }
+  }
+
+  bool same_turn(const Copies& other) const {
+    bool same = true;
+    for (int a = 0; a < D; a++) same &= turn_[a] == other.turn_[a];
+    return same;
+  }
+
+  /// Where the question is looked for at this turn, rounded outward.
+  f64 low(int a) const { return span_[a].full ? -__builtin_inf() : moved(a) - slack_of(lo_[a], hi_[a], far(a)); }
+  f64 high(int a) const {
+    return span_[a].full ? __builtin_inf() : moved(a) + span_[a].size + slack_of(lo_[a], hi_[a], far(a));
+  }
+
+  /// The numbers of a box that is met at this turn, where the question was asked.
+  COLD void copy(const f64* box, f64* to) const {
+    for (int a = 0; a < D; a++) copy(a, Span::of(box[a], box[D + a], world_[a]), turn_[a], box, to[a], to[D + a]);
+  }
+
+  /// Whether the question overlaps a box, or holds it, at this turn and at none before. `touching`: touching is enough.
+  COLD bool touches(const f64* box, bool holds, bool touching) const {
+    for (int a = 0; a < D; a++) {
+      Span its = Span::of(box[a], box[D + a], world_[a]);
+      u32 n = 0;
+      while (n < 3 && !touches(a, its, number_of(n), holds, touching)) n++;
+      if (n == 3 || number_of(n) != turn_[a]) return false;
+    }
+    return true;
+  }
+
+  /// How far a box is away along each axis; false where it is nearer at another turn.
+  COLD bool away(const f64* box, f64* to) const {
+    for (int a = 0; a < D; a++) {
+      Span its = Span::of(box[a], box[D + a], world_[a]);
+      u32 best = 0;
+      for (u32 n = 0; n < 3; n++) {
+        f64 lo, hi;
+        copy(a, its, number_of(n), box, lo, hi);
+        f64 apart = larger(0.0, larger(lo - hi_[a], lo_[a] - hi));
+        if (n > 0 && apart >= to[a]) continue;
+        to[a] = apart;
+        best = n;
+      }
+      if (number_of(best) != turn_[a]) return false;
+    }
+    return true;
+  }
+
+ private:
+  /// By how many worlds the n-th turn of an axis is.
+  static f64 number_of(u32 n) { return n == 2 ? -1.0 : f64(n); }
+
+  static f64 slack_of(f64 lo, f64 hi, f64 world) {
+    return slack * (world + __builtin_fabs(lo) + __builtin_fabs(hi));
+  }
+  f64 far(int a) const { return world_[a] * (2 + __builtin_fabs(turn_[a])); }
+  f64 moved(int a) const { return span_[a].low + span_[a].shift + turn_[a] * world_[a]; }
+
+  static f64 worlds_of(f64 lo, const Span& span, f64 world) {
+    if (span.full) return 0;
+    return __builtin_floor((lo - span.low) / world + 0.5) - (span.shift > 0 ? 1 : 0);
+  }
+
+  void copy(int a, const Span& its, f64 turn, const f64* box, f64& lo, f64& hi) const {
+    f64 world = world_[a], moved = (worlds_[a] - worlds_of(box[a], its, world) - turn) * world;
+    lo = its.full ? -__builtin_inf() : box[a] + moved;
+    hi = its.full ? __builtin_inf() : box[D + a] + moved;
+  }
+
+  bool touches(int a, const Span& its, f64 turn, bool holds, bool touching) const {
+    const Span& own = span_[a];
+    f64 further = turn * world_[a];
+    if (own.full) return true;
+    if (holds) return !its.full && its.is_within(own, further, touching);
+    return its.full || (its.reaches(own, further, touching) && own.reaches(its, -further, touching));
+  }
+};

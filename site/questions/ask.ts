@@ -1,0 +1,58 @@
+// What a question of the page is, what it works with, and what all of them share.
+import type { BroadPhase } from 'broadphase';
+import { hues, shades } from '../shared/groups.ts';
+import type { Pen } from './pen.ts';
+
+/** What a question works with. */
+export interface Desk {
+  readonly space: BroadPhase<2 | 3>;
+  readonly boxes: Float32Array;
+  /** The colour slot of every box. */
+  readonly slots: Uint8Array;
+  /** Side of the world. */
+  readonly world: number;
+  /** Where the pointer went down, and where it is: x, y, x, y. */
+  readonly aim: Float64Array;
+  /** Whether that has changed since the last answer. */
+  readonly aimed: boolean;
+  readonly k: number;
+  readonly radius: number;
+  readonly all: boolean;
+  /** Whether boxes are to be wholly inside. */
+  readonly within: boolean;
+  /** The layers that are looked for. */
+  readonly mask: number;
+  readonly pen: Pen;
+}
+
+export type OptionName = 'k' | 'within' | 'radius' | 'all' | 'mask' | 'meet';
+
+export interface Ask {
+  readonly name: string;
+  readonly label: string;
+  readonly hint: string;
+  /** What the number of answers counts. */
+  readonly counts: string;
+  readonly options: readonly OptionName[];
+  /** Asks, and marks what it found. This alone is timed. */
+  ask(desk: Desk): number;
+  /** Draws what was asked and found. */
+  draw(desk: Desk): void;
+  /** The call and its answer, as they would stand in a program. */
+  text(desk: Desk): string;
+}
+
+export const hueSlot = (hue: number, shade = shades - 1) => 1 + (hue % hues) * shades + shade;
+/** The colours of the marks. */
+export const found = hueSlot(8);
+export const first = hueSlot(0);
+export const fresh = 4;
+export const gone = 0;
+/** For how many frames a pair flashes that began or ended. */
+export const flash = 40;
+
+/** Numbers as one would type them. */
+export const short = (value: number) => String(Math.round(value * 10) / 10);
+export const list = (ids: readonly number[]) => `[${ids.slice(0, 24).join(', ')}${ids.length > 24 ? ', …' : ''}]`;
+export const maskText = ({ mask }: Desk) => (mask === 7 ? '' : `{ mask: ${mask} }`);
+export const join = (...parts: string[]) => parts.filter(Boolean).join(', ');

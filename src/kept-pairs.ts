@@ -1,0 +1,313 @@
+// What is kept between calls of pairsWith: the pairs, what has changed, and the lists of what is near. See pairs-between.ts.
+
+/** In a row of the kernel's: the id in front of the numbers of a box, layer and mask behind. See kernel/bulk.hpp. */
+export const rowMore = 3;
+/** A number of views kept, so that counts seen lately make no garbage. */
+const viewsKept = 256;
+/** By what share of its size a box is grown on each side: more, and its list is longer; less, and it leaves it sooner. */
+const growth = 0.5;
+/** How many boxes may be loose, at least, and for each that has a list. */
+const leastLoose = 32;
+const looseShare = 1 / 16;
+/** In all lists: lists that hold no longer are among them. */
+const mostNumbers = 2 ** 22;
+
+/** An array that grows, with what is in it. */
+export function roomFor<Kind extends Uint32Array<ArrayBuffer> | Float64Array<ArrayBuffer>>(
+  array: Kind,
+  length: number,
+): Kind {
+  if (length <= array.length) return array;
+  const longer = new (array.constructor as new (length: number) => Kind)(Math.max(length, 2 * array.length));
+  longer.set(array);
+  return longer;
+}
+
+/** What has changed in one of the two spaces since the call before. */
+export class Side {
+  /** Up to where its changes have been read. */
+  epoch = 0;
+  #read = 0;
+  slots = new Uint32Array(16);
+  ids = new Uint32Array(16);
+  count = 0;
+  /** By id, the number of the call in which it has changed last. */
+  marks = new Uint32Array(16);
+  /** Where the rows of those stand that ask. */
+  asking = new Uint32Array(16);
+
+  /** Reads the kernel's list: see kernel/changed_ids.hpp. False where all may have changed. */
+  read(epoch: number, words: Uint32Array, first: number, total: number, call: number): boolean {
+    const same = epoch === this.epoch;
+    this.count = 0;
+    // What came last is what holds.
+    for (let k = total; same && k-- > this.#read; ) {
+      const id = words[first + 2 * k]!;
+      this.marks = roomFor(this.marks, id + 1);
+      if (this.marks[id] === call) continue;
+      this.marks[id] = call;
+      this.add(id, words[first + 2 * k + 1]!);
+    }
+    this.epoch = epoch;
+    this.#read = total;
+    return same;
+  }
+
+  add(id: number, slot: number): void {
+    const { count } = this;
+    this.ids = roomFor(this.ids, count + 1);
+    this.slots = roomFor(this.slots, count + 1);
+    this.ids[count] = id;
+    this.slots[count] = slot;
+    this.count++;
+  }
+
+  /** As if all had changed. */
+  takeAll(count: number): void {
+    this.slots = roomFor(this.slots, count);
+    for (let k = 0; k < count; k++) this.slots[k] = k;
+    this.count = count;
+  }
+}
+
+/** By id, which boxes of the other space overlap a grown box: their ids and numbers, one list behind the other. */
+export class Lists {
+  readonly #width: number;
+  /** Lists of another version hold no longer. */
+  version = 1;
+  #versions = new Uint32Array(16);
+  /** Of each list: the grown box, layer and mask. */
+  #grown = new Float64Array(128);
+  #firsts = new Uint32Array(16);
+  #ends = new Uint32Array(16);
+  numbers = new Float64Array(256);
+  used = 0;
+  #last = 0;
+
+  constructor(width: number) {
+    this.#width = width;
+  }
+
+  drop(): void {
+    this.version++;
+    this.used = 0;
+  }
+
+  /** Whether the list of the box of a row holds all that it may overlap. */
+  holds(rows: Float64Array, row: number): boolean {
+    const id = rows[row]!;
+    if (this.#versions[id] !== this.version) return false;
+    const width = this.#width;
+    const grown = this.#grown;
+    const at = id * (width + 2);
+    const within =
+      width === 4
+        ? grown[at]! <= rows[row + 1]! &&
+          grown[at + 1]! <= rows[row + 2]! &&
+          rows[row + 3]! <= grown[at + 2]! &&
+          rows[row + 4]! <= grown[at + 3]!
+        : grown[at]! <= rows[row + 1]! &&
+          grown[at + 1]! <= rows[row + 2]! &&
+          grown[at + 2]! <= rows[row + 3]! &&
+          rows[row + 4]! <= grown[at + 3]! &&
+          rows[row + 5]! <= grown[at + 4]! &&
+          rows[row + 6]! <= grown[at + 5]!;
+    return within && grown[at + width] === rows[row + width + 1]! && grown[at + width + 1] === rows[row + width + 2]!;
+  }
+
+  /** Begins the list of the box of a row, as it was asked for. */
+  begin(rows: Float64Array, row: number): void {
+    const width = this.#width;
+    const id = rows[row]!;
+    this.#versions = roomFor(this.#versions, id + 1);
+    this.#firsts = roomFor(this.#firsts, id + 1);
+    this.#ends = roomFor(this.#ends, id + 1);
+    this.#grown = roomFor(this.#grown, (id + 1) * (width + 2));
+    const at = id * (width + 2);
+    for (let n = 0; n < width + 2; n++) this.#grown[at + n] = rows[row + 1 + n]!;
+    grow(this.#grown, at, width);
+    this.#versions[id] = this.version;
+    this.#firsts[id] = this.#ends[id] = this.used;
+    this.#last = id;
+  }
+
+  /** Adds the box of a row of the other space to the list that was begun last. */
+  add(rows: Float64Array, row: number): void {
+    const width = this.#width;
+    this.numbers = roomFor(this.numbers, this.used + width + 1);
+    for (let n = 0; n <= width; n++) this.numbers[this.used++] = rows[row + n]!;
+    this.#ends[this.#last] = this.used;
+  }
+
+  first(id: number): number {
+    return this.#firsts[id]!;
+  }
+  end(id: number): number {
+    return this.#ends[id]!;
+  }
+}
+
+/** Makes a box larger by a share of its size on each side, where that is finite. */
+export function grow(numbers: Float64Array, at: number, width: number): void {
+  const d = width / 2;
+  let most = 0;
+  for (let a = at; a < at + d; a++) {
+    const size = numbers[a + d]! - numbers[a]!;
+    if (size > most && size < Number.POSITIVE_INFINITY) most = size;
+  }
+  for (let a = at; a < at + d; a++) {
+    numbers[a]! -= most * growth;
+    numbers[a + d]! += most * growth;
+  }
+}
+
+/** Whether two boxes, of these numbers, do more than touch. */
+function overlap(ones: Float64Array, one: number, others: Float64Array, other: number, d: number): boolean {
+  for (let a = 0; a < d; a++) {
+    if (ones[one + a]! >= others[other + a + d]! || others[other + a]! >= ones[one + a + d]!) return false;
+  }
+  return true;
+}
+
+/** The pairs with another space. */
+export class Kept {
+  /** The space with fewer boxes, and the other. */
+  readonly few = new Side();
+  readonly many = new Side();
+  readonly loose = new Side();
+  readonly lists: Lists;
+  readonly #width: number;
+  /** Whether boxes that only touch are a pair. */
+  readonly #touching: boolean;
+  /** By id of the other space, the version of the lists in which it is loose. */
+  #looseIn = new Uint32Array(16);
+  #looseAt = new Uint32Array(16);
+  /** Whether the pairs begin with the space that has fewer. */
+  #forth = true;
+  #list = new Uint32Array(64);
+  #views: Uint32Array[] = [];
+  length = 0;
+  call = 0;
+
+  constructor(width: number, touching: boolean) {
+    this.#width = width;
+    this.#touching = touching;
+    this.lists = new Lists(width);
+  }
+
+  /** Begins a call between so many boxes and so many others; returns whether the first are the fewer, or nearly so. */
+  begin(mine: number, others: number): boolean {
+    this.call++;
+    const forth = this.#forth ? mine <= 2 * others : 2 * mine < others;
+    if (forth !== this.#forth) this.forget();
+    this.#forth = forth;
+    return forth;
+  }
+
+  /** All is found anew with the next call. */
+  forget(): void {
+    this.few.epoch = this.many.epoch = 0;
+    this.length = 0;
+    this.dropLists();
+  }
+
+  dropLists(): void {
+    this.lists.drop();
+    this.loose.count = 0;
+  }
+
+  /** What has changed in the space with more boxes is loose from now on; where that are too many, all lists go. */
+  loosen(): void {
+    const { many, loose, lists } = this;
+    const most = leastLoose + looseShare * this.few.marks.length;
+    if (loose.count + many.count > most || lists.used > mostNumbers) this.dropLists();
+    for (let k = 0; k < many.count; k++) {
+      const id = many.ids[k]!;
+      this.#looseIn = roomFor(this.#looseIn, id + 1);
+      this.#looseAt = roomFor(this.#looseAt, id + 1);
+      if (this.#looseIn[id] === lists.version) {
+        loose.slots[this.#looseAt[id]!] = many.slots[k]!;
+        continue;
+      }
+      this.#looseIn[id] = lists.version;
+      this.#looseAt[id] = loose.count;
+      loose.add(id, many.slots[k]!);
+    }
+  }
+
+  /** Takes away the pairs of what has changed, or is loose. */
+  dropPairs(): void {
+    const list = this.#list;
+    const { marks } = this.few;
+    const few = this.#forth ? 0 : 1;
+    const many = 1 - few;
+    let length = 0;
+    for (let k = 0; k < this.length; k += 2) {
+      if (marks[list[k + few]!] === this.call || this.#isLoose(list[k + many]!)) continue;
+      list[length] = list[k]!;
+      list[length + 1] = list[k + 1]!;
+      length += 2;
+    }
+    this.length = length;
+  }
+
+  /** Adds the pairs of the box of a row that its list holds. */
+  addNear(rows: Float64Array, row: number): void {
+    const { numbers } = this.lists;
+    const id = rows[row]!;
+    const end = this.lists.end(id);
+    const minX = rows[row + 1]!;
+    const minY = rows[row + 2]!;
+    const third = rows[row + 3]!;
+    const fourth = rows[row + 4]!;
+    let at = this.lists.first(id);
+    if (this.#width === 4) {
+      for (; at < end; at += 5) {
+        if (numbers[at + 1]! > third || minX > numbers[at + 3]!) continue;
+        if (numbers[at + 2]! <= fourth && minY <= numbers[at + 4]!) this.#addNear(rows, row, at);
+      }
+      return;
+    }
+    const maxY = rows[row + 5]!;
+    const maxZ = rows[row + 6]!;
+    for (; at < end; at += 7) {
+      if (numbers[at + 1]! > fourth || minX > numbers[at + 4]! || numbers[at + 2]! > maxY || minY > numbers[at + 5]!)
+        continue;
+      if (numbers[at + 3]! <= maxZ && third <= numbers[at + 6]!) this.#addNear(rows, row, at);
+    }
+  }
+
+  #addNear(rows: Float64Array, row: number, at: number): void {
+    const { numbers } = this.lists;
+    if (this.#touching || overlap(rows, row + 1, numbers, at + 1, this.#width / 2)) this.add(rows[row]!, numbers[at]!);
+  }
+
+  /** Adds a pair of one of the fewer and another, but where that is loose. */
+  add(few: number, many: number): void {
+    if (!this.#isLoose(many)) this.addPair(few, many);
+  }
+
+  addPair(few: number, many: number): void {
+    const { length } = this;
+    if (length + 2 > this.#list.length) this.#list = roomFor(this.#list, length + 2);
+    this.#list[length] = this.#forth ? few : many;
+    this.#list[length + 1] = this.#forth ? many : few;
+    this.length = length + 2;
+  }
+
+  /** The pairs, by a view made before if possible. */
+  view(): Uint32Array {
+    const { length } = this;
+    const at = (length / 2) % viewsKept;
+    let view = this.#views[at];
+    if (view?.length !== length || view.buffer !== this.#list.buffer) {
+      view = this.#list.subarray(0, length);
+      this.#views[at] = view;
+    }
+    return view;
+  }
+
+  #isLoose(id: number): boolean {
+    return this.#looseIn[id] === this.lists.version;
+  }
+}
