@@ -283,10 +283,9 @@ export class Link {
 
   #begin({ tick, entities, isLive }, asked) {
     const welcomes = [...this.#welcomes.values()];
-    // An answer may be as old as the question, and to say from when on this one is there takes a way of messages more.
-    const ticks = welcomes.map(
-      ({ tick, at }) => tick + Math.ceil((performance.now() - asked + (at - asked)) / tickTime),
-    );
+    // Ticks go on while the answer is on its way, and while these are told from when on this one is there.
+    const passed = Math.ceil((performance.now() - asked) / tickTime);
+    const ticks = welcomes.map(({ tick }) => tick + passed);
     const start = welcomes.length === 0 ? tick + 1 : Math.max(...ticks) + ahead;
     const others = new Set(welcomes.flatMap(({ owned }) => [...unpack(owned, Uint32Array)]));
     // What others handed to this zone since a snapshot is newer than that; what it has itself is newer than what they handed.
@@ -322,8 +321,7 @@ export class Link {
     if (type === 'tick') this.#hearTick(message);
     else if (type === 'again') this.#tellAgain(message);
     else if (type === 'join') this.#welcome(message);
-    else if (type === 'welcome' && message.to === this.#epoch)
-      this.#welcomes.set(from, { ...message, at: performance.now() });
+    else if (type === 'welcome' && message.to === this.#epoch) this.#welcomes.set(from, message);
     else if (type === 'absent' && message.to === this.#epoch) this.#absent.add(from);
     else if (type === 'start') this.#admit(message);
     else if (type === 'late' && this.#peers.has(from)) this.running = false;
