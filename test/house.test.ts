@@ -61,6 +61,23 @@ describe('the house', () => {
     expect(circles).toEqual([]);
   });
 
+  test('imports nothing from a floor above', () => {
+    // The library, its other entries, the command, and all that uses, measures and proves them.
+    const floors = [
+      /^src\/(?!(cli|ro|trace|shard|draw|scenes)\/)/,
+      /^src\/(ro|trace|shard|draw|scenes)\//,
+      /^src\/cli\//,
+      /^(site|examples|scripts|consumers|starter|bench|test)\//,
+    ];
+    const floorOf = (file: string) => floors.findIndex((floor) => floor.test(file));
+    const upward = code
+      .filter((file) => floorOf(file) >= 0 && !/\.test\.mjs$/.test(file))
+      .flatMap((file) => uses(file).map(([used, line]) => ({ file, used, line })))
+      .filter(({ file, used }) => floorOf(used) > floorOf(file))
+      .map(({ file, used, line }) => `${file}:${line}: ${used}`);
+    expect(upward).toEqual([]);
+  });
+
   test('has no file of code that nothing names', () => {
     // What is found by its name, or run by hand, or is a page, an example or a place to try the package from.
     const found = /^(examples|consumers|starter|bench\/(askers|peers|native)|kernel\/test|site\/article\/figures)\//;
