@@ -1,11 +1,12 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
-import { everyTechnique } from './scripts/every-technique.mjs';
+import { everyTechnique, withKernel } from './scripts/every-technique.mjs';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 
 export default defineConfig({
-  plugins: [everyTechnique],
+  // KERNEL: another than the one with every technique, for scripts/dev.mjs.
+  plugins: [process.env.KERNEL ? withKernel(process.env.KERNEL) : everyTechnique],
   resolve: {
     alias: [
       { find: 'broadphase/draw', replacement: path('./src/draw/index.ts') },

@@ -29,20 +29,3 @@ export function loadCases(traces) {
   cases.sort((a, b) => rank(a) - rank(b) || (a.name < b.name ? -1 : 1));
   return new Map(cases.map((item) => [item.name, item]));
 }
-
-/**
- * The cases of questions, by name: each question is asked 1,000 times a frame, of boxes that stay, and right after an
- * update of all boxes. `question` is what contenders are asked.
- */
-export function questionCases() {
-  const cases = [2, 3].flatMap((dimensions) =>
-    ['queryBox', 'queryLarge', 'nearest', 'rayCast'].flatMap((kind) =>
-      [true, false].map((still) => {
-        const name = `${kind}${dimensions}d${still ? '' : '-moved'}`;
-        const question = kind === 'queryLarge' ? 'queryBox' : kind;
-        return { name, scene: `uniform${dimensions}d`, kind, question, still, counts: [10_000, 100_000] };
-      }),
-    ),
-  );
-  return new Map(cases.map((item) => [item.name, item]));
-}

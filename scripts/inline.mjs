@@ -30,3 +30,14 @@ export function inline(bytes) {
     text: Array.from(bytes, (byte) => written[byte]).join(''),
   };
 }
+
+/** A kernel as a module of TypeScript, with how it is decoded, and what it knows. */
+export function moduleOf(wasm, decoder, techniques, dimensions) {
+  const lines = [
+    '// Made by scripts/kernel.mjs from kernel/: do not edit.',
+    ...Object.entries({ ...inline(wasm), decoder }).map(([key, value]) => `export const ${key} =\n  '${value}';`),
+    `export const dimensions: readonly (2 | 3)[] = [${dimensions.join(', ')}];`,
+    `export type Technique = ${techniques.map((technique) => `'${technique}'`).join(' | ')};`,
+  ];
+  return `${lines.join('\n')}\n`;
+}

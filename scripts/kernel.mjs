@@ -8,7 +8,7 @@ import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { compile, flags, kernelSources, lean, only, techniqueNames } from './compile.mjs';
-import { inline } from './inline.mjs';
+import { moduleOf } from './inline.mjs';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
 const kernels = [
@@ -51,14 +51,7 @@ async function make({ name, techniques, dimensions, more }) {
   decoder ??= Buffer.from(await compile('kernel/decoder.cpp')).toString('hex');
   const bytes = await compile('kernel/abi.cpp', more);
   writeFileSync(wasm, bytes);
-  const texts = Object.entries({ ...inline(bytes), decoder });
-  const lines = [
-    '// Made by scripts/kernel.mjs from kernel/: do not edit.',
-    ...texts.map(([key, value]) => `export const ${key} =\n  '${value}';`),
-    `export const dimensions: readonly (2 | 3)[] = [${dimensions.join(', ')}];`,
-    `export type Technique = ${techniques.map((technique) => `'${technique}'`).join(' | ')};`,
-  ];
-  writeFileSync(inlined, `${lines.join('\n')}\n`);
+  writeFileSync(inlined, moduleOf(bytes, decoder, techniques, dimensions));
   writeFileSync(hashFile, sources);
   console.log(`${name}: compiled, ${bytes.length} bytes, ${((performance.now() - started) / 1000).toFixed(1)} s`);
 }

@@ -11,6 +11,7 @@ import {
   checkBits,
   checkNumberArray,
   checkOptions,
+  checkWrap,
   isId,
   maxId,
   noBox,
@@ -1171,14 +1172,6 @@ function checkMargin(margin: unknown): void {
   const expected = 'a number above 0';
   if (typeof margin !== 'number') badValue('margin', margin, expected, true);
   if (!(margin > 0 && margin < Number.POSITIVE_INFINITY)) badValue('margin', margin, expected);
-}
-
-function checkWrap(wrap: readonly number[], dimensions: 2 | 3): void {
-  const expected = `${dimensions} numbers above 0 and no more than 1e300`;
-  if (!Array.isArray(wrap)) badValue('wrap', wrap, expected, true);
-  const good =
-    wrap.length === dimensions && wrap.every((size) => typeof size === 'number' && size > 0 && size <= 1e300);
-  if (!good) badValue('wrap', wrap, expected);
 }
 
 function checkBounds(bounds: readonly number[], dimensions: 2 | 3): void {

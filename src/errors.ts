@@ -108,6 +108,24 @@ export function checkNumberArray(where: string, numbers: unknown): void {
   badValue(where, numbers, 'a Float32Array, a Float64Array or an array of numbers', true);
 }
 
+/** An id and a box that are ones. */
+export function checkBox(where: string, id: number, box: readonly number[], dimensions: 2 | 3): void {
+  if (!isId(id)) badId(where, id);
+  if (box.length !== 2 * dimensions) badCount(where, id, 1 + box.length, dimensions);
+  let good = box.every((value) => typeof value === 'number');
+  for (let k = 0; k < dimensions; k++) good &&= box[k]! <= box[k + dimensions]!;
+  if (!good) badBox(where, id, box, dimensions);
+}
+
+/** The size of a world that wraps around. */
+export function checkWrap(wrap: readonly number[], dimensions: 2 | 3): void {
+  const expected = `${dimensions} numbers above 0 and no more than 1e300`;
+  if (!Array.isArray(wrap)) badValue('wrap', wrap, expected, true);
+  const good =
+    wrap.length === dimensions && wrap.every((size) => typeof size === 'number' && size > 0 && size <= 1e300);
+  if (!good) badValue('wrap', wrap, expected);
+}
+
 /** Layers and masks are 32 bits. */
 export function checkBits(where: string, bits: unknown): void {
   if (typeof bits !== 'number') badValue(where, bits, 'an integer from 0 to 4294967295', true);

@@ -264,6 +264,40 @@ describe('two zones', () => {
     expect(left.exchange().map(({ ids, changes }) => [...ids, ...changes])).toEqual([[1, 16]]);
   });
 
+  test('know whose a ghost is when the border alone has moved', () => {
+    const cut = (x: number[]) => new Zones({ borders: { x } });
+    const before = cut([100, 200]);
+    const after = cut([85, 200]);
+    const shards = [0, 1, 2].map((zone) => new Shard(before, zone, new BroadPhase({ events: true })));
+    const exchange = (to: Zones) => {
+      const deltas = shards.flatMap((shard) => shard.exchange(to));
+      for (const shard of shards) shard.update(deltas.filter((delta) => delta.to === shard.zone));
+      return deltas.map((delta) => `${delta.from} to ${delta.to}: ${delta.ids}`);
+    };
+    shards[0]!.set(1, 90, 0, 210, 10).set(2, 80, 0, 120, 10);
+    exchange(before);
+    // One is handed over, which the last zone is told; of the other nothing is new.
+    expect(exchange(after)).toEqual(['0 to 1: 1', '0 to 2: 1']);
+    shards[2]!.forget(0);
+    expect(shards[2]!.sees(1)).toBe(true);
+    shards[2]!.forget(1);
+    expect(shards[2]!.sees(1)).toBe(false);
+  });
+
+  test('keep no state in which a ghost has moved by itself', () => {
+    const [left, right] = make() as [Shard, Shard];
+    left.set(1, 90, 0, 110, 10);
+    tick([left, right]);
+    right.set(1, 91, 0, 111, 10).update();
+    expect(() => right.state()).toThrow(/box 1 has changed, expected an exchange/);
+    left.set(1, 91, 0, 111, 10);
+    tick([left, right]);
+    expect([...right.state().ids]).toEqual([1]);
+    expect(() => new Shard(zones, 0, new BroadPhase({ events: true }), { state: right.state() })).toThrow(
+      'delta.to: got 1, expected 0, this zone',
+    );
+  });
+
   test('filters hold for ghosts, also where they come in', () => {
     const spaces: BroadPhase[] = [];
     const shards = [0, 1].map((zone) => {
@@ -294,6 +328,8 @@ describe('two zones', () => {
     wrong({ boxes: new Float64Array(3) }, /maxX|delta.boxes/);
     wrong({ boxes: new Float64Array(5) }, /^update: delta.boxes.length: got 5, expected 4/);
     wrong({ boxes: Float64Array.of(0, Number.NaN, 1, 1) }, /minY of box 1 is NaN/);
+    wrong({ ids: Uint32Array.of(2 ** 24) }, /^update: delta.boxes: the id is 16777216/);
+    wrong({ changes: Uint8Array.of(7) }, /^update: delta.changes\[0\]: got 7, expected 0, 1 or 16/);
     right.update([delta]);
     expect(right.space.size).toBe(1);
     expect(() => right.delete(1)).toThrow('delete: got 1, expected a box of zone 1, not of zone 0');
@@ -302,6 +338,8 @@ describe('two zones', () => {
     expect(() => right.set(2, 0, 0, 1)).toThrow('got 4 arguments');
     expect(() => right.exchange(new Zones({ borders: { x: [1, 2] } }))).toThrow('zones.count: got 3, expected 2');
     expect(() => right.forget(1)).toThrow('forget: got 1, expected another zone');
+    expect(() => right.resend(1)).toThrow('resend: got 1, expected another zone');
+    expect(() => right.set(2, 0, 0, '1' as never, 1)).toThrow('maxX of box 2 is "1", expected a number');
     expect(() => new Shard(zones, 0, new BroadPhase())).toThrow(/events/);
     expect(() => new Shard(zones, 0, new BroadPhase({ dimensions: 3, events: true }))).toThrow(
       'space.dimensions: got 3',

@@ -45,7 +45,7 @@ function lineOf(contender, { contenders, frames }) {
 }
 
 /** What is to be said beside the figures of a contender: fewer frames, other pairs. */
-export function noteOf(contender, frames) {
+function noteOf(contender, frames) {
   const fewer = contender.timed < frames ? `${contender.timed} of ${frames} frames` : '';
   return [fewer, contender.wrong ? wrongOf(contender) : ''].filter(Boolean).join('; ');
 }

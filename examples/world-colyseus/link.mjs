@@ -3,7 +3,8 @@
 //
 // A zone that starts, or starts again, joins: it asks all, is told by each at which tick that is and whom it owns, and
 // names a tick from which on they count with each other. If a zone is silent, the others ask whether its process is still
-// there. If it is not, they go on, and another process makes its room anew. Else they wait, but not for ever. Entities
+// there. If it is not, they go on, and another process makes its room anew. Else they wait, but not for ever: a zone that
+// is slow still answers that it has not got so far, one that is asked by a zone it does not count with says that. Entities
 // turn round at the border of a zone that is not there.
 import { pack, packDelta, packEntities, unpack, unpackDelta, unpackEntities } from './wire.mjs';
 import { tickTime } from './world.mjs';
@@ -18,7 +19,7 @@ const patience = 5000;
 const answerTime = 500;
 /** Milliseconds from one attempt to bring a zone back to the next. */
 const retryTime = 4000;
-/** How long one that joins waits for answers, and how many ticks ahead it begins. */
+/** How long one that joins waits for answers where it knows of nobody, and how many ticks ahead it begins. */
 const gathering = 300;
 const ahead = 6;
 /** Ticks between two signs of life. */
@@ -40,10 +41,12 @@ export class Link {
   /** Zones that count: what they sent by tick. And those that will from some tick on. */
   #peers = new Map();
   #coming = new Map();
-  /** When each zone last said that it runs, and that it would like to. */
+  /** When each zone last said that it runs, and as what; and when that it would like to. */
   #ran = new Map();
   #asked = new Map();
+  /** While it joins: what those that run answered, and who is not waited for. */
   #welcomes = new Map();
+  #absent = new Set();
   #yieldUntil = 0;
   #wake = () => {};
   /** What it told whom in this tick and the last one. */
@@ -72,6 +75,11 @@ export class Link {
   /** What is known of the room of another zone. */
   infoOf(zone) {
     return this.#peers.get(zone)?.info;
+  }
+
+  /** Those that count with each other: each zone with its room, this one too. */
+  together() {
+    return [[this.#zone, this.#info], ...[...this.#peers].map(([zone, { info }]) => [zone, info])];
   }
 
   /** Joins the others, and runs until it is stopped. */
@@ -135,7 +143,7 @@ export class Link {
     for (const [zone, peer] of this.#coming) {
       if (peer.start > this.tick) continue;
       this.#coming.delete(zone);
-      this.#peers.set(zone, peer);
+      this.#peers.set(zone, Object.assign(peer, { heard: performance.now() }));
       this.#simulation.shard.resend(zone);
       this.#calls.log(`zone ${zone} is here from tick ${this.tick} on`);
     }
@@ -178,7 +186,8 @@ export class Link {
       } else if (performance.now() - asked > suspicious) {
         for (const zone of missing) {
           this.#send(zone, { type: 'again', tick: this.tick }); // it may have got lost, with Redis
-          await this.#suspect(zone, performance.now() - since);
+          const heard = Math.max(since, this.#peers.get(zone)?.heard ?? 0);
+          await this.#suspect(zone, performance.now() - heard);
         }
         asked = performance.now();
       }
@@ -187,7 +196,7 @@ export class Link {
 
   /** Leaves out a zone that has died, or has been silent for too long. */
   async #suspect(zone, silent) {
-    const info = this.#peers.get(zone)?.info;
+    const { info, epoch } = this.#peers.get(zone) ?? {};
     if (!info) return;
     const there = await isThere(info);
     if (this.#peers.get(zone)?.info !== info || (there && silent < patience)) return;
@@ -195,7 +204,7 @@ export class Link {
     this.#calls.log(`zone ${zone} ${why} (${info.address}): going on without it`);
     this.#drop(zone);
     this.#asked.delete(zone);
-    if (there) this.#send(zone, { type: 'dropped' });
+    if (there) this.#send(zone, { type: 'dropped', to: epoch });
     this.#bringBack(zone, info, !there);
   }
 
@@ -225,38 +234,58 @@ export class Link {
   }
 
   #sayHello() {
-    this.#send(undefined, { type: 'hello' });
+    this.#send(undefined, { type: 'hello', info: this.#info });
   }
 
   /** Becomes one of those that are running; waits as long as that takes. */
   async #join() {
-    const known = [...this.#peers.keys()];
-    for (const zone of known) this.#drop(zone);
+    const known = [...this.#peers].map(([zone, { info }]) => [zone, info]);
+    for (const [zone] of known) this.#drop(zone);
     this.#coming.clear();
     const begin = await this.#calls.begin();
-    const expected = begin.peers ?? known;
+    const expected = new Map(begin.peers ?? known);
+    expected.delete(this.#zone);
     for (;;) {
       await sleep(Math.max(0, this.#yieldUntil - performance.now()));
+      if (this.#stopped) return;
       this.#epoch = Math.floor(Math.random() * 2 ** 48);
       this.#welcomes.clear();
+      this.#absent.clear();
       const asked = performance.now();
-      this.#send(undefined, { type: 'join', since: begin.isLive ? -1 : begin.tick, info: this.#info });
-      while (performance.now() - asked < (expected.length > 0 ? 2 * gathering : gathering)) {
-        await sleep(20);
-        if (expected.length > 0 && expected.every((zone) => this.#welcomes.has(zone))) break;
-      }
+      await this.#ask(begin, expected);
       if (this.#stopped) return;
       if (this.#yieldUntil > performance.now()) continue;
-      // Who runs has to say first whom it owns.
-      if ([...this.#ran].some(([zone, at]) => at > asked - 1000 && !this.#welcomes.has(zone))) continue;
-      this.#begin(begin);
+      this.#begin(begin, asked);
       return;
     }
   }
 
-  #begin({ tick, entities, isLive }) {
+  /**
+   * Asks all that run whom they own. Who runs is told by those that answer, too. Not waited for is one whose process has
+   * ended, one that says it does not run, and one that has said nothing for too long.
+   */
+  async #ask({ isLive, tick }, expected) {
+    const join = { type: 'join', since: isLive ? -1 : tick, info: this.#info };
+    let begun = performance.now();
+    for (let asked = -Infinity; !this.#stopped && this.#yieldUntil < performance.now(); await sleep(20)) {
+      if (!this.#isConnected()) begun = performance.now();
+      for (const [zone, { at, info }] of this.#ran) if (at > begun - 1000) expected.set(zone, info);
+      for (const { peers } of this.#welcomes.values()) for (const [zone, info] of peers) expected.set(zone, info);
+      const missing = [...expected].filter(([zone]) => !this.#welcomes.has(zone) && !this.#absent.has(zone));
+      const waited = performance.now() - begun;
+      if (missing.length === 0 ? expected.size > 0 || waited > gathering : waited > patience) return;
+      if (performance.now() - asked < 2 * gathering) continue;
+      if (asked > 0) for (const [zone, info] of missing) if (!(await isThere(info))) this.#absent.add(zone);
+      asked = performance.now();
+      this.#send(undefined, join);
+    }
+  }
+
+  #begin({ tick, entities, isLive }, asked) {
     const welcomes = [...this.#welcomes.values()];
-    const ticks = welcomes.map(({ tick, at }) => tick + Math.ceil((performance.now() - at) / tickTime));
+    // Ticks go on while the answer is on its way, and while these are told from when on this one is there.
+    const passed = Math.ceil((performance.now() - asked) / tickTime);
+    const ticks = welcomes.map(({ tick }) => tick + passed);
     const start = welcomes.length === 0 ? tick + 1 : Math.max(...ticks) + ahead;
     const others = new Set(welcomes.flatMap(({ owned }) => [...unpack(owned, Uint32Array)]));
     // What others handed to this zone since a snapshot is newer than that; what it has itself is newer than what they handed.
@@ -267,7 +296,7 @@ export class Link {
     this.tick = start;
     this.running = true;
     for (const { from, epoch, info } of welcomes) {
-      this.#peers.set(from, { inbox: new Map(), epoch, info });
+      this.#peers.set(from, { inbox: new Map(), epoch, info, heard: performance.now() });
       this.#send(from, { type: 'start', start, info: this.#info });
     }
     this.#sayHello();
@@ -285,22 +314,38 @@ export class Link {
       if (type === 'join' && message.info.roomId !== this.#info.roomId) this.#calls.replaced();
       return;
     }
-    if (type === 'hello') this.#ran.set(from, performance.now());
+    const peer = this.#peers.get(from);
+    if (peer?.epoch === message.epoch) peer.heard = performance.now();
+    if (type === 'hello') this.#ran.set(from, { at: performance.now(), info: message.info });
     if (type === 'join') this.#asked.set(from, performance.now());
     if (type === 'tick') this.#hearTick(message);
-    else if (type === 'again') {
-      for (const [zone, told] of this.#last) if (zone === from && told.tick === message.tick) this.#send(zone, told);
-    } else if (type === 'join') this.#welcome(message);
-    else if (type === 'welcome' && message.to === this.#epoch)
-      this.#welcomes.set(from, { ...message, at: performance.now() });
+    else if (type === 'again') this.#tellAgain(message);
+    else if (type === 'join') this.#welcome(message);
+    else if (type === 'welcome' && message.to === this.#epoch) this.#welcomes.set(from, message);
+    else if (type === 'absent' && message.to === this.#epoch) this.#absent.add(from);
     else if (type === 'start') this.#admit(message);
     else if (type === 'late' && this.#peers.has(from)) this.running = false;
-    else if (type === 'dropped' && this.#peers.has(from)) this.running = false;
+    else if (type === 'dropped' && message.to === this.#epoch) this.#leave(from);
     else if (type === 'hello' && this.running && !this.#peers.has(from) && !this.#coming.has(from)) {
       // Two that run and do not know of each other: the later one joins again.
       if (from < this.#zone) this.running = false;
     }
     this.#wake();
+  }
+
+  /** Another zone has left this one out: they go on together only after this one has joined again. */
+  #leave(from) {
+    if (this.#peers.has(from)) this.running = false;
+    this.#coming.delete(from);
+  }
+
+  /** What another zone waits for: it may have got lost, or is still to come, or will never come. */
+  #tellAgain({ from, epoch, tick }) {
+    const told = this.#last.find(([zone, message]) => zone === from && message.tick === tick);
+    const peer = this.#peers.get(from) ?? this.#coming.get(from);
+    if (told) this.#send(from, told[1]);
+    else if (this.running && peer?.epoch !== epoch) this.#send(from, { type: 'dropped', to: epoch });
+    else this.#send(from, { type: 'yet' });
   }
 
   #hearTick(message) {
@@ -311,6 +356,7 @@ export class Link {
   #welcome({ from, epoch, since }) {
     if (!this.running) {
       if (from < this.#zone) this.#yieldUntil = performance.now() + gathering + 100;
+      this.#send(from, { type: 'absent', to: epoch });
       return;
     }
     this.#drop(from);
@@ -319,6 +365,7 @@ export class Link {
       to: epoch,
       tick: this.tick,
       info: this.#info,
+      peers: [...this.#peers, ...this.#coming].map(([zone, { info }]) => [zone, info]),
       owned: pack(Uint32Array.from(this.#simulation.entities.keys())),
       offers: packEntities(this.#simulation.handedTo(from, since)),
     });
@@ -327,7 +374,7 @@ export class Link {
   #admit({ from, epoch, start, info }) {
     if (!this.running) return;
     if (start <= this.tick) this.#send(from, { type: 'late' });
-    else this.#coming.set(from, { inbox: new Map(), epoch, start, info });
+    else this.#coming.set(from, { inbox: new Map(), epoch, start, info, heard: 0 });
   }
 }
 

@@ -24,7 +24,7 @@ class World {
   /** The newest tick that all zones reached, and those in which somebody was missing or there twice. */
   whole = -1;
   wrong = [];
-  /** `lost`, `held` or nothing, for each message. */
+  /** `lost`, `held`, milliseconds on the way, or nothing, for each message. */
   fate = () => undefined;
   #held = [];
   #listeners = new Map();
@@ -41,6 +41,7 @@ class World {
         for (const hear of this.#listeners.get(topic) ?? []) hear(structuredClone(message));
       };
       if (fate === 'held') this.#held.push(deliver);
+      else if (fate > 0) setTimeout(deliver, fate);
       else setImmediate(deliver);
     },
     hincrbyex: () => 1,
@@ -51,7 +52,8 @@ class World {
     for (const deliver of this.#held.splice(0)) deliver();
   }
 
-  async start() {
+  /** Starts all zones, or first these. */
+  async start(first = [0, 1, 2]) {
     for (let zone = 0; zone < count; zone++) {
       const server = createServer((_, response) => response.end(server.processId));
       server.processId = `process ${zone}`;
@@ -59,8 +61,9 @@ class World {
       this.servers.push(server);
       this.links.push(this.#link(zone, `localhost:${server.address().port}`));
     }
-    for (const link of this.links) link.start();
-    await this.until(() => this.whole > 0);
+    for (const zone of first) this.links[zone].start();
+    if (first.length === count) await this.until(() => this.whole > 0);
+    else await this.until(() => first.every((zone) => this.links[zone].tick > 2 * first.length));
   }
 
   #link(zone, address) {
@@ -170,6 +173,43 @@ test(
     const { whole } = world;
     world.deliver();
     await world.until(() => world.whole > whole + 20);
+    expect(world.wrong).toEqual([]);
+  },
+  limit,
+);
+
+test(
+  'zones that are slow to get where another begins are not left out by it',
+  async () => {
+    world = new World();
+    await world.start([0, 1]);
+    // Each of their ticks takes a second, and more than five pass until they are where the third begins.
+    world.fate = (_, { type }) => (type === 'tick' ? 1000 : undefined);
+    world.links[2].start();
+    await world.until(() => world.links[2].tick > 0);
+    const begun = world.links[2].tick;
+    await world.until(() => world.links[2].tick > begun);
+    world.fate = () => undefined;
+    await world.until(() => world.whole > begun + 20);
+    expect([world.wrong, world.log.filter((line) => line.includes('without it'))]).toEqual([[], []]);
+  },
+  limit,
+);
+
+test(
+  'a zone begins when all that run have said whom they own, however long that takes one',
+  async () => {
+    world = new World();
+    await world.start([0, 1]);
+    world.fate = (topic, { from, type }) =>
+      type === 'hello' ? 'lost' : from === 1 && topic === 'zone:2' ? 1500 : undefined;
+    world.links[2].start();
+    await world.until(() => world.said('zone 2: begins'));
+    world.fate = () => undefined;
+    await world.until(() => world.whole > 0);
+    expect(world.log.filter((line) => line.includes('zone 2: begins'))).toEqual([
+      expect.stringMatching(/beside 2 zones$/),
+    ]);
     expect(world.wrong).toEqual([]);
   },
   limit,

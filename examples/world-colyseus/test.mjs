@@ -64,7 +64,8 @@ class World {
     this.reported++;
     this.reports.set(report.zone, report);
     const all = [...this.reports.values()];
-    if (all.length < zones || all.some(({ tick }) => tick !== report.tick)) return;
+    // Zones that do not count with each other go on each by itself, at ticks of the same number.
+    if (all.length < zones || all.some(({ tick, beside }) => tick !== report.tick || beside < zones - 1)) return;
     this.whole = all;
     this.wholes++;
     const sum = (name) => all.reduce((total, each) => total + each[name], 0);

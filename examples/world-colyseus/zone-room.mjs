@@ -91,10 +91,7 @@ export class ZoneRoom extends Room {
     // Another process would have to be asked first, and may be slow to answer.
     const isOther = (process) => Number(process.processId !== matchMaker.processId);
     all.sort((a, b) => a.roomCount - b.roomCount || isOther(a) - isOther(b));
-    const peers = Array.from({ length: this.#setup.zones }, (_, peer) => peer).filter(
-      (peer) => peer === this.zone || this.#link.isOpen(peer),
-    );
-    await matchMaker.createRoom('zone', { zone, peers, process: all[0]?.processId });
+    await matchMaker.createRoom('zone', { zone, peers: this.#link.together(), process: all[0]?.processId });
   }
 
   onJoin(client, { avatar }) {
@@ -235,6 +232,7 @@ export class ZoneRoom extends Room {
       process: process.pid,
       port: this.#setup.port,
       tick,
+      beside: this.#link.together().length - 1,
       entities: owned.length,
       ids: owned.reduce((sum, { id }) => sum + id, 0),
       ghosts: ghosts.length,

@@ -6,7 +6,7 @@ import { createRandom } from '../../src/scenes/random.ts';
 import { turnRound } from './crowd.ts';
 
 /** One bit each. */
-export const LAYERS = { players: 1, powerUps: 2, enemies: 4 };
+const LAYERS = { players: 1, powerUps: 2, enemies: 4 };
 export type Group = keyof typeof LAYERS;
 export type Question = readonly [one: Group, other: Group];
 

@@ -13,7 +13,7 @@ import type { CellSizes, Chosen, Cost, HotCell, Opened, Picture, Requests, Setup
 
 /** More cells than this are a haze, and pairs a tangle: so many are drawn. */
 const mostCells = 300_000;
-export const mostLines = 20_000;
+const mostLines = 20_000;
 const partnersListed = 24;
 const hottestListed = 3;
 /** Which cells are hot is found out again after so many milliseconds: it takes a search of its own. */

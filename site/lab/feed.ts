@@ -38,7 +38,7 @@ export function generate(name: SceneName, count: number, index: number): Feed {
 }
 
 /** No file makes the page take more than this when it is unpacked. */
-export const mostUnpacked = 2 ** 28;
+const mostUnpacked = 2 ** 28;
 
 /**
  * The frames of a trace, from frame `index` on.

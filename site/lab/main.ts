@@ -1,14 +1,15 @@
 // The lab: a scene, a technique, what it costs. This file ties the parts together; the work is done in workers.
 // What is shown stands in the address, so that it can be sent to someone.
-import { BroadPhase, type TechniqueName } from 'broadphase';
+import type { TechniqueName } from 'broadphase';
 import { find, showPlaying } from '../shared/elements.ts';
 import { formatCount, formatMilliseconds, formatRate } from '../shared/format.ts';
 import { numberPanel } from '../shared/numbers.ts';
 import type { RendererKind } from '../shared/renderer.ts';
 import { Timings } from '../shared/timings.ts';
-import { isTrace, mostBoxes, sceneGroups, traces } from './catalog.ts';
+import { isTrace, mostBoxes, traces } from './catalog.ts';
 import { createCellSize } from './cell-size.ts';
 import { createCharts } from './charts.ts';
+import { arrange, fillControls, layersChosen, racersChosen, rateMenu, sceneMenu, techniqueMenu } from './controls.ts';
 import { createCountSlider } from './count-slider.ts';
 import { save, takeFiles } from './files.ts';
 import { createInspector } from './inspector.ts';
@@ -30,9 +31,6 @@ const refresh = 200;
 const rememberAfter = 300;
 const file = 'file';
 
-const sceneMenu = find<HTMLSelectElement>('scene');
-const techniqueMenu = find<HTMLSelectElement>('technique');
-const rateMenu = find<HTMLSelectElement>('rate');
 const note = find('note');
 const write = numberPanel(document);
 const still = matchMedia('(prefers-reduced-motion: reduce)');
@@ -244,20 +242,7 @@ async function useView(dimensions: 2 | 3): Promise<void> {
     });
   }
   view = dimensions === 3 ? await solid! : flat;
-  arrange();
-}
-
-/** Shows what belongs to watching or to racing, to flat or to solid scenes. */
-function arrange(): void {
-  const racing = state.race !== undefined;
-  for (const id of ['flat', 'solid']) find(id).hidden = racing || view.element.id !== id;
-  for (const id of ['race', 'racers', 'bars', 'race-note']) find(id).hidden = !racing;
-  for (const id of ['technique-field', 'layers', 'charts', 'numbers']) find(id).hidden = racing;
-  for (const button of document.querySelectorAll<HTMLElement>('.looking')) button.hidden = racing;
-  for (const id of ['record']) find<HTMLButtonElement>(id).disabled = racing;
-  if (racing) find('cells').hidden = find('chosen').hidden = true;
-  document.body.classList.toggle('racing', racing);
-  find('race-mode').setAttribute('aria-pressed', String(racing));
+  arrange(state.race !== undefined, view.element.id);
 }
 
 async function startRace(frame: number, signal: AbortSignal): Promise<void> {
@@ -426,33 +411,6 @@ function listen({ element }: LabView): void {
   });
 }
 
-function fillControls(): void {
-  for (const { title, scenes } of sceneGroups) {
-    const group = document.createElement('optgroup');
-    group.label = title;
-    for (const [name, label] of scenes) group.append(new Option(label, name));
-    sceneMenu.append(group);
-  }
-  const racers = state.race ?? BroadPhase.techniques;
-  for (const name of BroadPhase.techniques) {
-    techniqueMenu.add(new Option(name, name));
-    const label = document.createElement('label');
-    const box = Object.assign(document.createElement('input'), {
-      type: 'checkbox',
-      value: name,
-      checked: racers.includes(name),
-    });
-    label.append(box, ` ${name}`);
-    find('racer-list').append(label);
-  }
-  sceneMenu.value = state.scene;
-  techniqueMenu.value = state.technique;
-  setRate(state.rate);
-  for (const box of document.querySelectorAll<HTMLInputElement>('#layers input')) {
-    box.checked = state.show.includes(box.value as Layer);
-  }
-}
-
 let pending = 0;
 /** Opens before the next frame: a slider that is dragged makes at most one scene per frame. */
 const openSoon = () => {
@@ -460,11 +418,6 @@ const openSoon = () => {
   pending = requestAnimationFrame(() => void open(0).catch(failed));
 };
 const failed = (reason: unknown) => say(`This stopped: ${reasonOf(reason)}`, true);
-const racersChosen = () =>
-  Array.from(
-    document.querySelectorAll<HTMLInputElement>('#racer-list input:checked'),
-    ({ value }) => value as TechniqueName,
-  );
 
 sceneMenu.addEventListener('change', () => {
   if (sceneMenu.value !== file) void change({ scene: sceneMenu.value });
@@ -482,10 +435,7 @@ rateMenu.addEventListener('change', () => {
   remember();
 });
 find('layers').addEventListener('change', () => {
-  state.show = Array.from(
-    document.querySelectorAll<HTMLInputElement>('#layers input:checked'),
-    ({ value }) => value as Layer,
-  );
+  state.show = layersChosen();
   void playback.show(0).then(report);
   remember();
 });
@@ -530,7 +480,8 @@ addEventListener('unhandledrejection', (event) => failed(event.reason));
 still.addEventListener('change', () => play(!still.matches));
 
 listen(flat);
-fillControls();
+fillControls(state);
+setRate(state.rate);
 setInterval(report, refresh);
 const beginning = Math.min(state.frame ?? 0, latestFrame(state.boxes));
 await open(beginning, state.view).catch(failed);

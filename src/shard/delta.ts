@@ -1,5 +1,5 @@
 // What one zone tells another at an exchange.
-import { badBox, badValue } from '../errors.ts';
+import { badValue, checkBox } from '../errors.ts';
 
 /**
  * What changed for one zone among the boxes that another owned, as typed arrays to send as they are. Deltas of one zone
@@ -12,48 +12,44 @@ export interface Delta {
   to: number;
   /** The boxes to which something happened. */
   ids: Uint32Array;
-  /** For each id bits of what happened: 1 enters, 2 leaves, 4 is owned from now on, 8 added, 16 gone; 0: it moved. */
+  /** For each id what happened: 0, it is new or has moved; 1, it comes into sight; 16, it is gone. */
   changes: Uint8Array;
-  /** For each id its box, unless it is gone; behind it the box as of the update before, if it enters and was not added. */
+  /** For each id its box, unless it is gone; behind it the box as of the update before, if it comes into sight. */
   boxes: Float64Array;
 }
 
-/** The bits. */
-export const Change = { enters: 1, leaves: 2, owned: 4, added: 8, gone: 16 } as const;
+/** The minima, then the maxima. */
+export type Box = readonly number[];
 
-/** What is told of one box: its bits, and its boxes as a delta has them. */
-export interface Told {
-  id: number;
-  change: number;
-  boxes: readonly (readonly number[])[];
-}
+/** What is told of one box: nothing if it is gone, else its box, and behind it the one before if it comes into sight. */
+export type Told = readonly [id: number, ...boxes: Box[]];
+
+/** What `changes` says, by how many boxes follow. */
+const changeOf = [16, 0, 1];
 
 export const pack = (from: number, to: number, told: readonly Told[]): Delta => ({
   from,
   to,
-  ids: Uint32Array.from(told, ({ id }) => id),
-  changes: Uint8Array.from(told, ({ change }) => change),
-  boxes: Float64Array.from(told.flatMap(({ boxes }) => boxes.flat())),
+  ids: Uint32Array.from(told, ([id]) => id),
+  changes: Uint8Array.from(told, (each) => changeOf[each.length - 1]),
+  boxes: Float64Array.from(told.flatMap(([, ...boxes]) => boxes.flat())),
 });
 
 /** Throws for what is no delta for this zone: it comes from elsewhere, over a network. */
 export function unpack({ to, ids, changes, boxes }: Delta, zone: number, dimensions: 2 | 3): Told[] {
   if (to !== zone) badValue('update: delta.to', to, `${zone}, this zone`);
-  if (changes.length !== ids.length)
-    badValue('update: delta.changes.length', changes.length, `${ids.length}, as of ids`);
+  if (changes.length !== ids.length) badValue('update: delta.changes.length', changes.length, `${ids.length}`);
+  const width = 2 * dimensions;
   let at = 0;
-  const next = (id: number) => {
-    const box = Array.from(boxes.subarray(at, at + 2 * dimensions));
-    at += 2 * dimensions;
-    for (let a = 0; a < dimensions; a++) {
-      if (!(box[a] <= box[a + dimensions])) badBox('update: delta.boxes', id, box, dimensions);
-    }
-    return box;
-  };
-  const told = Array.from(ids, (id, k) => {
-    const change = changes[k];
-    const count = change & Change.gone ? 0 : change & Change.enters && !(change & Change.added) ? 2 : 1;
-    return { id, change, boxes: Array.from({ length: count }, () => next(id)) };
+  const told = Array.from(ids, (id, k): Told => {
+    const count = changeOf.indexOf(changes[k]);
+    if (count < 0) badValue(`update: delta.changes[${k}]`, changes[k], '0, 1 or 16');
+    const next = Array.from({ length: count }, (_, k) =>
+      Array.from(boxes.subarray(at + k * width, at + (k + 1) * width)),
+    );
+    at += count * width;
+    for (const box of next) checkBox('update: delta.boxes', id, box, dimensions);
+    return [id, ...next];
   });
   if (at !== boxes.length) badValue('update: delta.boxes.length', boxes.length, `${at}`);
   return told;

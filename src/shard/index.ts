@@ -5,5 +5,5 @@
  * @module broadphase/shard
  */
 export type { Delta } from './delta.ts';
-export { Shard, type ShardOptions, type ShardState } from './shard.ts';
+export { Shard, type ShardOptions } from './shard.ts';
 export { type Borders, Zones, type ZonesOptions } from './zones.ts';

@@ -3,17 +3,12 @@
 // larger of their two lower corners, so the zone with that point sees both, and it alone reports the pair. That point is
 // never computed, only chosen, so all processes agree on it bit for bit.
 // In a wrapped world a lower corner is taken modulo the world, which may round; zones see a little further for it.
-import { badValue } from '../errors.ts';
+import { badValue, checkWrap } from '../errors.ts';
+
+const names = ['x', 'y', 'z'] as const;
 
 /** Where a world is cut: ascending coordinates along each axis that is cut, such as `{ x: [100, 200] }`. */
-export interface Borders {
-  /** Left out: not cut along x. */
-  x?: readonly number[];
-  /** Left out: not cut along y. */
-  y?: readonly number[];
-  /** Left out: not cut along z. */
-  z?: readonly number[];
-}
+export type Borders = Partial<Record<(typeof names)[number], readonly number[]>>;
 
 /** Options of {@link Zones}. */
 export interface ZonesOptions {
@@ -27,16 +22,18 @@ export interface ZonesOptions {
   wrap?: readonly number[];
 }
 
-const names = ['x', 'y', 'z'] as const;
+/** How far a lower corner may be off, which is rounded in a world that wraps around: this part of the world. */
+const slack = 2 ** -48;
 
-/** One axis that is cut. */
+/** One axis, cut or not. */
 interface Cut {
   axis: number;
-  borders: readonly number[];
+  /** Where each zone begins. */
+  starts: readonly number[];
+  /** From a zone to the next one along this axis. */
+  stride: number;
   /** The size of the world, or 0 where it does not wrap around. */
   world: number;
-  /** How far a lower corner may be off, which is rounded in a world that wraps around. */
-  slack: number;
   /** How much further than a box the zones are that must see it. */
   reach: number;
 }
@@ -54,11 +51,9 @@ interface Cut {
 export class Zones {
   /** How many zones there are. */
   readonly count: number;
-  /** What it was made with. */
-  readonly options: Readonly<ZonesOptions>;
   /** 2 or 3. */
   readonly dimensions: 2 | 3;
-  readonly #cuts: readonly Cut[];
+  readonly #cuts: Cut[] = [];
 
   /**
    * @throws RangeError or TypeError that names the option
@@ -70,27 +65,21 @@ export class Zones {
     const { borders, dimensions = 2, margin = 0, wrap } = options;
     if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
     if (!(margin >= 0 && margin < Infinity)) badValue('margin', margin, 'a finite number, 0 or more');
-    if (wrap && !(wrap.length === dimensions && wrap.every((size) => size > 0 && size <= 1e300))) {
-      badValue('wrap', wrap, `${dimensions} numbers above 0, up to 1e300`);
-    }
+    if (wrap) checkWrap(wrap, dimensions);
     if (typeof borders !== 'object' || borders === null) badValue('borders', borders, 'an object of arrays', true);
-    for (const name of Object.keys(borders)) {
-      const known: readonly string[] = names.slice(0, dimensions);
-      if (!known.includes(name)) badValue('borders', name, `borders along ${known.join(', ')} in ${dimensions}D`);
-    }
-    this.#cuts = names.flatMap((name, axis) => {
-      const along = borders[name];
-      if (along === undefined) return [];
-      const world = wrap?.[axis] ?? 0;
-      const last = world || Infinity;
-      const fit = along.every((at, k) => at >= (k > 0 ? along[k - 1] : world ? 0 : -Infinity) && at <= last);
-      if (!fit) badValue(`borders.${name}`, along, `ascending numbers${world ? ` from 0 to ${world}` : ''}`);
-      const slack = world * 2 ** -48;
-      return [{ axis, borders: [...along], world, slack, reach: margin + 4 * slack }];
-    });
-    this.options = options;
+    const known = names.slice(0, dimensions);
+    const strange = Object.keys(borders).find((name) => !known.some((each) => each === name));
+    if (strange !== undefined) badValue('borders', strange, `borders along ${known.join(', ')} in ${dimensions}D`);
     this.dimensions = dimensions;
-    this.count = this.#cuts.reduce((count, cut) => count * (cut.borders.length + 1), 1);
+    this.count = 1;
+    for (const [axis, name] of known.entries()) {
+      const world = wrap?.[axis] ?? 0;
+      const starts = [world > 0 ? 0 : -Infinity, ...(borders[name] ?? [])];
+      const fit = starts.every((at, k) => k === 0 || (at >= starts[k - 1] && at <= (world || Infinity)));
+      if (!fit) badValue(`borders.${name}`, borders[name], `ascending numbers${world ? ` from 0 to ${world}` : ''}`);
+      this.#cuts.push({ axis, starts, stride: this.count, world, reach: margin + 4 * slack * world });
+      this.count *= starts.length;
+    }
   }
 
   /**
@@ -110,26 +99,19 @@ export class Zones {
    * new Zones({ borders: { x: [100] }, margin: 5 }).seenBy([80, 0, 96, 20]); // → [0, 1]
    */
   seenBy(box: ArrayLike<number>): number[] {
-    const out = [0];
-    let stride = 1;
-    for (const { axis, borders, world, reach } of this.#cuts) {
-      const size = borders.length + 1;
+    const seers = [0];
+    for (const { axis, starts, stride, world, reach } of this.#cuts) {
       const [low, high] = [box[axis], box[axis + this.dimensions]];
-      const start = world > 0 ? modulo(modulo(low, world) - reach, world) : low - reach;
-      const end = world > 0 ? start + (high - low) + 2 * reach : high + reach;
-      const first = zoneAt(borders, start);
-      let count = zoneAt(borders, end) - first + 1;
-      if (world > 0 && !(end < world)) {
-        count = end - world < start ? Math.min(size, size - first + zoneAt(borders, end - world) + 1) : size;
+      const first = zoneAt(starts, modulo(modulo(low, world) - reach, world));
+      const count = seers.length;
+      for (let step = 1; step < starts.length; step++) {
+        const zone = (first + step) % starts.length;
+        if (!isWithin(starts[zone], low, high, reach, world)) continue;
+        for (let k = 0; k < count; k++) seers.push(seers[k] + stride * zone);
       }
-      const known = out.length;
-      for (let step = 1; step < count; step++) {
-        for (let k = 0; k < known; k++) out.push(out[k] + stride * ((first + step) % size));
-      }
-      for (let k = 0; k < known; k++) out[k] += stride * first;
-      stride *= size;
+      for (let k = 0; k < count; k++) seers[k] += stride * first;
     }
-    return out;
+    return seers;
   }
 
   /**
@@ -141,35 +123,33 @@ export class Zones {
    */
   reporterOf(a: ArrayLike<number>, b: ArrayLike<number>): number {
     let zone = 0;
-    let stride = 1;
-    for (const { axis, borders, world, slack } of this.#cuts) {
-      let low = a[axis];
-      const other = b[axis];
-      if (world === 0) low = Math.max(low, other);
-      else {
-        // The lower corner of a, if it lies in b; else that of b, which then lies in a.
-        low = modulo(low, world);
-        const start = modulo(other, world);
-        const within = modulo(low - start + slack, world) <= b[axis + this.dimensions] - other + 2 * slack;
-        if (!within) low = start;
-      }
-      zone += stride * zoneAt(borders, low);
-      stride *= borders.length + 1;
+    for (const { axis, starts, stride, world } of this.#cuts) {
+      const [low, other] = [a[axis], b[axis]];
+      // The lower corner of a, if it lies in b; else that of b, which then lies in a.
+      const lies = isWithin(low, other, b[axis + this.dimensions], slack * world, world);
+      zone += stride * zoneAt(starts, modulo(lies ? low : other, world));
     }
     return zone;
   }
 }
 
-/** How many borders are at or below a coordinate. */
-function zoneAt(borders: readonly number[], at: number): number {
-  let zone = 0;
-  while (zone < borders.length && borders[zone] <= at) zone++;
+/** The last zone that begins at or below a coordinate. */
+function zoneAt(starts: readonly number[], at: number): number {
+  let zone = starts.length - 1;
+  while (zone > 0 && starts[zone] > at) zone--;
   return zone;
+}
+
+/** Whether a coordinate lies between two others, or that near to them: around the world where that wraps. */
+function isWithin(at: number, low: number, high: number, near: number, world: number): boolean {
+  if (world === 0) return at >= low - near && at <= high + near;
+  return !(modulo(modulo(at, world) - modulo(low, world) + near, world) > high - low + 2 * near);
 }
 
 /** A coordinate in a world that wraps around: from 0 to below its size, rounded; 0 for what has no lower end. */
 function modulo(at: number, world: number): number {
-  let rest = at % world;
-  if (rest < 0) rest += world;
-  return rest < world ? rest : 0; // also where `at` is infinite
+  if (world === 0) return at;
+  const rest = at % world;
+  const up = rest < 0 ? rest + world : rest;
+  return up < world ? up : 0; // also where `at` is infinite
 }

@@ -8,7 +8,7 @@ import { type Frame, type FrameSource, headerBytes, maxBoxes, TraceError } from 
 import { type OpenOptions, openTrace } from './reader.ts';
 
 /** Gzipped files that are larger than this when unpacked are refused, unless more is allowed: 1 GiB. */
-export const maxUnpackedBytes = 2 ** 30;
+const maxUnpackedBytes = 2 ** 30;
 
 /** No recording has more frames: ones without boxes take no bytes, and would go on for ever. */
 const maxEmptyFrames = 1e6;
@@ -50,7 +50,7 @@ export async function gunzip(bytes: Uint8Array, most = maxUnpackedBytes): Promis
 }
 
 /** Whether bytes are a raw or packed recording. */
-export function isRecording(bytes: Uint8Array): boolean {
+function isRecording(bytes: Uint8Array): boolean {
   const start = bytes.length < 4 ? 0 : uint32At(bytes, 0);
   return start === rawMagic || start === packedMagic;
 }

@@ -15,15 +15,15 @@
 // createStepper     Back, Step, Play and a slider over a recorded run
 // fitWorld, gridOn, boxOn, lookOf, text   world units to a view's pixels, and the grids and boxes drawn there
 // columns           two places side by side on a wide screen, one above the other on a phone
-export { type Attended, prefersStill, runWhileAttended } from './attend.ts';
-export { button, type Counters, choice, counters, row, type Slider, sayer, slider } from './controls.ts';
-export { element, uniqueId } from './dom.ts';
+export { runWhileAttended } from './attend.ts';
+export { button, choice, counters, row, sayer, slider } from './controls.ts';
+export { element } from './dom.ts';
 export { makeDraggable } from './drag.ts';
-export { boxOn, type Fit, fitWorld, gridOn, lookOf, text } from './drawing.ts';
+export { boxOn, fitWorld, gridOn, lookOf, text } from './drawing.ts';
 export { columns } from './layout.ts';
-export { excerpt, type Listing, listing, passage } from './listing.ts';
-export { createStepper, type Stepper } from './stepper.ts';
+export { excerpt, listing, passage } from './listing.ts';
+export { createStepper } from './stepper.ts';
 export { type Colors, onThemeChange, themeColors } from './theme.ts';
-export { createView, type View, worldCanvas } from './view.ts';
+export { createView, worldCanvas } from './view.ts';
 /** What every figure module exports. */
 export type Mount = (root: HTMLElement) => undefined | (() => void);

@@ -21,7 +21,7 @@ export interface Tile {
 }
 
 /** Pairs at most that are sent at once: each is two numbers. */
-export const pairsPerMessage = 2 ** 17;
+const pairsPerMessage = 2 ** 17;
 
 /** What comes back, message by message; the last one is marked. */
 export interface Found {

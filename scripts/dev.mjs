@@ -1,0 +1,75 @@
+// The fast inner loop: a header is edited, and the nearest tests say in seconds whether all still holds. Only the lean
+// kernel is compiled, under a name of its own, by a compiler that stays loaded.
+//
+//   npm run dev                    watches kernel/; the tests named as the header is, else properties and set
+//   npm run dev -- wrap events     these tests, whatever was edited
+//   npm run dev -- --once          once, without watching
+import { spawn } from 'node:child_process';
+import { existsSync, mkdirSync, readdirSync, watch, writeFileSync } from 'node:fs';
+import { join, parse } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { compile, lean, only } from './compile.mjs';
+import { moduleOf } from './inline.mjs';
+
+const root = fileURLToPath(new URL('..', import.meta.url));
+const chosen = process.argv.slice(2).filter((name) => name !== '--once');
+const usual = ['properties', 'set'];
+const name = 'kernel-dev';
+
+const testOf = (stem) => join('test', `${stem}.test.ts`);
+const seconds = (since) => `${((performance.now() - since) / 1000).toFixed(1)} s`;
+let decoder;
+
+/** The tests that are named as a header is. */
+function nearest(header) {
+  const stem = parse(header).name.replaceAll('_', '-');
+  return readdirSync(join(root, 'test'))
+    .filter((file) => file.endsWith('.test.ts') && file.startsWith(stem))
+    .map((file) => file.replace('.test.ts', ''));
+}
+
+/** Compiles the lean kernel, and runs tests on it. */
+async function check(header) {
+  const started = performance.now();
+  decoder ??= Buffer.from(await compile('kernel/decoder.cpp')).toString('hex');
+  const bytes = await compile('kernel/abi.cpp', [only(lean)]);
+  mkdirSync(join(root, 'src/generated'), { recursive: true });
+  writeFileSync(join(root, `src/generated/${name}.ts`), moduleOf(bytes, decoder, lean, [2, 3]));
+  console.log(`compiled: ${seconds(started)}`);
+  const near = header ? nearest(header) : [];
+  const names = [chosen, near, usual].find((each) => each.length > 0);
+  const tests = names.map(testOf).filter((file) => existsSync(join(root, file)));
+  const vitest = spawn(process.execPath, ['node_modules/vitest/vitest.mjs', 'run', '--project', 'unit', ...tests], {
+    cwd: root,
+    stdio: 'inherit',
+    env: { ...process.env, KERNEL: name, RUNS: process.env.RUNS ?? '20' },
+  });
+  const code = await new Promise((resolve) => vitest.on('close', resolve));
+  console.log(`compiled and tested: ${seconds(started)}`);
+  return code;
+}
+
+let edited;
+let running = false;
+/** Once more for what was edited meanwhile. */
+async function again() {
+  if (running) return;
+  running = true;
+  while (edited) {
+    const header = edited;
+    edited = undefined;
+    await check(header).catch(({ message }) => console.error(message));
+  }
+  running = false;
+}
+
+if (process.argv.includes('--once')) process.exitCode = await check();
+else {
+  await check().catch(({ message }) => console.error(message));
+  console.log('waiting for a header of kernel/ to be edited');
+  watch(join(root, 'kernel'), { recursive: true }, (_, file) => {
+    if (!/\.(hpp|cpp)$/.test(file ?? '')) return;
+    edited = file;
+    again();
+  });
+}
