@@ -1,5 +1,5 @@
-// For the examples that run in a browser: `npx vite examples`, or `npx vite examples --open /bullets-phaser/`.
-// The library comes straight from its source; in a project of your own nothing of this is needed.
+// For work on the examples that run in a browser, all in one: `npx vite examples`. The library comes straight from its
+// source. None of them needs this: taken out of here, each starts by `npm i && npm start`.
 import { fileURLToPath } from 'node:url';
 import { everyTechnique } from '../scripts/every-technique.mjs';
 
@@ -9,7 +9,7 @@ const path = (file) => fileURLToPath(new URL(file, import.meta.url));
 const headers = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' };
 
 export default {
-  root: path('.'), // all of them share page/
+  root: path('.'),
   base: './',
   appType: 'mpa', // an address that is no page is answered with 404
   plugins: [everyTechnique],

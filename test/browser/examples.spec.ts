@@ -163,7 +163,7 @@ test('three.js: the pairs of the cloud are those of a look at every two boxes, a
 });
 
 test('React: a band selects what it touches, and keys do what they do in a list', async ({ page }) => {
-  const faults = await openExample(page, 'selection-react');
+  const faults = await openExample(page, 'react');
   const board = page.getByRole('listbox');
   await expect.poll(() => page.getByRole('option').count()).toBeGreaterThan(100);
   const frame = (await board.boundingBox())!;
@@ -213,7 +213,7 @@ test('React: a band selects what it touches, and keys do what they do in a list'
 
 test('React: a finger draws the band too', async ({ browser }) => {
   const page = await browser.newPage({ viewport: { width: 390, height: 780 }, hasTouch: true, isMobile: true });
-  const faults = await openExample(page, 'selection-react');
+  const faults = await openExample(page, 'react');
   await expect.poll(() => page.getByRole('option').count()).toBeGreaterThan(50);
   const touch = await page.context().newCDPSession(page);
   for (const [type, x, y] of [

@@ -1,4 +1,4 @@
-// npx vite examples --open /selection-react/: a board of tiles to select by a rubber band.
+// npm i && npm start: a board of tiles to select by a rubber band.
 import { memo, useEffect, useRef, useState } from 'react';
 import { createRoot } from 'react-dom/client';
 import { useSelection } from './use-selection.mjs';
