@@ -8,11 +8,17 @@ const path = (file) => fileURLToPath(new URL(file, import.meta.url));
 /** A page that is alone in its process has a finer clock. */
 const headers = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' };
 
+/** For examples/vue, where the packages of the examples are installed. */
+const vue = await import('@vitejs/plugin-vue').then(
+  ({ default: plugin }) => plugin(),
+  () => undefined,
+);
+
 export default {
   root: path('.'),
   base: './',
   appType: 'mpa', // an address that is no page is answered with 404
-  plugins: [everyTechnique],
+  plugins: [everyTechnique, vue],
   resolve: {
     alias: {
       'broadphase/draw': path('../src/draw/index.ts'),

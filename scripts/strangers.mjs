@@ -32,7 +32,8 @@ const pages = {
   'force-d3': { where: 'p[role=status]', says: /300 rectangles.*; 0 overlap/s },
   'instancing-three': { where: '#numbers', says: /find [\d,]+ pairs among 1,500/, search: '?boxes=1500' },
   'nodes-xyflow': { where: 'p[role=status]', says: /40 nodes/ },
-  react: { where: '[role=status]', says: /0 of [1-9]\d+ tiles selected/, byNpm: true },
+  react: { where: '[role=status]', says: /0 of [1-9]\d+ tiles selected/, byNpm: true, server: /role="option"/ },
+  vue: { where: '[role=status]', says: /^\s*1 pair overlaps\s*$/ },
   'record-phaser': { where: '#save', says: /Save the recording/ },
 };
 
@@ -64,13 +65,17 @@ async function run(folder, command, ...args) {
   }
 }
 
-/** Starts `npm start`, hands what it has printed to `use` once that matches, and ends it with all that it has started. */
-async function whileStarted(folder, expected, use) {
-  const child = spawn('npm', ['start', '--silent'], { cwd: folder, env: environment, detached: true });
+/** Runs a script of a package, hands what it has printed to `use` once that matches, and ends it with all that it has started. */
+async function whileStarted(folder, expected, use, script = 'start') {
+  const child = spawn('npm', ['run', script, '--silent'], {
+    cwd: folder,
+    env: { ...environment, PORT: '0' },
+    detached: true,
+  });
   let said = '';
   try {
     const answer = await new Promise((resolve, reject) => {
-      const late = setTimeout(() => reject(new Error(`npm start said only: ${said}`)), longest);
+      const late = setTimeout(() => reject(new Error(`npm run ${script} said only: ${said}`)), longest);
       const hear = (text) => {
         said += text;
         const found = expected.exec(said);
@@ -78,7 +83,7 @@ async function whileStarted(folder, expected, use) {
       };
       child.stdout.on('data', hear);
       child.stderr.on('data', hear);
-      child.on('exit', (code) => reject(new Error(`npm start ended with ${code}: ${said}`)));
+      child.on('exit', (code) => reject(new Error(`npm run ${script} ended with ${code}: ${said}`)));
       child.on('close', () => clearTimeout(late));
     });
     await use(answer);
@@ -165,6 +170,16 @@ const withoutWebgl = `{
   };
 }`;
 
+/** What `npm run server` sends is there before any script runs, and the page goes on with it without a fault. */
+async function rendered(folder, page) {
+  const goOn = async ([address]) => {
+    const html = await (await fetch(address)).text();
+    match(html, page.server);
+    await look(address, page);
+  };
+  await whileStarted(folder, /http:\S+/, goOn, 'server');
+}
+
 /** A copy of a folder of examples, without what belongs to the repository. */
 function copyOut(workshop, name) {
   const folder = join(workshop, name);
@@ -192,6 +207,7 @@ async function example(name, workshop, tarball) {
   if (page.byNpm) await installInto(folder, tarball);
   await run(folder, 'npm', 'run', 'build');
   await whileServed(join(folder, 'dist'), (address) => look(address + (page.search ?? ''), page));
+  if (page.server) await rendered(folder, page);
 }
 
 /** The tests by name; each gets the folder to work in, and the tarball. */

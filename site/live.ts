@@ -3,7 +3,7 @@
 // the code.
 import { existsSync, readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { build, createServer, type Plugin, type ViteDevServer } from 'vite';
+import { build, createServer, type HttpServer, type Plugin, type ViteDevServer } from 'vite';
 import manifest from '../package.json' with { type: 'json' };
 import { rootFrom } from './frame.ts';
 
@@ -41,14 +41,14 @@ const frameOf = (name: string, page: string) => `
 
 let served: Promise<ViteDevServer> | undefined;
 
-/** A second server, made when the first example is asked for. */
-const serve = () =>
+/** A second server, made when the first example is asked for; it tells pages of changes by way of the site's own. */
+const serve = (site: HttpServer) =>
   createServer({
     configFile,
     base: '/live/',
     cacheDir: path('../build/live'),
     logLevel: 'warn',
-    server: { middlewareMode: true, hmr: false, ws: false },
+    server: { middlewareMode: true, ws: { server: site } },
   });
 
 export const live: Plugin = {
@@ -62,13 +62,13 @@ export const live: Plugin = {
     },
   },
   configureServer({ middlewares, httpServer }) {
-    if (names.length === 0) return;
+    if (names.length === 0 || !httpServer) return;
     middlewares.use((request, response, next) => {
       if (!request.url!.startsWith('/live/')) return next();
-      served ??= serve();
+      served ??= serve(httpServer);
       served.then((server) => server.middlewares(request, response, next), next);
     });
-    httpServer?.on('close', () => void served?.then((server) => server.close()));
+    httpServer.on('close', () => void served?.then((server) => server.close()));
   },
   async writeBundle() {
     if (names.length === 0) return;

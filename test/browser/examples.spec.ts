@@ -230,6 +230,52 @@ test('React: a finger draws the band too', async ({ browser }) => {
   await page.close();
 });
 
+for (const [framework, folder, search] of [
+  ['React, in strict mode', 'react', '?show=notes'],
+  ['Vue', 'vue', ''],
+] as const) {
+  test(`${framework}: notes say which of them overlap, wherever they are moved, and a new one has room`, async ({
+    page,
+  }) => {
+    const faults = await openExample(page, folder, search);
+    const notes = page.locator('.note');
+    await expect(notes).toHaveCount(5);
+    /** What the page says of the notes, and what a look at every two says. */
+    const look = async () => {
+      const boxes = await notes.evaluateAll((all) =>
+        (all as HTMLElement[]).map(({ style }) => {
+          const [x, y, width, height] = [style.left, style.top, style.width, style.height].map(Number.parseFloat);
+          return [x, y, x + width, y + height];
+        }),
+      );
+      const partners = boxes.map((box, id) => overlapping(boxes, box).filter((other) => other !== id).length);
+      const marked = await notes.evaluateAll((all) => all.map((note) => note.classList.contains('touching')));
+      expect(marked).toEqual(partners.map((number) => number > 0));
+      const pairs = partners.reduce((sum, number) => sum + number, 0) / 2;
+      await expect(page.getByRole('status')).toHaveText(pairs === 1 ? '1 pair overlaps' : `${pairs} pairs overlap`);
+      return { boxes, pairs };
+    };
+    expect((await look()).pairs).toBe(1);
+
+    const [first, third] = [(await notes.nth(0).boundingBox())!, (await notes.nth(2).boundingBox())!];
+    await page.mouse.move(third.x + 5, third.y + 5);
+    await page.mouse.down();
+    await page.mouse.move(first.x + 15, first.y + 25, { steps: 4 });
+    await page.mouse.up();
+    expect((await look()).pairs).toBe(3);
+    for (let press = 0; press < 20; press++) await notes.nth(2).press('ArrowRight');
+    expect((await look()).pairs).toBe(1);
+
+    await page.getByRole('button', { name: 'Add a note' }).click();
+    await expect(notes).toHaveCount(6);
+    const { boxes, pairs } = await look();
+    expect(pairs).toBe(1);
+    expect(overlapping(boxes, boxes[5])).toEqual([5]);
+    await page.screenshot({ path: `test-results/screens/notes-${folder}.png` });
+    expect(faults).toEqual([]);
+  });
+}
+
 test('React Flow: nodes come apart on the page of the example too', async ({ page }) => {
   test.slow();
   await page.emulateMedia({ reducedMotion: 'reduce' });

@@ -60,7 +60,10 @@ for (const [device, width, height, colorScheme] of [
 }
 
 test('so they do as npm start serves the site', async ({ page }) => {
+  const faults: string[] = [];
+  page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
   await page.goto(`http://localhost:${startPort}/examples/smallest/`, { timeout: 90_000 });
   const output = page.frameLocator('.live iframe').locator('output');
   await expect(output).toHaveText('7, 9, 9, 11', { timeout: 90_000 });
+  expect(faults).toEqual([]);
 });
