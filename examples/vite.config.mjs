@@ -21,6 +21,7 @@ export default {
   plugins: [everyTechnique, vue],
   resolve: {
     alias: {
+      'broadphase/all': path('../src/index.ts'), // everyTechnique makes it that
       'broadphase/draw': path('../src/draw/index.ts'),
       'broadphase/shard': path('../src/shard/index.ts'),
       'broadphase/trace': path('../src/trace/index.ts'),

@@ -29,6 +29,8 @@ const pages = {
   'bullets-phaser': { where: '#numbers', says: /you caught/, plain: true },
   'culling-pixi': { where: '#numbers', says: /of 100,000 drawn/ },
   'culling-three': { where: 'p[role=status]', says: /of 20,000 stones in view/, search: '?stones=20000' },
+  'draw-pixi': { where: '#numbers', says: /[1-9]\d* pairs of 120 boxes/ },
+  'draw-three': { where: '#numbers', says: /[1-9]\d* pairs of 150 boxes/ },
   'force-d3': { where: 'p[role=status]', says: /300 rectangles.*; 0 overlap/s },
   'instancing-three': { where: '#numbers', says: /find [\d,]+ pairs among 1,500/, search: '?boxes=1500' },
   'nodes-xyflow': { where: 'p[role=status]', says: /40 nodes/ },

@@ -102,6 +102,16 @@ describe('Lines', () => {
   });
 });
 
+test('the room for lines is one of whole segments, also after it has grown', () => {
+  for (const dimensions of [2, 3] as const) {
+    const lines = new Lines(dimensions);
+    for (const count of [1, 300]) {
+      lines.addBoxes(crowd(dimensions, 'brute-force', count));
+      expect(lines.data.length % (2 * dimensions)).toBe(0);
+    }
+  }
+});
+
 describe('boxesInCells', () => {
   /** The smallest cell that holds the lower corner of each box, by looking at all. */
   function plain(space: BroadPhase<2 | 3>): number[] {

@@ -56,7 +56,7 @@ for (const name of pages) {
       // The style sheet came, and is one.
       const margin = await page.evaluate('getComputedStyle(document.body).margin');
       expect(margin).toBe('0px');
-      await expect(page.locator('canvas, [role=listbox], .react-flow').first()).toBeVisible({ timeout: 30_000 });
+      await expect(page.locator('canvas, [role=listbox], .react-flow, .note').first()).toBeVisible({ timeout: 30_000 });
       expect(await page.evaluate('document.documentElement.scrollWidth')).toBeLessThanOrEqual(width);
       await page.screenshot({ path: `test-results/screens/example-${name}-${device}.png`, timeout: 60_000 });
       expect(faults).toEqual([]);

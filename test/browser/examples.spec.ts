@@ -162,6 +162,51 @@ test('three.js: the pairs of the cloud are those of a look at every two boxes, a
   expect(faults).toEqual([]);
 });
 
+/** How many pairs of boxes of the space overlap, by a look at every two. */
+const plainPairCount = `(() => {
+  const boxes = [...example.space].map(([, box]) => [...box]);
+  const half = boxes[0].length / 2;
+  const meet = (a, b) => a.slice(0, half).every((low, k) => low <= b[k + half] && b[k] <= a[k + half]);
+  return boxes.reduce((sum, a, k) => sum + boxes.slice(k + 1).filter((b) => meet(a, b)).length, 0);
+})()`;
+
+test('three.js: the helper has 12 edges for each box, and a line for each pair', async ({ page }) => {
+  test.slow();
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  const faults = await openExample(page, 'draw-three');
+  const pairs = (await page.evaluate(plainPairCount)) as number;
+  expect(pairs).toBeGreaterThan(5);
+  await expect(page.locator('#numbers')).toHaveText(`${pairs} pairs of 150 boxes`);
+  const points = (name: string) => page.evaluate(`example.helper.getObjectByName('${name}').geometry.drawRange.count`);
+  expect(await points('boxes')).toBe(2 * 12 * 150);
+  expect(await points('pairs')).toBe(2 * pairs);
+  await page.getByRole('checkbox', { name: 'cells' }).check();
+  expect(await points('cells')).toBe((await page.evaluate('2 * 12 * example.space.structure().length / 6')) as number);
+  await page.screenshot({ path: 'test-results/screens/draw-three.png' });
+  await page.getByRole('button', { name: 'Play' }).click();
+  await expect.poll(() => page.evaluate(plainPairCount), patient).not.toBe(pairs);
+  expect(faults).toEqual([]);
+});
+
+test('PixiJS: the overlay draws boxes, pairs and a ray, and cells where they are wanted', async ({ page }) => {
+  test.slow();
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  const faults = await openExample(page, 'draw-pixi');
+  await expect(page.locator('#numbers')).toContainText('pairs of 120 boxes', patient);
+  const pairs = (await page.evaluate(plainPairCount)) as number;
+  await expect(page.locator('#numbers')).toHaveText(`${pairs} pairs of 120 boxes`);
+  const strokes = () => page.evaluate('example.overlay.context.instructions.length');
+  expect(await strokes()).toBe(4);
+  const { x, y, width, height } = (await page.locator('#stage').boundingBox())!;
+  await page.mouse.move(x + width / 4, y + height / 4);
+  const [, , dx, dy] = (await page.evaluate('example.overlay.rays[0]')) as number[];
+  expect([dx! / width, dy! / height].map((share) => share.toFixed(1))).toEqual(['-0.3', '-0.3']);
+  await page.screenshot({ path: 'test-results/screens/draw-pixi.png' });
+  await page.getByRole('checkbox', { name: 'cells' }).uncheck();
+  expect(await strokes()).toBe(3);
+  expect(faults).toEqual([]);
+});
+
 test('React: a band selects what it touches, and keys do what they do in a list', async ({ page }) => {
   const faults = await openExample(page, 'react');
   const board = page.getByRole('listbox');
