@@ -6,7 +6,7 @@ import type { Plugin } from 'vite';
 function toFolder(request: IncomingMessage, response: ServerResponse, next: () => void): void {
   const { pathname, search } = new URL(request.url!, 'http://site');
   const last = pathname.slice(pathname.lastIndexOf('/') + 1);
-  const isFolder = last !== '' && !last.includes('.') && !/^\/(@|node_modules\/)/.test(pathname);
+  const isFolder = last !== '' && !last.includes('.') && !/^\/(live\/)?(@|node_modules\/)/.test(pathname);
   // Two slashes at the start would lead to another host.
   if (isFolder && !pathname.startsWith('//')) response.writeHead(302, { Location: `${pathname}/${search}` }).end();
   else next();

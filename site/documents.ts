@@ -108,7 +108,7 @@ function source(folder: string, page: string): string {
     .filter((name) => name !== readme && name !== 'package-lock.json')
     .sort();
   const listings = files.flatMap((name) => {
-    const language = name.split('.').pop()!.replace('mjs', 'js');
+    const language = name.split('.').pop()!.replace('mjs', 'js').replace('vue', 'xml');
     if (!highlight.getLanguage(language)) return [];
     return `<h2 id="${slugOf(name)}">${name}</h2>
       <pre tabindex="0"><code>${paint(read(`${folder}/${name}`), language)}</code></pre>`;

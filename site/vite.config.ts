@@ -8,6 +8,7 @@ import { addresses } from './addresses.ts';
 import { api } from './api.ts';
 import { documents } from './documents.ts';
 import { frame } from './frame.ts';
+import { live } from './live.ts';
 import { sources } from './sources.ts';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
@@ -21,7 +22,7 @@ export default defineConfig({
   base: './',
   appType: 'mpa', // an address that is no page is answered with 404
   // The same in pages and workers, in development and built: every technique, in the script, as users have it.
-  plugins: [addresses, api, documents, frame, sources, everyTechnique],
+  plugins: [addresses, api, documents, frame, live, sources, everyTechnique],
   resolve: {
     dedupe: ['react', 'react-dom', '@xyflow/react', 'd3-force', 'd3-quadtree', 'rbush', 'flatbush', 'three'],
     alias: {

@@ -102,6 +102,16 @@ describe('Lines', () => {
   });
 });
 
+test('the room for lines is one of whole segments, also after it has grown', () => {
+  for (const dimensions of [2, 3] as const) {
+    const lines = new Lines(dimensions);
+    for (const count of [1, 300]) {
+      lines.addBoxes(crowd(dimensions, 'brute-force', count));
+      expect(lines.data.length % (2 * dimensions)).toBe(0);
+    }
+  }
+});
+
 describe('boxesInCells', () => {
   /** The smallest cell that holds the lower corner of each box, by looking at all. */
   function plain(space: BroadPhase<2 | 3>): number[] {
@@ -127,6 +137,20 @@ describe('boxesInCells', () => {
     }
     return held;
   }
+
+  test('has room for a tree of 100,000 boxes, whose nodes lie in one another', () => {
+    const space = crowd(2, 'aabb-tree', 100_000);
+    const held = boxesInCells(space);
+    expect(held.length).toBe(space.structure().length / 4);
+    expect(held.reduce((a, b) => a + b, 0)).toBe(100_000);
+  }, 120_000);
+
+  test('counts boxes without an end', () => {
+    const space = new BroadPhase({ technique: 'strip-sweep' });
+    space.set(7, -Infinity, -Infinity, Infinity, Infinity).set(9, 5, 5, 15, 15).set(11, 5, -Infinity, 9, 9).update();
+    expect([...boxesInCells(space)]).toEqual(plain(space));
+    expect(boxesInCells(new BroadPhase({ technique: 'strip-sweep' }).update())).toHaveLength(0);
+  });
 
   for (const technique of BroadPhase.techniques) {
     for (const dimensions of [2, 3] as const) {

@@ -1,8 +1,8 @@
-// npx vite examples --open /bullets-phaser/: 20,000 bullets against 200 ships. What overlaps
+// npm i && npm start: 20,000 bullets against 200 ships. What overlaps
 // comes from broadphase; Phaser draws, and reads the pointer and the keys. Runs on Phaser 3 and 4.
 import Phaser from 'phaser';
-import { playButton, stopwatch } from '../page/page.mjs';
 import { Bullets } from './bullets.mjs';
+import { playButton, stopwatch } from './page/page.mjs';
 
 const ships = 200;
 const bullets = 20_000;

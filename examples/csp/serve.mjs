@@ -15,7 +15,7 @@ export const policy = [
   "require-trusted-types-for 'script'",
 ].join('; ');
 
-const library = fileURLToPath(new URL('../../dist/', import.meta.url)); // of a game: node_modules/broadphase/dist/
+const library = fileURLToPath(new URL('./dist/', import.meta.resolve('broadphase/package.json')));
 const here = (name) => fileURLToPath(new URL(name, import.meta.url));
 const files = {
   '/': ['text/html', here('index.html')],

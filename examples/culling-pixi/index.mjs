@@ -1,9 +1,9 @@
-// npx vite examples --open /culling-pixi/: 100,000 sprites, of which only those in view are
+// npm i && npm start: 100,000 sprites, of which only those in view are
 // drawn (queryBox), and the one under the pointer is found (queryPoint).
 import { BroadPhase } from 'broadphase';
 import { Application, Container, Graphics, Sprite, Texture } from 'pixi.js';
-import { stopwatch } from '../page/page.mjs';
-import { moveView } from '../page/view.mjs';
+import { stopwatch } from './page/page.mjs';
+import { moveView } from './page/view.mjs';
 
 const count = 100_000;
 /** The golden angle: a tile for each seed of a sunflower. */

@@ -1,4 +1,4 @@
-// node examples/culling-three/bench.mjs: milliseconds of culling a frame, movers told included, in turns, on the same frames.
+// node bench.mjs: milliseconds of culling a frame, movers told included, in turns, on the same frames.
 // Each is checked, once for each number of stones: of none a corner in view is missing.
 import { IcosahedronGeometry, PerspectiveCamera } from 'three';
 import { Belt } from './belt.mjs';

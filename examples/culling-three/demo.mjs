@@ -17,10 +17,10 @@ import {
   Vector3,
   WebGLRenderer,
 } from 'three';
-import { time } from '../page/showcase.mjs';
-import { moveView } from '../page/view.mjs';
 import { Belt } from './belt.mjs';
 import { Culler } from './culler.mjs';
+import { time } from './page/showcase.mjs';
+import { moveView } from './page/view.mjs';
 import { EachByThree, FlatSpheres, InstancedMeshTree, tell } from './rivals.mjs';
 
 /** The tree of instanced-mesh takes seconds to make of more, and to move them. */

@@ -1,4 +1,4 @@
-// node examples/force-d3/bench.mjs: milliseconds of the force, once, and of all labels of a map, each on the same input, in turns.
+// node bench.mjs: milliseconds of the force, once, and of all labels of a map, each on the same input, in turns.
 // Results are checked: pushes leave no two rectangles overlapping, and all place the same labels.
 import { forceSimulation, forceX, forceY } from 'd3-force';
 import { firstScales } from './first-scales.mjs';

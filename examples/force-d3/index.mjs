@@ -1,9 +1,9 @@
-// npx vite examples --open /force-d3/: a chart of rectangles, with ?show=cloud a cloud of
+// npm i && npm start: a chart of rectangles, with ?show=cloud a cloud of
 // words, with ?show=map a map with 20,000 labels.
-import '../page/page.css';
-import '../page/showcase.css';
-import { runShowcase } from '../page/showcase.mjs';
+import './page/page.css';
+import './page/showcase.css';
 import { mapDemo } from './map.mjs';
+import { runShowcase } from './page/showcase.mjs';
 import { rectanglesDemo } from './rectangles.mjs';
 
 const demos = { chart: rectanglesDemo('chart'), cloud: rectanglesDemo('cloud'), map: mapDemo };

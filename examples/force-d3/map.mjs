@@ -1,9 +1,10 @@
 // A showcase: a map with 20,000 labels. Each is shown from a scale on, so that panning changes none, and zooming in
 // only adds some.
-import { canvasIn } from '../page/canvas.mjs';
-import { time } from '../page/showcase.mjs';
-import { moveView } from '../page/view.mjs';
+
 import { firstScales } from './first-scales.mjs';
+import { canvasIn } from './page/canvas.mjs';
+import { time } from './page/showcase.mjs';
+import { moveView } from './page/view.mjs';
 import { labels as rivals } from './rivals.mjs';
 import { mapSize, placesOf } from './words.mjs';
 

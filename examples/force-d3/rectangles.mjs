@@ -3,9 +3,9 @@
 
 import { findPairs } from 'broadphase';
 import { forceSimulation, forceX, forceY } from 'd3-force';
-import { canvasIn } from '../page/canvas.mjs';
-import { time } from '../page/showcase.mjs';
 import { forceCollideRect } from './force-collide-rect.mjs';
+import { canvasIn } from './page/canvas.mjs';
+import { time } from './page/showcase.mjs';
 import { rectangles as rivals } from './rivals.mjs';
 import { seeded, wordOf } from './words.mjs';
 

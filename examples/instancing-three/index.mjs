@@ -1,4 +1,4 @@
-// npx vite examples --open /instancing-three/: a cloud of 20,000 boxes as one InstancedMesh.
+// npm i && npm start: a cloud of 20,000 boxes as one InstancedMesh.
 // broadphase finds which overlap, and those glow. ?boxes=5000 in the address for another number.
 import {
   AmbientLight,
@@ -13,8 +13,8 @@ import {
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { playButton, stopwatch } from '../page/page.mjs';
 import { Cloud } from './cloud.mjs';
+import { playButton, stopwatch } from './page/page.mjs';
 
 const count = Number(new URLSearchParams(location.search).get('boxes') ?? 20_000);
 const cloud = new Cloud(count);

@@ -1,4 +1,4 @@
-// node examples/narrow-phase/index.mjs: ten seconds of each world, and how many of the pairs of boxes really touched.
+// node index.mjs: ten seconds of each world, and how many of the pairs of boxes really touched.
 import { fastBoxes, masks, shapes } from './scenes.mjs';
 
 const frames = 600;

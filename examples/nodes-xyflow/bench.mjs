@@ -1,4 +1,4 @@
-// node examples/nodes-xyflow/bench.mjs [src/lib/datasets.ts of xyflow/node-collision-algorithms]: a table of milliseconds for one
+// node bench.mjs [src/lib/datasets.ts of xyflow/node-collision-algorithms]: a table of milliseconds for one
 // call, on the same nodes, in turns, with every result checked: no two nodes overlap by more than the threshold.
 import { readFileSync } from 'node:fs';
 import { findPairs } from 'broadphase';

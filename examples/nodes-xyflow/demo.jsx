@@ -4,8 +4,8 @@ import './demo.css';
 import { applyNodeChanges, Background, Handle, Position, ReactFlow } from '@xyflow/react';
 import { memo, useSyncExternalStore } from 'react';
 import { createRoot } from 'react-dom/client';
-import { time } from '../page/showcase.mjs';
 import { seeded } from './datasets.mjs';
+import { time } from './page/showcase.mjs';
 import * as rivals from './rivals.mjs';
 import { separate } from './separate.mjs';
 

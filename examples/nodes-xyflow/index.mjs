@@ -1,7 +1,7 @@
-// npx vite examples --open /nodes-xyflow/: drag a node, paste 500, untangle.
-import '../page/page.css';
-import '../page/showcase.css';
-import { runShowcase } from '../page/showcase.mjs';
+// npm i && npm start: drag a node, paste 500, untangle.
+import './page/page.css';
+import './page/showcase.css';
 import { nodesDemo } from './demo.jsx';
+import { runShowcase } from './page/showcase.mjs';
 
 globalThis.example = runShowcase(nodesDemo, document.querySelector('.stage'), document.querySelector('.bar'));

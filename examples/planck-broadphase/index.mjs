@@ -1,4 +1,4 @@
-// node examples/planck-broadphase/index.mjs: milliseconds of a step of Planck, as it is and with broadphase, in turns.
+// node index.mjs: milliseconds of a step of Planck, as it is and with broadphase, in turns.
 import { World } from 'planck';
 import { useBroadPhase } from './planck-broadphase.mjs';
 import { fillHeap, fillSwarm } from './scene.mjs';

@@ -1,4 +1,4 @@
-// node examples/record-matter/index.mjs: 300 bodies fall into a box; five seconds of it become matter.trace.
+// node index.mjs: 300 bodies fall into a box; five seconds of it become matter.trace.
 import { writeFileSync } from 'node:fs';
 import Matter from 'matter-js';
 import { recordMatter } from './record-matter.mjs';

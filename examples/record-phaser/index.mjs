@@ -1,4 +1,4 @@
-// npx vite examples --open /record-phaser/: balls bounce between walls and platforms; the button saves what has happened so far.
+// npm i && npm start: balls bounce between walls and platforms; the button saves what has happened so far.
 import Phaser from 'phaser';
 import { recordPhaser } from './record-phaser.mjs';
 

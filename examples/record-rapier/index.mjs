@@ -1,4 +1,4 @@
-// node examples/record-rapier/index.mjs: 300 bodies fall onto a floor; five seconds of it become rapier.trace.
+// node index.mjs: 300 bodies fall onto a floor; five seconds of it become rapier.trace.
 import { writeFileSync } from 'node:fs';
 import { recordRapier } from './record-rapier.mjs';
 import { createScene } from './scene.mjs';

@@ -2,7 +2,8 @@
 import type { BroadPhase } from 'broadphase';
 import { checkRay, Shapes, type Sink } from './shapes.ts';
 
-const firstRoom = 1024;
+/** Whole segments, in 2D and 3D, as renderers want it of an array of points. */
+const firstRoom = 1020;
 
 /**
  * Line segments in one Float32Array, for whatever draws lines: three.js, PixiJS, regl, WebGL itself. Each segment is two

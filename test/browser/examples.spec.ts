@@ -162,8 +162,53 @@ test('three.js: the pairs of the cloud are those of a look at every two boxes, a
   expect(faults).toEqual([]);
 });
 
+/** How many pairs of boxes of the space overlap, by a look at every two. */
+const plainPairCount = `(() => {
+  const boxes = [...example.space].map(([, box]) => [...box]);
+  const half = boxes[0].length / 2;
+  const meet = (a, b) => a.slice(0, half).every((low, k) => low <= b[k + half] && b[k] <= a[k + half]);
+  return boxes.reduce((sum, a, k) => sum + boxes.slice(k + 1).filter((b) => meet(a, b)).length, 0);
+})()`;
+
+test('three.js: the helper has 12 edges for each box, and a line for each pair', async ({ page }) => {
+  test.slow();
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  const faults = await openExample(page, 'draw-three');
+  const pairs = (await page.evaluate(plainPairCount)) as number;
+  expect(pairs).toBeGreaterThan(5);
+  await expect(page.locator('#numbers')).toHaveText(`${pairs} pairs of 150 boxes`);
+  const points = (name: string) => page.evaluate(`example.helper.getObjectByName('${name}').geometry.drawRange.count`);
+  expect(await points('boxes')).toBe(2 * 12 * 150);
+  expect(await points('pairs')).toBe(2 * pairs);
+  await page.getByRole('checkbox', { name: 'cells' }).check();
+  expect(await points('cells')).toBe((await page.evaluate('2 * 12 * example.space.structure().length / 6')) as number);
+  await page.screenshot({ path: 'test-results/screens/draw-three.png' });
+  await page.getByRole('button', { name: 'Play' }).click();
+  await expect.poll(() => page.evaluate(plainPairCount), patient).not.toBe(pairs);
+  expect(faults).toEqual([]);
+});
+
+test('PixiJS: the overlay draws boxes, pairs and a ray, and cells where they are wanted', async ({ page }) => {
+  test.slow();
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  const faults = await openExample(page, 'draw-pixi');
+  await expect(page.locator('#numbers')).toContainText('pairs of 120 boxes', patient);
+  const pairs = (await page.evaluate(plainPairCount)) as number;
+  await expect(page.locator('#numbers')).toHaveText(`${pairs} pairs of 120 boxes`);
+  const strokes = () => page.evaluate('example.overlay.context.instructions.length');
+  expect(await strokes()).toBe(4);
+  const { x, y, width, height } = (await page.locator('#stage').boundingBox())!;
+  await page.mouse.move(x + width / 4, y + height / 4);
+  const [, , dx, dy] = (await page.evaluate('example.overlay.rays[0]')) as number[];
+  expect([dx! / width, dy! / height].map((share) => share.toFixed(1))).toEqual(['-0.3', '-0.3']);
+  await page.screenshot({ path: 'test-results/screens/draw-pixi.png' });
+  await page.getByRole('checkbox', { name: 'cells' }).uncheck();
+  expect(await strokes()).toBe(3);
+  expect(faults).toEqual([]);
+});
+
 test('React: a band selects what it touches, and keys do what they do in a list', async ({ page }) => {
-  const faults = await openExample(page, 'selection-react');
+  const faults = await openExample(page, 'react');
   const board = page.getByRole('listbox');
   await expect.poll(() => page.getByRole('option').count()).toBeGreaterThan(100);
   const frame = (await board.boundingBox())!;
@@ -213,7 +258,7 @@ test('React: a band selects what it touches, and keys do what they do in a list'
 
 test('React: a finger draws the band too', async ({ browser }) => {
   const page = await browser.newPage({ viewport: { width: 390, height: 780 }, hasTouch: true, isMobile: true });
-  const faults = await openExample(page, 'selection-react');
+  const faults = await openExample(page, 'react');
   await expect.poll(() => page.getByRole('option').count()).toBeGreaterThan(50);
   const touch = await page.context().newCDPSession(page);
   for (const [type, x, y] of [
@@ -229,6 +274,52 @@ test('React: a finger draws the band too', async ({ browser }) => {
   expect(faults).toEqual([]);
   await page.close();
 });
+
+for (const [framework, folder, search] of [
+  ['React, in strict mode', 'react', '?show=notes'],
+  ['Vue', 'vue', ''],
+] as const) {
+  test(`${framework}: notes say which of them overlap, wherever they are moved, and a new one has room`, async ({
+    page,
+  }) => {
+    const faults = await openExample(page, folder, search);
+    const notes = page.locator('.note');
+    await expect(notes).toHaveCount(5);
+    /** What the page says of the notes, and what a look at every two says. */
+    const look = async () => {
+      const boxes = await notes.evaluateAll((all) =>
+        (all as HTMLElement[]).map(({ style }) => {
+          const [x, y, width, height] = [style.left, style.top, style.width, style.height].map(Number.parseFloat);
+          return [x, y, x + width, y + height];
+        }),
+      );
+      const partners = boxes.map((box, id) => overlapping(boxes, box).filter((other) => other !== id).length);
+      const marked = await notes.evaluateAll((all) => all.map((note) => note.classList.contains('touching')));
+      expect(marked).toEqual(partners.map((number) => number > 0));
+      const pairs = partners.reduce((sum, number) => sum + number, 0) / 2;
+      await expect(page.getByRole('status')).toHaveText(pairs === 1 ? '1 pair overlaps' : `${pairs} pairs overlap`);
+      return { boxes, pairs };
+    };
+    expect((await look()).pairs).toBe(1);
+
+    const [first, third] = [(await notes.nth(0).boundingBox())!, (await notes.nth(2).boundingBox())!];
+    await page.mouse.move(third.x + 5, third.y + 5);
+    await page.mouse.down();
+    await page.mouse.move(first.x + 15, first.y + 25, { steps: 4 });
+    await page.mouse.up();
+    expect((await look()).pairs).toBe(3);
+    for (let press = 0; press < 20; press++) await notes.nth(2).press('ArrowRight');
+    expect((await look()).pairs).toBe(1);
+
+    await page.getByRole('button', { name: 'Add a note' }).click();
+    await expect(notes).toHaveCount(6);
+    const { boxes, pairs } = await look();
+    expect(pairs).toBe(1);
+    expect(overlapping(boxes, boxes[5])).toEqual([5]);
+    await page.screenshot({ path: `test-results/screens/notes-${folder}.png` });
+    expect(faults).toEqual([]);
+  });
+}
 
 test('React Flow: nodes come apart on the page of the example too', async ({ page }) => {
   test.slow();

@@ -1,6 +1,5 @@
-// npx vite examples --open /selection-react/: a board of tiles to select by a rubber band.
+// A board of tiles to select by a rubber band, by useSelection.
 import { memo, useEffect, useRef, useState } from 'react';
-import { createRoot } from 'react-dom/client';
 import { useSelection } from './use-selection.mjs';
 
 const gap = 8;
@@ -26,6 +25,10 @@ function layOut(width, height) {
   return boxes;
 }
 
+/** How large the board is where nothing has a size yet: on a server, and until the page has been laid out. */
+const rendered = [360, 400];
+const sized = (width, height) => ({ boxes: layOut(width, height), width, height });
+
 /** Drawn anew only where something about it has changed. */
 const Tile = memo(({ id, box: [minX, minY, maxX, maxY], hue, selected, active }) => (
   // biome-ignore lint/a11y/useFocusableInteractive: the board has the focus, and says which tile is active
@@ -39,16 +42,16 @@ const Tile = memo(({ id, box: [minX, minY, maxX, maxY], hue, selected, active })
   />
 ));
 
-function Board() {
+export function Board() {
   const board = useRef(null);
-  const [{ boxes, width, height }, resize] = useState({ boxes: [], width: 1, height: 1 });
+  const [{ boxes, width, height }, resize] = useState(() => sized(...rendered));
   const [focused, setFocused] = useState(false);
   const { selected, band, active, took, handlers } = useSelection(boxes);
 
   useEffect(() => {
     const observer = new ResizeObserver(([{ contentRect }]) => {
       const { width, height } = contentRect;
-      resize({ boxes: layOut(width, height), width, height });
+      resize(sized(width, height));
     });
     observer.observe(board.current);
     return () => observer.disconnect();
@@ -89,9 +92,8 @@ function Board() {
         <p role="status">
           <b>{selected.size}</b> of {boxes.length} tiles selected, asked in <b>{took.toFixed(2)} ms</b>
         </p>
+        <a href="?show=notes">Notes that overlap</a>
       </footer>
     </>
   );
 }
-
-createRoot(document.body).render(<Board />);

@@ -1,7 +1,7 @@
 // A selection of boxes, for React: by a rubber band drawn with mouse, pen or finger, and by keys as in a list. What a
 // band touches is one question, queryBox; where an arrow key leads is another, sweep.
-import { BroadPhase } from 'broadphase';
-import { useMemo, useReducer, useRef } from 'react';
+import { useReducer, useRef } from 'react';
+import { useBroadPhase } from './use-broad-phase.mjs';
 
 const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 /** Farther than any board is wide. */
@@ -30,16 +30,12 @@ const nothing = { selected: new Set(), before: new Set(), band: undefined, activ
  */
 export function useSelection(boxes) {
   const [state, put] = useReducer((old, change) => ({ ...old, ...change }), nothing);
-  const space = useMemo(() => {
-    const made = new BroadPhase();
-    for (const [id, box] of boxes.entries()) made.set(id, ...box);
-    return made.update();
-  }, [boxes]);
+  const { space } = useBroadPhase(boxes);
   const start = useRef(undefined);
 
   const within = (box) => {
     const started = performance.now();
-    const ids = space.queryBox(...box);
+    const ids = space().queryBox(...box);
     return { ids, took: performance.now() - started };
   };
   const at = ({ clientX, clientY, currentTarget }) => {
@@ -85,7 +81,7 @@ export function useSelection(boxes) {
   /** To what the active box would meet if it moved that way; with Shift, all between there and the anchor is selected. */
   function move([dx, dy], extend) {
     const box = boxes[state.active];
-    const hit = space.sweep(...box, dx * far, dy * far, { ignore: state.active });
+    const hit = space().sweep(...box, dx * far, dy * far, { ignore: state.active });
     if (!hit) return;
     if (!extend) return put({ active: hit.id, anchor: hit.id, before: state.selected });
     const { ids, took } = within(unionOf(boxes[state.anchor], boxes[hit.id]));

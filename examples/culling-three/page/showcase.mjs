@@ -1,0 +1,95 @@
+// What the showcases share: a list of contenders to choose from, each with its milliseconds on the same input; buttons;
+// and a loop that runs while something moves. A showcase is a function (stage, { wake, say }) that gives
+//   contenders  the names of who can do the work, by key, ours first
+//   use(key)    has that one do it from now on
+//   race(key)   milliseconds of that one, on the input that all get
+//   actions     functions by the label of their button
+//   step()      a frame; tells whether there is more to come
+//   settle()    all frames at once, for those who ask for less motion
+
+const make = (name, properties, ...children) => {
+  const element = Object.assign(document.createElement(name), properties);
+  element.append(...children);
+  return element;
+};
+
+const format = (milliseconds) => `${milliseconds < 100 ? milliseconds.toPrecision(2) : Math.round(milliseconds)} ms`;
+
+/** Milliseconds of `work`, the mean of the faster half of some runs, each after `prepare`, which is not timed. */
+export function time(work, prepare = () => {}) {
+  const times = [];
+  const begun = performance.now();
+  do {
+    prepare();
+    const started = performance.now();
+    work();
+    times.push(performance.now() - started);
+  } while (times.length < 5 || (times.length < 200 && performance.now() - begun < 30));
+  const faster = times.sort((a, b) => a - b).slice(0, Math.ceil(times.length / 2));
+  return faster.reduce((sum, taken) => sum + taken, 0) / faster.length;
+}
+
+/** Runs a showcase in `stage`, with its controls in `controls`. */
+export function runShowcase(show, stage, controls) {
+  const still = matchMedia('(prefers-reduced-motion: reduce)');
+  const status = make('p', { className: 'status', role: 'status' });
+  let [request, onScreen, moving] = [0, true, false];
+
+  const frame = () => {
+    moving = demo.step();
+    request = moving && onScreen ? requestAnimationFrame(frame) : 0;
+  };
+  const wake = () => {
+    moving = true;
+    if (still.matches) {
+      cancelAnimationFrame(request);
+      request = requestAnimationFrame(() => demo.settle());
+    } else if (!request && onScreen) request = requestAnimationFrame(frame);
+  };
+  const demo = show(stage, { wake, say: (text) => status.textContent !== text && status.replaceChildren(text) });
+
+  const outputs = new Map();
+  const name = `contender-${Math.random().toString(36).slice(2)}`;
+  const rows = Object.entries(demo.contenders).map(([key, label], k) => {
+    const input = make('input', { type: 'radio', name, value: key, checked: k === 0 });
+    input.addEventListener('change', () => demo.use(key));
+    const output = make('output', { textContent: '–', ariaLive: 'off' });
+    const bar = make('span', { className: 'share' });
+    outputs.set(key, { output, bar });
+    return make('label', {}, input, make('span', { className: 'name', textContent: label }), output, bar);
+  });
+  const raceAll = async () => {
+    const times = new Map();
+    for (const key of outputs.keys()) {
+      await new Promise((done) => setTimeout(done, 30)); // the page answers in between
+      demo.race(key); // the first time the browser compiles
+      times.set(key, demo.race(key));
+      const slowest = Math.max(...times.values());
+      for (const [each, taken] of times) {
+        const { output, bar } = outputs.get(each);
+        output.textContent = format(taken);
+        bar.style.setProperty('--share', String(Math.max(0.01, taken / slowest)));
+      }
+    }
+  };
+  const buttons = Object.entries({ ...demo.actions, 'Race again': raceAll }).map(([label, act]) => {
+    const button = make('button', { type: 'button', className: 'button', textContent: label });
+    button.addEventListener('click', act);
+    return button;
+  });
+  const legend = make('legend', { textContent: demo.legend });
+  controls.append(
+    make('div', { className: 'actions' }, ...buttons),
+    make('fieldset', { className: 'contenders' }, legend, ...rows),
+    status,
+  );
+  new IntersectionObserver((entries) => {
+    onScreen = entries.at(-1).isIntersecting;
+    if (onScreen && moving) wake();
+    if (onScreen && !demo.raced) {
+      demo.raced = true;
+      void raceAll();
+    }
+  }).observe(stage);
+  return demo;
+}

@@ -1,0 +1,37 @@
+// Each folder of examples can be taken as it is, so what several have in common stands in each: the files of their
+// pages, which are written once in examples/page, and the version of the library.
+//
+//   npm run examples    writes both into the folders; test/examples.test.ts tells where that was forgotten
+import { existsSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+
+const examples = fileURLToPath(new URL('../examples/', import.meta.url));
+const { version } = JSON.parse(readFileSync(new URL('../package.json', import.meta.url), 'utf8'));
+const read = (path) => readFileSync(examples + path, 'utf8');
+
+/** These two have a lock and an installation of their own. */
+const apart = ['join-duckdb', 'world-colyseus'];
+
+/** The folders with a package.json of their own, all installed by that of examples/. */
+export const folders = readdirSync(examples).filter(
+  (name) => !apart.includes(name) && existsSync(`${examples}${name}/package.json`),
+);
+
+/** What has to be in which file, by its path in examples/. */
+export function expectedFiles() {
+  const expected = new Map();
+  for (const name of folders) {
+    const manifest = JSON.parse(read(`${name}/package.json`));
+    manifest.dependencies.broadphase = `^${version}`;
+    expected.set(`${name}/package.json`, `${JSON.stringify(manifest, null, 2)}\n`);
+    if (!existsSync(`${examples}${name}/page`)) continue;
+    for (const file of readdirSync(`${examples}${name}/page`))
+      expected.set(`${name}/page/${file}`, read(`page/${file}`));
+  }
+  const smallest = read('smallest/index.html').replace(/broadphase@[^/]+/, `broadphase@${version}`);
+  return expected.set('smallest/index.html', smallest);
+}
+
+if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href) {
+  for (const [path, text] of expectedFiles()) writeFileSync(examples + path, text);
+}
