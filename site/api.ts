@@ -6,6 +6,7 @@ import { extname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import {
   Application,
+  Converter,
   type DeclarationReflection,
   JSX,
   type ProjectReflection,
@@ -14,6 +15,8 @@ import {
 } from 'typedoc';
 import type { Plugin } from 'vite';
 import { navigation } from './frame.ts';
+import { groups } from './names.ts';
+import { groupMembers, orderMembers, tellOptions, writeLanding } from './reference.ts';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 const kinds: Record<string, string> = {
@@ -42,20 +45,31 @@ async function writeReference(folder: string): Promise<void> {
     options: path('../typedoc.json'),
     tsconfig: path('../tsconfig.json'),
     customCss,
+    customJs: path('api-search.js'),
+    categoryOrder: groups.map(({ title }) => title),
     favicon: path('public/logo.svg'),
   });
   app.renderer.hooks.on('body.begin', ({ page }) =>
     JSX.createElement(JSX.Raw, { html: navigation(`api/${page.url}`) }),
   );
+  let ungrouped: string[] = [];
+  app.converter.on(Converter.EVENT_RESOLVE_BEGIN, ({ project }) => {
+    ungrouped = groupMembers(project);
+  });
   const project = await app.convert();
   if (project) {
     app.validate(project);
+    for (const name of ungrouped)
+      app.logger.validationWarning(`README.md: its table of the API leaves out ${name}` as TranslatedString);
     for (const name of withoutExample(project))
       app.logger.validationWarning(`${name} has no example` as TranslatedString);
   }
   if (!project || app.logger.hasErrors() || app.logger.hasWarnings()) {
     throw new Error('the reference of the API is not complete: see the warnings above');
   }
+  orderMembers(project);
+  tellOptions(project);
+  writeLanding(project);
   await app.generateDocs(project, folder);
 }
 

@@ -36,7 +36,7 @@ const only = (folder: string) => {
 };
 
 const comments = filesIn('src', '.ts').filter((file) => !/src\/(generated|cli|scenes)\//.test(file));
-const texts = ['README.md', ...filesIn('docs/guides', '.md')];
+const texts = ['README.md', 'docs/entries.md', ...filesIn('docs/guides', '.md')];
 const documented: { example: Example; module: ReturnType<typeof moduleOf> }[] = [
   ...comments.flatMap((file) =>
     examplesIn(file, read(file)).map((example) => ({ example, module: moduleOf(example, only(file.split('/')[1])) })),
