@@ -63,9 +63,9 @@ const tableOf = (all: readonly DeclarationReflection[]): CommentDisplayPart[] =>
   text('\n'),
 ];
 
-/** Where a group of the README has its members: in the class, or beside it. */
+/** Where a group of the README has its members: in the class, or in an entry. */
 function membersOf(project: ProjectReflection, names: readonly string[]): DeclarationReflection[] {
-  const places = [classOf(project), libraryOf(project)];
+  const places = [classOf(project), ...(project.children ?? [])];
   return names.flatMap((name) => {
     const found = places.map((place) => place.getChildByName(name)).find((each) => each !== undefined);
     return found ? [found as DeclarationReflection] : [];
@@ -84,11 +84,14 @@ export function orderMembers(project: ProjectReflection): void {
     all?.sort((a, b) => Number(b === space) - Number(a === space));
 }
 
-/** Puts each member of BroadPhase into its group of the README. Gives the names of those that are in none. */
+/**
+ * Puts each member of BroadPhase into its group of the README. Gives what does not fit: members that are in none, and
+ * names of the README that are nowhere.
+ */
 export function groupMembers(project: ProjectReflection): string[] {
   const titles = new Map(groups.flatMap(({ title, names }) => names.map((name): [string, string] => [name, title])));
   const [{ title: first }] = groups;
-  const missing: string[] = [];
+  const missing = [...titles.keys()].filter((name) => membersOf(project, [name]).length === 0);
   for (const member of classOf(project).children ?? []) {
     const isBuiltIn = member.name.startsWith('[') || member.kindOf(ReflectionKind.Constructor);
     const title = titles.get(member.name) ?? (isBuiltIn ? first : undefined);

@@ -49,7 +49,8 @@ rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 const written = documented.map(({ example, module }, k) => {
   const file = `${folder}/${k}.${example.language}`;
-  writeFileSync(file, module.text);
+  // Who has installed the package has the kernel in it.
+  writeFileSync(file, module.text.replaceAll('node_modules/broadphase/dist/', 'build/'));
   return file;
 });
 

@@ -1,6 +1,6 @@
 // The pages to read: every link within the site leads somewhere, the guides and the reference fit a phone, light and
 // dark, and are reached by keyboard; the reference can be searched.
-import { readdirSync, readFileSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { expect, test } from '@playwright/test';
 
@@ -100,6 +100,40 @@ test('the navigation leads by keyboard from the first page to a guide, and on to
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('Getting started');
   await follow('API');
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('API');
+});
+
+test('a guide leads on to the next and back, and to the reference where it names something of it', async ({ page }) => {
+  await page.goto('guides/queries/');
+  const beside = page.getByRole('navigation', { name: 'Previous and next' });
+  await beside.getByRole('link', { name: 'Events' }).click();
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Events');
+  await beside.getByRole('link', { name: 'Queries' }).click();
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Queries');
+  await expect(page.getByRole('link', { name: 'queryPlanes' })).toHaveCount(1); // the first time alone
+  await page.getByRole('link', { name: 'queryPlanes' }).click();
+  await expect(page).toHaveURL(/api\/classes\/broadphase\.BroadPhase\.html#queryplanes$/);
+});
+
+test('code of a guide is copied by a button', async ({ page, context }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  await page.goto('guides/getting-started/');
+  const block = page.locator('.copied').first();
+  await block.hover();
+  await block.getByRole('button', { name: 'Copy' }).click();
+  await expect(block.getByRole('button')).toHaveText('Copied');
+  expect(await page.evaluate(() => navigator.clipboard.readText())).toMatch(/^mkdir overlaps && cd overlaps\n.*\S$/s);
+});
+
+test('llms.txt lists what there is to read, llms-full.txt has it', () => {
+  const list = readFileSync(`${dist}llms.txt`, 'utf8');
+  const links = [...list.matchAll(/\]\(([^)]+)\)/g)].map(([, link]) => link.replace(/\/$/, '/index.html'));
+  expect(links.length).toBeGreaterThan(20);
+  expect(links.filter((link) => !existsSync(dist + link))).toEqual([]);
+  const full = readFileSync(`${dist}llms-full.txt`, 'utf8');
+  for (const words of ['# Getting started', "import from 'broadphase/trace'", '#### queryBox(', 'within?: boolean']) {
+    expect(full).toContain(words);
+  }
+  expect(full).not.toMatch(/\]\([\w./-]+\.md/);
 });
 
 test('the reference leads with BroadPhase: a line for each member, in the groups of the README', async ({ page }) => {
