@@ -17,6 +17,7 @@ const site = fileURLToPath(new URL('.', import.meta.url));
 
 const guides = [
   'getting-started',
+  'worth-it',
   'ids-and-ecs',
   'moving-here',
   'choosing-a-technique',
