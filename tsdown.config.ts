@@ -6,6 +6,7 @@
 // script/ is the lean one for a plain <script> tag, where it is the global `broadphase`, minified; and for `require` where
 // that cannot load modules, to be read and stepped through. CDNs send .cjs as something browsers do not run, so both are
 // .js files, in a folder of scripts.
+import { readFileSync } from 'node:fs';
 import { defineConfig, type UserConfig } from 'tsdown';
 import { withKernel } from './scripts/every-technique.mjs';
 
@@ -23,6 +24,15 @@ const folderOfScripts: UserConfig['plugins'] = {
   generateBundle() {
     const files = { 'package.json': '{ "type": "commonjs" }\n', 'broadphase.d.ts': "export * from '../index.js';\n" };
     for (const [fileName, source] of Object.entries(files)) this.emitFile({ type: 'asset', fileName, source });
+  },
+};
+
+/** The parser of the command is part of it, and so is its licence of the package. */
+const licenceOfParser: UserConfig['plugins'] = {
+  name: 'licence-of-parser',
+  generateBundle() {
+    const source = readFileSync('node_modules/commander/LICENSE', 'utf8');
+    this.emitFile({ type: 'asset', fileName: 'commander.LICENSE', source });
   },
 };
 
@@ -65,6 +75,7 @@ export default defineConfig([
     ...common,
     ...beside('./all.js'),
     entry: { cli: 'src/cli/index.ts' },
+    plugins: [licenceOfParser],
     copy: ['starter'],
     platform: 'node',
     dts: false,

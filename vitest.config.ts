@@ -9,6 +9,7 @@ export default defineConfig({
   plugins: [process.env.KERNEL ? withKernel(process.env.KERNEL) : everyTechnique],
   resolve: {
     alias: [
+      { find: 'broadphase/all', replacement: path('./src/index.ts') },
       { find: 'broadphase/draw', replacement: path('./src/draw/index.ts') },
       { find: 'broadphase/ro', replacement: path('./src/ro/index.ts') },
       { find: 'broadphase/shard', replacement: path('./src/shard/index.ts') },

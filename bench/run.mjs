@@ -5,7 +5,7 @@ import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { race } from './harness/race.mjs';
 import { machine, machineName } from './machine.mjs';
-import { figuresPage, headlineOf, putHeadline } from './report/documents.mjs';
+import { figuresPage, headlineOf, putFigures, worthOf } from './report/documents.mjs';
 import { headOf, textOf } from './report/text.mjs';
 
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
@@ -81,13 +81,15 @@ function save(output, record) {
 const rounded = (_key, value) =>
   typeof value === 'number' && !Number.isInteger(value) ? Number(value.toPrecision(5)) : value;
 
-/** docs/figures.md and the table at the head of README.md, out of the results of this machine. */
+/** docs/figures.md and the tables of README.md and of worth-it.md, out of the results of this machine. */
 export function writeDocuments() {
   const record = read(resultsFile);
   writeFileSync(path('../docs/figures.md'), `${figuresPage(record)}\n`);
-  const readme = path('../README.md');
-  writeFileSync(readme, putHeadline(readFileSync(readme, 'utf8'), headlineOf(record)));
-  console.log('Written: docs/figures.md, and the table of README.md.');
+  const texts = { '../README.md': headlineOf, '../docs/guides/worth-it.md': worthOf };
+  for (const [file, figuresOf] of Object.entries(texts)) {
+    writeFileSync(path(file), putFigures(readFileSync(path(file), 'utf8'), figuresOf(record)));
+  }
+  console.log('Written: docs/figures.md, and the tables of README.md and of docs/guides/worth-it.md.');
 }
 
 function commit() {

@@ -1,11 +1,12 @@
 // The reference of the library's API, made by typedoc of the doc comments, as pages under api/. What is public and has
 // no comment, or links to nothing, is an error. In development it is made at the first visit.
 import { existsSync } from 'node:fs';
-import { readFile, writeFile } from 'node:fs/promises';
+import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { extname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import {
   Application,
+  Converter,
   type DeclarationReflection,
   JSX,
   type ProjectReflection,
@@ -14,6 +15,9 @@ import {
 } from 'typedoc';
 import type { Plugin } from 'vite';
 import { navigation } from './frame.ts';
+import { writeTexts } from './llms.ts';
+import { groups } from './names.ts';
+import { groupMembers, orderMembers, tellOptions, writeLanding } from './reference.ts';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 const kinds: Record<string, string> = {
@@ -21,6 +25,7 @@ const kinds: Record<string, string> = {
   '.css': 'text/css',
   '.js': 'text/javascript',
   '.svg': 'image/svg+xml',
+  '.txt': 'text/plain; charset=utf-8',
 };
 
 /** What can be called or made, and does not show how. What comes from elsewhere need not. */
@@ -34,6 +39,7 @@ const withoutExample = (project: ProjectReflection): string[] =>
     .filter((each) => !(each.signatures ?? [each]).some(({ comment }) => comment?.getTag('@example')))
     .map((each) => each.getFullName());
 
+/** Writes the reference into a folder api/ of this one, and beside it the texts for programs. */
 async function writeReference(folder: string): Promise<void> {
   const customCss = path('../build/api.css');
   const styles = [path('shared/frame.css'), path('api.css')];
@@ -42,36 +48,52 @@ async function writeReference(folder: string): Promise<void> {
     options: path('../typedoc.json'),
     tsconfig: path('../tsconfig.json'),
     customCss,
+    customJs: path('api-search.js'),
+    categoryOrder: groups.map(({ title }) => title),
     favicon: path('public/logo.svg'),
   });
   app.renderer.hooks.on('body.begin', ({ page }) =>
     JSX.createElement(JSX.Raw, { html: navigation(`api/${page.url}`) }),
   );
+  let ungrouped: string[] = [];
+  app.converter.on(Converter.EVENT_RESOLVE_BEGIN, ({ project }) => {
+    ungrouped = groupMembers(project);
+  });
   const project = await app.convert();
   if (project) {
     app.validate(project);
+    for (const name of ungrouped)
+      app.logger.validationWarning(
+        `README.md: its table of the API and BroadPhase differ in ${name}` as TranslatedString,
+      );
     for (const name of withoutExample(project))
       app.logger.validationWarning(`${name} has no example` as TranslatedString);
   }
   if (!project || app.logger.hasErrors() || app.logger.hasWarnings()) {
     throw new Error('the reference of the API is not complete: see the warnings above');
   }
-  await app.generateDocs(project, folder);
+  await mkdir(folder, { recursive: true });
+  await writeTexts(project, folder);
+  orderMembers(project);
+  tellOptions(project);
+  writeLanding(project);
+  await app.generateDocs(project, `${folder}/api`);
 }
 
 export const api: Plugin = {
   name: 'api',
   async closeBundle() {
-    await writeReference(path('dist/api'));
+    await writeReference(path('dist'));
   },
   configureServer(server) {
-    const folder = path('../build/api');
+    const folder = path('../build/reference');
     let written: Promise<void> | undefined;
-    server.middlewares.use('/api', async (request, response, next) => {
+    server.middlewares.use(async (request, response, next) => {
+      const { pathname } = new URL(request.url!, 'http://site');
+      if (!/^\/(api\/|llms(-full)?\.txt$)/.test(pathname)) return next();
       try {
         written ??= writeReference(folder);
         await written;
-        const { pathname } = new URL(request.url!, 'http://site');
         const file = folder + (pathname.endsWith('/') ? `${pathname}index.html` : pathname);
         if (!existsSync(file)) return next();
         response.setHeader('Content-Type', kinds[extname(file)] ?? 'application/octet-stream');

@@ -8,6 +8,7 @@ import highlight from 'highlight.js';
 import MarkdownIt from 'markdown-it';
 import type { Plugin } from 'vite';
 import { rootFrom } from './frame.ts';
+import { addressOf } from './names.ts';
 
 /** The text of an example, which not all have. */
 const readme = 'README.md';
@@ -16,6 +17,7 @@ const site = fileURLToPath(new URL('.', import.meta.url));
 
 const guides = [
   'getting-started',
+  'worth-it',
   'ids-and-ecs',
   'moving-here',
   'choosing-a-technique',
@@ -80,8 +82,29 @@ function linkFrom(file: string, page: string, href: string): string | undefined 
 const paint = (code: string, language: string) =>
   highlight.getLanguage(language) ? highlight.highlight(code, { language }).value : '';
 
+/** The first time that a page names something of the API in its text, it leads to the reference. */
+function linkNames(markdown: MarkdownIt, page: string): void {
+  markdown.core.ruler.push('names', ({ tokens }) => {
+    const linked = new Set<string>();
+    tokens.forEach(({ type, children }, k) => {
+      if (type !== 'inline' || tokens[k - 1].type === 'heading_open') return;
+      let depth = 0; // inside of a link
+      for (const child of children!) {
+        if (child.type === 'link_open') depth++;
+        if (child.type === 'link_close') depth--;
+        const address = child.type === 'code_inline' && depth === 0 ? addressOf(child.content) : undefined;
+        if (!address || linked.has(address)) continue;
+        linked.add(address);
+        child.type = 'html_inline';
+        child.content = `<a href="${rootFrom(page)}api/${address}"><code>${child.content}</code></a>`;
+      }
+    });
+  });
+}
+
 function render(file: string, page: string): string {
   const markdown = new MarkdownIt({ html: true, highlight: (code, language) => paint(code, language) });
+  if (file.startsWith('docs/')) linkNames(markdown, page);
   const { rules } = markdown.renderer;
   rules.heading_open = (tokens, k) => {
     const { tag } = tokens[k];
@@ -118,17 +141,32 @@ function source(folder: string, page: string): string {
   return `${start}<p><a href="../">All examples</a></p>${listings.join('')}`;
 }
 
+/** The documents under guides/: their files, and from a page of them where each is and what it is called. */
+const listed = [...pages].filter(([, path]) => path.startsWith('guides/'));
+const nameOf = (file: string, path: string) => (path === 'guides/index.html' ? 'All guides' : titleOf(read(file)));
+const linkTo = (page: string, [file, path]: [string, string], attributes = '') =>
+  `<a href="${rootFrom(page)}${path.replace('index.html', '')}"${attributes}>${nameOf(file, path)}</a>`;
+
 /** The list beside a document. */
 function listing(page: string): string {
-  const links = [...pages]
-    .filter(([, path]) => path.startsWith('guides/'))
-    .map(([file, path]) => {
-      const current = path === page ? ' aria-current="page"' : '';
-      const name = path === 'guides/index.html' ? 'All guides' : titleOf(read(file));
-      return `<li><a href="${rootFrom(page)}${path.replace('index.html', '')}"${current}>${name}</a></li>`;
-    });
+  const links = listed.map((each) => `<li>${linkTo(page, each, each[1] === page ? ' aria-current="page"' : '')}</li>`);
   return `<nav class="documents" aria-label="Guides"><ul>${links.join('')}</ul></nav>`;
 }
+
+/** To the documents before and after, below one. */
+function beside(page: string): string {
+  const at = listed.findIndex(([, path]) => path === page);
+  const [before, after] = [listed[at - 1], listed[at + 1]];
+  const previous = before ? `<span>Previous ${linkTo(page, before, ' rel="prev"')}</span>` : '';
+  const next = after ? `<span class="next">Next ${linkTo(page, after, ' rel="next"')}</span>` : '';
+  return `<nav class="beside" aria-label="Previous and next">${previous}${next}</nav>`;
+}
+
+/** What there is to read, in order: the list of guides, the README, the guides, and the documents beside them. */
+export const texts = [listed[0][0], 'README.md', ...listed.slice(1).map(([file]) => file)].map((file) => {
+  const address = pages.get(file)?.replace('index.html', '') ?? '';
+  return { file: basename(file), address, title: titleOf(read(file)), text: read(file) };
+});
 
 function documentOf(page: string): string {
   const [file] = [...pages, ...folders].find(([, path]) => path === page)!;
@@ -141,12 +179,13 @@ function documentOf(page: string): string {
     <!-- head -->
     <title>${title} · broadphase</title>
     <link rel="stylesheet" href="${rootFrom(page)}shared/documents.css" />
+    <script type="module" src="${rootFrom(page)}shared/copy.ts"></script>
   </head>
   <body>
     <!-- navigation -->
     <div class="page">
       ${isGuide ? listing(page) : ''}
-      <main class="document">${body}</main>
+      <main class="document">${body}${isGuide ? beside(page) : ''}</main>
     </div>
   </body>
 </html>`;

@@ -1,7 +1,8 @@
 // What all pages have in common, in one place: the start of their head, and the way from each to the others. A page
-// says where they go, with the comments `<!-- head -->` and `<!-- navigation -->`. Every address is relative, so that
+// says where they go, with the comments `<!-- head -->` and `<!-- navigation -->`; `<!-- repository -->` leads to the source. Every address is relative, so that
 // the site works under any path.
 import type { Plugin } from 'vite';
+import { repository } from '../package.json' with { type: 'json' };
 
 /** Where one can go, by folder, in this order. */
 const sections = {
@@ -50,13 +51,25 @@ export function navigation(path: string): string {
     </nav>`;
 }
 
+/** The way to the source. While the address in package.json is a placeholder, it is where the reader has the site from. */
+function source(): string {
+  const address = repository.url.replace(/^git\+/, '').replace(/\.git$/, '');
+  if (new URL(address).hostname.endsWith('.invalid')) {
+    return 'source in <code>src/</code> and <code>kernel/</code> of the clone';
+  }
+  return `<a href="${address}">source</a>`;
+}
+
 export const frame: Plugin = {
   name: 'frame',
   transformIndexHtml: {
     order: 'pre', // Vite then treats what the head names as if it had stood there
     handler: (html, { path }) => {
       const page = path.replace(/^\//, '');
-      return html.replace('<!-- head -->', head(page)).replace('<!-- navigation -->', navigation(page));
+      return html
+        .replace('<!-- head -->', head(page))
+        .replace('<!-- navigation -->', navigation(page))
+        .replace('<!-- repository -->', source());
     },
   },
 };

@@ -42,7 +42,7 @@ export abstract class PlaceQueries<D extends Dimensions> extends Answers<D> {
    * @example
    * const space = new BroadPhase();
    * space.set(1, 0, 0, 10, 10).set(2, 5, 5, 15, 15).set(3, 9, 0, 12, 4).update();
-   * space.collisionsOf(1).sort(); // → [2, 3]
+   * space.collisionsOf(1).sort((a, b) => a - b); // → [2, 3]
    */
   collisionsOf(id: number, out: number[] = []): number[] {
     if (!isId(id)) badId('collisionsOf', id);
@@ -67,7 +67,7 @@ export abstract class PlaceQueries<D extends Dimensions> extends Answers<D> {
    * const space = new BroadPhase();
    * const enemy = 2;
    * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).setFilter(7, 1, 3).setFilter(9, enemy, 3).update();
-   * space.queryBox(8, 8, 12, 12).sort(); // → [7, 9]
+   * space.queryBox(8, 8, 12, 12).sort((a, b) => a - b); // → [7, 9]
    * space.queryBox(8, 8, 12, 12, { mask: enemy }); // → [9]
    * space.queryBox(4, 4, 15, 15, { within: true }); // → [9]
    * let hurt = 0;

@@ -28,7 +28,7 @@ export abstract class PlaneQueries<D extends Dimensions> extends PlaceQueries<D>
    * const space = new BroadPhase({ dimensions: 3 });
    * space.set(7, 0, 0, 0, 1, 1, 1).set(8, 4, 0, 0, 6, 1, 1).set(9, 8, 0, 0, 9, 1, 1).update();
    * const planes = [1, 0, 0, 0, -1, 0, 0, 5]; // x from 0 to 5
-   * space.queryPlanes(planes).sort(); // → [7, 8]
+   * space.queryPlanes(planes).sort((a, b) => a - b); // → [7, 8]
    * const whole: number[] = [];
    * space.queryPlanes(planes, { visit: (id, inside) => inside && whole.push(id) });
    * whole; // → [7]

@@ -7,9 +7,10 @@ import { fingerprint, fingerprintOfBoxes } from '../bench/harness/fingerprint.mj
 import { judge } from '../bench/harness/judge.mjs';
 import { leastOfEach, median, quantile, spread } from '../bench/harness/statistics.mjs';
 import { change, compare } from '../bench/report/compare.mjs';
-import { figuresPage, headlineOf, putHeadline } from '../bench/report/documents.mjs';
+import { figuresPage, headlineOf, putFigures, worthOf } from '../bench/report/documents.mjs';
 import { goals } from '../bench/report/goals.mjs';
 import { autoAgainstBest } from '../bench/report/rows.mjs';
+import { adviceOf } from '../bench/report/worth.mjs';
 
 const record = JSON.parse(readFileSync(new URL('./fixtures/bench-results.json', import.meta.url), 'utf8'));
 
@@ -181,14 +182,32 @@ describe('documents', () => {
     expect(without).not.toContain('## Cold');
   });
 
-  test('README.md has its table between two marks', () => {
-    const readme = readFileSync(new URL('../README.md', import.meta.url), 'utf8');
-    const put = putHeadline(readme, headlineOf(record));
-    expect(put).toContain('| 1,000 | all move | 0.0300 |');
+  test('README.md has its table between two marks, and so has the guide', () => {
+    const read = (file: string) => readFileSync(new URL(`../${file}`, import.meta.url), 'utf8');
+    const readme = read('README.md');
+    const put = putFigures(readme, headlineOf(record));
+    const worth = '| 1,000 | 2.00 | 0.150 | 0.200 | 0.500 flatbush | 0.0300 | 0.0200 | sort and sweep |';
+    expect(put).toContain(worth);
+    const guide = putFigures(read('docs/guides/worth-it.md'), worthOf(record));
+    expect(guide).toContain(worth);
+    expect(guide).toContain('| rapier2d | 20.00x WRONG | 20.00x WRONG |');
     expect(put).toContain('| uniform2d | 100,000 | 50,000 | 1.00 | 30.0 flatbush | 30.00x |');
-    expect(putHeadline(put, headlineOf(record))).toBe(put);
+    expect(putFigures(put, headlineOf(record))).toBe(put);
     expect(put.slice(0, 500)).toBe(readme.slice(0, 500));
-    expect(() => putHeadline('# no marks', '')).toThrow('no marks');
+    expect(() => putFigures('# no marks', '')).toThrow('no marks');
+  });
+
+  test('less than a hundredth of a frame is enough, with the least that is to be written', () => {
+    const row = (...medians: number[]) => ({
+      contenders: ['brute force', 'sort and sweep', 'grid in a Map', 'set'].map((name, k) => ({
+        name,
+        total: { median: medians[k] },
+      })),
+    });
+    expect(adviceOf(row(0.1, 0.01, 0.01, 0.01))).toBe('fifteen lines');
+    expect(adviceOf(row(0.2, 0.1, 0.01, 0.01))).toBe('sort and sweep');
+    expect(adviceOf(row(0.2, 0.2, 0.1, 0.01))).toBe('grid in a Map');
+    expect(adviceOf(row(2, 2, 2, 1))).toBe('this');
   });
 
   test('two records are compared by what changed beyond the noise, the worst first', () => {

@@ -36,7 +36,7 @@ const only = (folder: string) => {
 };
 
 const comments = filesIn('src', '.ts').filter((file) => !/src\/(generated|cli|scenes)\//.test(file));
-const texts = ['README.md', ...filesIn('docs/guides', '.md')];
+const texts = ['README.md', 'docs/entries.md', ...filesIn('docs/guides', '.md')];
 const documented: { example: Example; module: ReturnType<typeof moduleOf> }[] = [
   ...comments.flatMap((file) =>
     examplesIn(file, read(file)).map((example) => ({ example, module: moduleOf(example, only(file.split('/')[1])) })),
@@ -49,7 +49,8 @@ rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 const written = documented.map(({ example, module }, k) => {
   const file = `${folder}/${k}.${example.language}`;
-  writeFileSync(file, module.text);
+  // Who has installed the package has the kernel in it.
+  writeFileSync(file, module.text.replaceAll('node_modules/broadphase/dist/', 'build/'));
   return file;
 });
 

@@ -1,4 +1,4 @@
-// Documents out of a record of results: docs/figures.md, and the tables at the head of README.md.
+// Documents out of a record of results: docs/figures.md, and the tables of README.md and of docs/guides/worth-it.md.
 import { goals } from './goals.mjs';
 import { fastest, isPackage, named, ofKind } from './rows.mjs';
 import {
@@ -13,6 +13,7 @@ import {
   techniquesTable,
 } from './tables.mjs';
 import { markdownTable, short, times, whole } from './words.mjs';
+import { worthTable } from './worth.mjs';
 
 const joined = (...parts) => parts.filter(Boolean).join('\n\n');
 
@@ -115,17 +116,26 @@ export function headlineOf(record) {
   return joined(
     originOf(record),
     'A whole frame of a game: its things are objects, their boxes are given, all pairs found, and both things of each looked at.',
-    objectsTable(record, headlineThings),
+    worthTable(record, headlineThings),
     'The kernel alone, boxes written in place as float32. `uniform`: all move; `mixed`: sizes from 2 to 2,000; `static`: 5 % move; `rain`: a recorded game of Box2D.',
     markdownTable(['scene', 'boxes', 'pairs', '`auto`', 'the fastest npm package', 'that is'], cells),
   );
 }
 
+/** What docs/guides/worth-it.md shows. */
+export const worthOf = (record) =>
+  joined(
+    originOf(record),
+    worthTable(record),
+    'All move: how many times the time of `set` each package takes.',
+    objectsOthers(record),
+  );
+
 const [begin, end] = ['<!-- figures: written by npm run bench -->', '<!-- end of figures -->'];
 
-/** README.md with what stands between its two marks replaced. */
-export function putHeadline(readme, headline) {
-  const [from, to] = [readme.indexOf(begin), readme.indexOf(end)];
-  if (from < 0 || to < from) throw new Error('README.md has no marks for the figures.');
-  return `${readme.slice(0, from)}${begin}\n${headline}\n${readme.slice(to)}`;
+/** A document with what stands between its two marks replaced. */
+export function putFigures(text, figures) {
+  const [from, to] = [text.indexOf(begin), text.indexOf(end)];
+  if (from < 0 || to < from) throw new Error('The document has no marks for the figures.');
+  return `${text.slice(0, from)}${begin}\n${figures}\n${text.slice(to)}`;
 }

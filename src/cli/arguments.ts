@@ -1,6 +1,5 @@
-// Command lines: Node's own parser, and on top of it what each command takes, checked, with help made from the same.
-import { parseArgs } from 'node:util';
-import { counted, list, wrap } from './terminal.ts';
+// What a command is: its arguments and options by name, its exit codes, and where it writes. parser.ts makes command
+// lines and help of that.
 
 /** Exit codes: what a script can rely on. */
 export const exitCode = {
@@ -37,6 +36,10 @@ export interface Terminal {
   interactive: boolean;
   /** How wide lines may be. */
   columns: number;
+  /** How wide tables may be: wherever no person reads, they are whole. */
+  tableColumns: number;
+  /** Whether `out` shows colours. */
+  colour: boolean;
 }
 
 export interface Command {
@@ -47,12 +50,6 @@ export interface Command {
   /** Returns the exit code. */
   run(input: Input, terminal: Terminal): Promise<number>;
 }
-
-/** Every command has these. */
-const common: Record<string, Option> = {
-  json: { help: 'write the result as JSON' },
-  help: { help: 'show this' },
-};
 
 /** What a number may be, both ends included. */
 export interface Range {
@@ -102,58 +99,4 @@ export class Input {
     }
     return names as Name[] | undefined;
   }
-}
-
-/**
- * Reads the arguments after the name of a command.
- * @throws UsageError that names what is wrong
- */
-export function parse(command: Command, argv: readonly string[]): Input {
-  const options: Record<string, Option> = { ...common, ...command.options };
-  const asked = Object.entries(options).map(
-    ([name, { value }]) =>
-      [name, { type: value ? 'string' : 'boolean', ...(name === 'help' && { short: 'h' }) }] as const,
-  );
-  const { values, positionals, tokens } = parseArgs({
-    args: [...argv],
-    options: Object.fromEntries(asked) as Record<string, { type: 'string' | 'boolean'; short?: string }>,
-    allowPositionals: true,
-    strict: false, // what is wrong is said below
-    tokens: true,
-  });
-  const input = new Input(positionals, values as Record<string, string | boolean | undefined>);
-  for (const token of tokens) if (token.kind === 'option') checkOption(token.name, token.rawName, token.value, options);
-  if (positionals.length !== command.operands.length && !input.has('help')) {
-    const expected = command.operands.map((name) => `<${name}>`).join(' ');
-    throw new UsageError(`expected ${expected}, got ${counted(positionals.length, 'argument')}`);
-  }
-  return input;
-}
-
-function checkOption(name: string, written: string, value: string | undefined, options: Record<string, Option>): void {
-  if (!Object.hasOwn(options, name)) {
-    const known = Object.keys(options).map((each) => `--${each}`);
-    throw new UsageError(`no option ${written}, expected ${known.slice(0, -1).join(', ')} or ${known.at(-1)}`);
-  }
-  const takes = options[name].value;
-  // An option behind this one is not its value; a negative number may be.
-  if (takes && (value === undefined || /^-(?!\d)/.test(value))) {
-    throw new UsageError(`--${name} has no value, expected --${name} <${takes}>`);
-  }
-  if (!takes && value !== undefined) throw new UsageError(`--${name} is ${value}, expected no value: it is a switch`);
-}
-
-/** What `--help` shows of a command, in lines no wider than so many columns. */
-export function helpOf(name: string, command: Command, columns: number): string {
-  const options = Object.entries({ ...command.options, ...common }).map(
-    ([option, { value, help }]) => [`--${option}${value ? ` <${value}>` : ''}`, help] as const,
-  );
-  return [
-    `broadphase ${[name, ...command.operands.map((operand) => `<${operand}>`)].join(' ')} [options]`,
-    '',
-    ...wrap(command.summary, columns),
-    '',
-    list(options, columns),
-    '',
-  ].join('\n');
 }

@@ -4,7 +4,7 @@ import { compare } from 'broadphase/trace';
 import { type Command, exitCode } from './arguments.ts';
 import { openSource, sourceOptions } from './files.ts';
 import { cellSizeOption, readCellSize, techniqueHelp } from './replay.ts';
-import { bytes, number, progressBar, table, time } from './terminal.ts';
+import { bytes, complain, number, progressBar, table, time } from './terminal.ts';
 
 export const compareCommand: Command = {
   summary: 'all techniques side by side: time, tests, memory',
@@ -41,14 +41,17 @@ export const compareCommand: Command = {
     const fastest = results[0]?.ms.mean || 1;
     const rows = results.map(({ technique, ms, tests, bytes: memory, ran }) => [
       ran.length === 1 && ran[0] === technique ? technique : `${technique} (${ran.join(', ')})`,
-      ...[ms.mean, ms.median, ms.p95, ms.max].map(time),
+      time(ms.mean),
       `${(ms.mean / fastest).toFixed(2)}x`,
-      number(tests),
+      ...[ms.p95, ms.max, ms.median].map(time),
       bytes(memory),
+      number(tests),
     ]);
-    terminal.out(table(['technique', 'mean ms', 'median', '95 %', 'worst', 'to best', 'tests', 'memory'], rows));
+    terminal.out(
+      table(terminal, ['technique', 'mean ms', 'to best', '95 %', 'worst', 'median', 'memory', 'tests'], rows, 0),
+    );
     for (const { technique, disagrees } of wrong) {
-      terminal.err(`${technique} finds other pairs than ${techniques[0]}, first in frame ${disagrees}\n`);
+      complain(terminal, `${technique} finds other pairs than ${techniques[0]}, first in frame ${disagrees}`);
     }
     if (wrong.length === 0) terminal.out('\nall agree on the pairs of every frame\n');
     return code;

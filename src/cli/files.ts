@@ -11,7 +11,7 @@ import {
   TraceWriter,
 } from 'broadphase/trace';
 import { type Input, type Option, type Terminal, UsageError } from './arguments.ts';
-import { counted } from './terminal.ts';
+import { complain, counted } from './terminal.ts';
 
 /** A file that cannot be read or written. */
 export class FileError extends Error {}
@@ -36,7 +36,7 @@ export async function openSource(input: Input, terminal: Terminal): Promise<Fram
     throw error;
   });
   const fault: TraceError | undefined = source instanceof Trace ? source.fault : undefined;
-  if (fault) terminal.err(`broadphase: ${path}: ${counted(source.frames, 'frame')} salvaged; ${fault.message}\n`);
+  if (fault) complain(terminal, `${path}: ${counted(source.frames, 'frame')} salvaged; ${fault.message}`);
   const range = input.text('frames');
   return range === undefined ? source : slice(source, range);
 }

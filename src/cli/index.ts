@@ -22,5 +22,8 @@ async function command(): Promise<void> {
     interactive: Boolean(process.stderr.isTTY) && process.env.TERM !== 'dumb',
     // A window may say 0; and what is piped is read in lines of 80.
     columns: process.stdout.columns || process.stderr.columns || 80,
+    tableColumns: process.stdout.columns || Infinity,
+    // NO_COLOR, FORCE_COLOR and TERM are heeded by Node.
+    colour: Boolean(process.stdout.isTTY) && process.stdout.hasColors(),
   });
 }

@@ -26,6 +26,7 @@ export const infoCommand: Command = {
     terminal.out(`${input.operands[0]}: ${dimensions}D, ${counted(frames, 'frame')}, ${numbers}\n\n`);
     terminal.out(
       table(
+        terminal,
         ['', 'min', 'median', 'mean', '95 %', 'max'],
         [
           row('boxes', boxes),

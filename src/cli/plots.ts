@@ -1,4 +1,4 @@
-// Plots as SVG text: bars, and lines over a common axis. Colours are the page's variables --c0 … --c5.
+// Plots as SVG text: bars, and lines over common axes. Numbers show by titles, without a script. Colours are the page's variables --c0 … --c5.
 import { number, time } from './terminal.ts';
 
 const width = 900;
@@ -15,9 +15,9 @@ export function barPlot(bars: readonly { name: string; value: number }[], title:
   const rows = bars.map(({ name, value }, k) => {
     const y = k * lineHeight;
     const length = value > 0 ? (room * (Math.log10(value) - low)) / (high - low) : 0;
-    return `<text x="${labels - 8}" y="${y + 16}" text-anchor="end">${htmlText(name)}</text>
+    return `<g><title>${htmlText(name)}: ${time(value)}</title><text x="${labels - 8}" y="${y + 16}" text-anchor="end">${htmlText(name)}</text>
 <rect x="${labels}" y="${y + 4}" width="${length.toFixed(1)}" height="${lineHeight - 8}" fill="var(--c0)"/>
-<text x="${(labels + length + 6).toFixed(1)}" y="${y + 16}">${time(value)}</text>`;
+<text x="${(labels + length + 6).toFixed(1)}" y="${y + 16}">${time(value)}</text></g>`;
   });
   return svg(bars.length * lineHeight + 4, title, rows.join('\n')) + `<p class="legend">${htmlText(title)}</p>`;
 }
@@ -27,42 +27,83 @@ export interface Line {
   points: readonly { x: number; y: number }[];
 }
 
-/** Lines over a common axis from zero upward; the horizontal axis may be logarithmic. */
-export function linePlot(lines: readonly Line[], axes: { x: string; y: string; logX?: boolean }): string {
-  const height = 300;
-  const [left, right, top, bottom] = [70, 10, 10, 40];
-  const place = axes.logX ? Math.log2 : (value: number) => value;
+const height = 300;
+const [left, right, top, bottom] = [70, 24, 10, 40];
+/** The most places along the axis that show their numbers. */
+const mostPlaces = 500;
+const mostMarks = 9;
+
+interface Axes {
+  x: string;
+  y: string;
+  /** Both axes, from the least to the most; else the upright one is from zero. */
+  logarithmic?: boolean;
+}
+
+/** Lines over common axes, with the numbers of all at each place, which show where the pointer rests. */
+export function linePlot(lines: readonly Line[], axes: Axes): string {
   const all = lines.flatMap(({ points }) => points);
-  const xs = all.map(({ x }) => place(x));
-  const from = Math.min(...xs);
-  const to = Math.max(...xs, from + 1e-9);
-  // What is far above the rest would press the rest flat: the axis ends at ten times the least, and lines go out of it.
-  const least = Math.min(...all.map(({ y }) => y));
-  const most = Math.max(...all.map(({ y }) => y));
-  const ceiling = 1.05 * (axes.logX ? Math.min(most, 10 * least) : most) || 1;
-  const across = (x: number) => (left + ((place(x) - from) / (to - from)) * (width - left - right)).toFixed(1);
-  const up = (y: number) => (top + (1 - Math.min(1, y / ceiling)) * (height - top - bottom)).toFixed(1);
-  const grid = ticks(ceiling).map(
-    (y) => `<line class="axis" x1="${left}" x2="${width - right}" y1="${up(y)}" y2="${up(y)}"/>
-<text x="${left - 8}" y="${Number(up(y)) + 4}" text-anchor="end">${number(y)}</text>`,
+  const place = axes.logarithmic ? Math.log2 : (value: number) => value;
+  const scale = (values: readonly number[], from: number, to: number) => {
+    const low = place(Math.min(...values));
+    const span = place(Math.max(...values)) - low || 1;
+    return (value: number) => from + ((place(value) - low) / span) * (to - from);
+  };
+  const xs = [...new Set(all.map(({ x }) => x))].sort((a, b) => a - b);
+  const ys = all.map(({ y }) => y).filter((y) => y > 0 || !axes.logarithmic);
+  const most = Math.max(...ys) || 1;
+  const heights = axes.logarithmic ? [Math.min(...ys), most] : [0, 1.05 * most];
+  const across = scale(xs, left, width - right);
+  const up = scale(heights, height - bottom, top);
+  const grid = (axes.logarithmic ? ticksBetween(heights[0], most) : ticks(heights[1])).map(
+    (y) => `<line class="axis" x1="${left}" x2="${width - right}" y1="${up(y).toFixed(1)}" y2="${up(y).toFixed(1)}"/>
+<text x="${left - 8}" y="${(up(y) + 4).toFixed(1)}" text-anchor="end">${number(y)}</text>`,
   );
-  const sortedXs = [...new Set(all.map(({ x }) => x))].sort((a, b) => a - b);
-  const every = Math.max(1, Math.ceil(sortedXs.length / 8));
-  const marks = sortedXs
-    .filter((_, k) => k % every === 0)
-    .map((x) => `<text x="${across(x)}" y="${height - bottom + 18}" text-anchor="middle">${number(x)}</text>`);
+  const marks = (axes.logarithmic ? ticksBetween(xs[0], xs.at(-1)!) : some(xs, mostMarks)).map(
+    (x) => `<text x="${across(x).toFixed(1)}" y="${height - bottom + 18}" text-anchor="middle">${number(x)}</text>`,
+  );
   const paths = lines.map(({ points }, k) => {
-    const path = points.map(({ x, y }, at) => `${at === 0 ? 'M' : 'L'}${across(x)} ${up(y)}`).join('');
-    const dot = points.length === 1 ? `<circle cx="${across(points[0].x)}" cy="${up(points[0].y)}" r="3"/>` : '';
-    return `<path class="line" stroke="var(--c${k % colours})" d="${path}"/>${dot}`;
+    const colour = `var(--c${k % colours})`;
+    const at = points.map(({ x, y }) => `${across(x).toFixed(1)} ${up(y).toFixed(1)}`);
+    if (at.length > 1) return `<path class="line" stroke="${colour}" d="M${at.join('L')}"/>`;
+    return at
+      .map((one) => `<circle cx="${one.split(' ')[0]}" cy="${one.split(' ')[1]}" r="3" fill="${colour}"/>`)
+      .join('');
   });
   const names = `<text x="${width / 2}" y="${height - 4}" text-anchor="middle">${htmlText(axes.x)}</text>
 <text transform="translate(14 ${(height - bottom) / 2}) rotate(-90)" text-anchor="middle">${htmlText(axes.y)}</text>`;
   const legend = lines.map(
     ({ name }, k) => `<li><i style="background:var(--c${k % colours})"></i>${htmlText(name)}</li>`,
   );
-  const title = `${axes.y} over ${axes.x}`;
-  return `${svg(height, title, [...grid, ...marks, ...paths, names].join('\n'))}<ul class="legend">${legend.join('')}</ul>`;
+  const content = [...grid, ...marks, ...paths, names, ...places(lines, some(xs, mostPlaces), across, axes)];
+  return `${svg(height, `${axes.y} over ${axes.x}`, content.join('\n'))}<ul class="legend">${legend.join('')}</ul>`;
+}
+
+/** Evenly so many of them, the first and the last among these. */
+function some(values: readonly number[], most: number): number[] {
+  if (values.length <= most) return [...values];
+  return Array.from({ length: most }, (_, k) => values[Math.round((k * (values.length - 1)) / (most - 1))]);
+}
+
+/** A strip at each place along the axis, from halfway to its neighbours, whose title has the numbers there. */
+function places(lines: readonly Line[], xs: readonly number[], across: (x: number) => number, axes: Axes): string[] {
+  const values = lines.map(({ name, points }) => ({ name, at: new Map(points.map(({ x, y }) => [x, y])) }));
+  return xs.map((x, k) => {
+    const from = k > 0 ? (across(xs[k - 1]) + across(x)) / 2 : left;
+    const to = k + 1 < xs.length ? (across(x) + across(xs[k + 1])) / 2 : width - right;
+    const there = values.filter(({ at }) => at.has(x)).map(({ name, at }) => `${name}: ${number(at.get(x)!)}`);
+    const title = htmlText([`${axes.x} ${number(x)}`, ...there].join('\n'));
+    return `<rect class="at" x="${from.toFixed(1)}" y="${top}" width="${(to - from).toFixed(1)}" height="${height - top - bottom}"><title>${title}</title></rect>`;
+  });
+}
+
+/** Round numbers between two, on a logarithmic scale: 1, 2 and 5 of each power of ten. */
+function ticksBetween(low: number, high: number): number[] {
+  const powers = Array.from(
+    { length: Math.ceil(Math.log10(high / low)) + 2 },
+    (_, k) => 10 ** (Math.floor(Math.log10(low)) + k),
+  );
+  return powers.flatMap((power) => [power, 2 * power, 5 * power]).filter((each) => each >= low && each <= high);
 }
 
 /** Four or five round numbers from 0 up to the ceiling. */

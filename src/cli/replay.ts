@@ -4,7 +4,7 @@ import { type ReplayedFrame, type ReplayOptions, replay } from 'broadphase/trace
 import { summarize } from '../trace/statistics.ts';
 import { type Command, exitCode, type Input, type Option, UsageError } from './arguments.ts';
 import { openSource, sourceOptions } from './files.ts';
-import { bytes, counted, number, progressBar, table, time } from './terminal.ts';
+import { bytes, complain, counted, number, progressBar, table, time } from './terminal.ts';
 
 export const techniqueHelp = BroadPhase.techniques.join(', ');
 
@@ -52,24 +52,24 @@ export const replayCommand: Command = {
       terminal.out(`${JSON.stringify({ dimensions: source.dimensions, ...settings, verified, ms, frames })}\n`);
       return wrong.length > 0 ? exitCode.different : exitCode.ok;
     }
-    const head = ['frame', 'boxes', 'changed', 'ms', 'tests', 'candidates', 'pairs', 'cells', 'memory', 'technique'];
+    const head = ['frame', 'boxes', 'changed', 'ms', 'pairs', 'technique', 'tests', 'candidates', 'cells', 'memory'];
     const rows = frames.map((frame) => [
       String(frame.index),
       ...[frame.boxes, frame.changed].map(number),
       time(frame.ms),
-      ...[frame.tests, frame.candidates, frame.pairs, frame.cells].map(number),
-      bytes(frame.bytes),
+      number(frame.pairs),
       frame.technique,
+      ...[frame.tests, frame.candidates, frame.cells].map(number),
+      bytes(frame.bytes),
     ]);
-    terminal.out(table(head, rows));
+    terminal.out(table(terminal, head, rows));
     terminal.out(
       `\nmean ${time(ms.mean)} ms, median ${time(ms.median)}, 95 % ${time(ms.p95)}, worst ${time(ms.max)}\n`,
     );
     for (const { index, difference } of wrong) {
       const { missing, extra, pair } = difference!;
-      terminal.err(
-        `frame ${index}: ${counted(missing, 'pair')} missing, ${extra} too many, first [${pair.join(', ')}]\n`,
-      );
+      const first = pair.join(', ');
+      complain(terminal, `frame ${index}: ${counted(missing, 'pair')} missing, ${extra} too many, first [${first}]`);
     }
     if (input.has('verify') && wrong.length === 0)
       terminal.out(

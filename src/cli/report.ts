@@ -1,7 +1,7 @@
 // The report of `broadphase tune`: one HTML page that needs nothing else. Plots are SVG made here; the page asks for
 // nothing from anywhere, and says so itself in a policy that forbids it.
 import type { Candidate, Parameter, Tuned } from 'broadphase/trace';
-import { isLean } from '../trace/tune.ts';
+import { isLean, timesNoise } from '../trace/tune.ts';
 import { barPlot, htmlText, linePlot } from './plots.ts';
 import { number, percent, time } from './terminal.ts';
 
@@ -18,7 +18,7 @@ pre { background: var(--code); padding: 1rem; overflow-x: auto; } p { max-width:
 th, td { text-align: right; padding: 0.3rem 0.8rem; border-bottom: 1px solid var(--line); white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
 svg { width: 100%; height: auto; min-width: 30rem; font: 12px system-ui, sans-serif; }
-svg text { fill: var(--muted); } svg .axis { stroke: var(--line); } svg .line { fill: none; stroke-width: 2; }
+svg text { fill: var(--muted); } svg .at { fill: transparent; } svg .at:hover { fill: var(--text); opacity: 0.08; } svg .axis { stroke: var(--line); } svg .line { fill: none; stroke-width: 2; }
 .legend { display: flex; flex-wrap: wrap; gap: 0.2rem 1.2rem; padding: 0; list-style: none; color: var(--muted); }
 .legend i { display: inline-block; width: 1em; height: 0.2em; margin-right: 0.4em; vertical-align: middle; }
 `;
@@ -61,6 +61,7 @@ ${barPlot(
 ${curvesOf(curves, 'cellSize', 'Cell size', 'side of a cell')}
 ${curvesOf(curves, 'margin', 'Margin', 'margin')}
 <h2>Frame by frame</h2>
+<p>Numbers show where the pointer rests.</p>
 ${linePlot(
   shown.map((each) => ({ name: nameOf(each), points: perFrame(each.times) })),
   { x: 'frame', y: 'milliseconds' },
@@ -80,7 +81,7 @@ function curvesOf(curves: Tuned['curves'], parameter: Parameter, title: string, 
       points: points.map(({ value, ms }) => ({ x: value, y: ms })),
     }));
   if (lines.length === 0) return '';
-  return `<h2>${title}</h2>\n${linePlot(lines, { x, y: 'milliseconds', logX: true })}`;
+  return `<h2>${title}</h2>\n${linePlot(lines, { x, y: 'milliseconds', logarithmic: true })}`;
 }
 
 /** A setting in a few words. */
@@ -98,14 +99,19 @@ export function verdictOf({
   auto,
   finalists,
   margin,
-}: Pick<Tuned, 'best' | 'auto' | 'finalists' | 'margin'>): string {
+  noise,
+}: Pick<Tuned, 'best' | 'auto' | 'finalists' | 'margin' | 'noise'>): string {
   const [first] = finalists;
   const load = `'broadphase/all', ${moreOfAll} kB more to load`;
   if (best.technique === 'auto') {
     const saved = auto.ms.mean - first.ms.mean;
-    const close = `Nothing to tune: \`auto\` takes ${time(auto.ms.mean)} ms a frame, and is the best or close to it.`;
-    if (isLean(first.technique) || saved <= 0) return close;
-    return `${close} ${nameOf(first)} would save ${time(saved)} ms of it, but is in ${load}.`;
+    const fine = `\`auto\` is fine: it takes ${time(auto.ms.mean)} ms a frame.`;
+    if (saved <= 0) return `${fine} Nothing is faster.`;
+    const other = `${nameOf(first)} took ${time(saved)} ms less`;
+    if (saved <= timesNoise * noise * auto.ms.mean) {
+      return `${fine} ${other}, which is noise: \`auto\` differs from itself by ${percent(noise)}.`;
+    }
+    return `${fine} ${other}: too little ${isLean(first.technique) ? 'for an option' : `for ${load}`}.`;
   }
   const saved = time(auto.ms.mean - best.ms.mean);
   const gain = `It takes ${time(best.ms.mean)} ms a frame, ${saved} less than \`auto\`: ${margin.toFixed(2)} times as fast.`;

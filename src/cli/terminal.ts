@@ -25,7 +25,7 @@ export const counted = (count: number, thing: string): string =>
   `${number(count)} ${thing}${count === 1 ? '' : thing.endsWith('x') ? 'es' : 's'}`;
 
 /** Fewer columns than this are not worth wrapping for. */
-const leastText = 24;
+export const leastText = 24;
 
 /** Terms and what they mean, side by side, in lines no wider than so many columns. */
 export function list(entries: readonly (readonly [term: string, meaning: string])[], columns: number): string {
@@ -49,12 +49,50 @@ export function wrap(text: string, columns: number): string[] {
   return [...lines, line];
 }
 
-/** Rows under a head: the first column to the left, the others to the right. */
-export function table(head: readonly string[], rows: readonly (readonly string[])[]): string {
+const styles = { bold: [1, 22], red: [31, 39], green: [32, 39] } as const;
+
+/** Text as it shows on a terminal with colours, and plain elsewhere. */
+export function paint({ colour }: Pick<Terminal, 'colour'>, style: keyof typeof styles, text: string): string {
+  const [on, off] = styles[style];
+  return colour ? `\x1b[${on}m${text}\x1b[${off}m` : text;
+}
+
+/** What went wrong, as all that goes wrong is said. */
+export function complain(terminal: Terminal, message: string): void {
+  terminal.err(`broadphase: ${message}\n`);
+}
+
+const gap = 2;
+
+/**
+ * Rows under a head: the first column to the left, the others to the right, what matters least last. Columns for which
+ * the terminal has no room are left out, and named. The best row, if one is, has a colour.
+ */
+export function table(
+  terminal: Terminal,
+  head: readonly string[],
+  rows: readonly (readonly string[])[],
+  best?: number,
+): string {
   const widths = head.map((title, k) => Math.max(title.length, ...rows.map((row) => row[k].length)));
+  let shown = 1;
+  for (let wide = widths[0]; shown < head.length; shown++) {
+    wide += gap + widths[shown];
+    if (wide > terminal.tableColumns) break;
+  }
   const line = (cells: readonly string[]) =>
-    cells.map((cell, k) => (k === 0 ? cell.padEnd(widths[k]) : cell.padStart(widths[k]))).join('  ');
-  return [line(head), line(widths.map((width) => '─'.repeat(width))), ...rows.map(line)].join('\n') + '\n';
+    cells
+      .slice(0, shown)
+      .map((cell, k) => (k === 0 ? cell.padEnd(widths[k]) : cell.padStart(widths[k])))
+      .join(' '.repeat(gap));
+  const left = head.slice(shown);
+  const note = left.length > 0 ? `not shown, for lack of room: ${left.join(', ')}; --json has all\n` : '';
+  return [
+    paint(terminal, 'bold', line(head)),
+    line(widths.map((width) => '─'.repeat(width))),
+    ...rows.map((row, k) => (k === best ? paint(terminal, 'green', line(row)) : line(row))),
+    note,
+  ].join('\n');
 }
 
 const eighths = ['', '▏', '▎', '▍', '▌', '▋', '▊', '▉'];
@@ -86,7 +124,7 @@ const redrawEvery = 100;
 const barWidth = { least: 4, most: 30 };
 
 /** A line on `err` that shows how far the work is, and goes when it is done. Nothing where nobody watches. */
-export function progressBar(terminal: Terminal): {
+export function progressBar(terminal: Pick<Terminal, 'err' | 'interactive' | 'columns'>): {
   show(what: string, done: number, total: number): void;
   end(): void;
 } {

@@ -44,10 +44,12 @@ export const tuneCommand: Command = {
     }
     const rows = tuned.finalists.map(({ ms, ...candidate }) => [
       nameOf(candidate),
-      ...[ms.mean, ms.p95, ms.max].map(time),
+      time(ms.mean),
       `${(ms.mean / tuned.best.ms.mean).toFixed(2)}x`,
+      ...[ms.p95, ms.max].map(time),
     ]);
-    terminal.out(table(['finalists', 'mean ms', '95 %', 'worst', 'to recommended'], rows));
+    const at = tuned.finalists.indexOf(tuned.best);
+    terminal.out(table(terminal, ['finalists', 'mean ms', 'to recommended', '95 %', 'worst'], rows, at));
     terminal.out(
       `\n${wrap(verdictOf(tuned), terminal.columns).join('\n')}\n\n${tuned.code.replaceAll(/^(?=.)/gm, '  ')}\n`,
     );

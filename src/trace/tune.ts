@@ -97,6 +97,8 @@ export interface Tuned {
   auto: Measured;
   /** How many times faster than `auto` that is. */
   margin: number;
+  /** How much `auto` differs from itself: it runs twice, and this is the share by which the means differ. */
+  noise: number;
   /** All that ran on all frames, fastest first. */
   finalists: Measured[];
   /** Mean milliseconds of each technique on a few frames, in its best setting, fastest first. */
@@ -131,9 +133,14 @@ const mostOfTechnique = 2;
 const leastPasses = 3;
 const mostPasses = 25;
 
-/** Below this, being faster than `auto` is noise, and not worth an option that may not suit the next level. */
+/**
+ * Below this, being faster than `auto` is not worth an option that may not suit the next level; nor below so many times
+ * the noise, by which `auto` differs from itself.
+ */
 const worthwhile = 1.03;
-/** Milliseconds a frame, a 160th of one at 60 Hz: less is no reason to load 'broadphase/all'. */
+export const timesNoise = 2;
+/** Milliseconds a frame: less is no reason for an option; and not, a 160th of one at 60 Hz, to load 'broadphase/all'. */
+const worthAnOption = 0.01;
 const worthLoading = 0.1;
 
 /**
@@ -199,13 +206,19 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
     if (ofTechnique < mostOfTechnique) close.push(candidate);
   }
   if (!close.some(isAuto)) close.push({ technique: 'auto' });
-  const finalists = runFinal(close, dimensions, frames, seconds, (done) => progress?.('final', done, 1));
+  // A second `auto`, at the other end of the turns, says what the machine's other work makes of equals.
+  const twin: Candidate = { technique: 'auto' };
+  const ran = runFinal([twin, ...close], dimensions, frames, seconds, (done) => progress?.('final', done, 1));
+  const second = ran.find(({ candidate }) => candidate === twin)!.measured;
+  const finalists = ran.map(({ measured }) => measured).filter((measured) => measured !== second);
   const auto = finalists.find(isAuto)!;
-  const best = finalists.find((each) => isWorth(each, auto)) ?? auto;
+  const noise = Math.abs(second.ms.mean / auto.ms.mean - 1) || 0;
+  const best = finalists.find((each) => isWorth(each, auto, noise)) ?? auto;
   return {
     best,
     auto,
     margin: auto.ms.mean / best.ms.mean,
+    noise,
     finalists,
     techniques: techniques.map((name) => screened.find(({ technique }) => technique === name)!).sort(byTime),
     curves,
@@ -216,8 +229,9 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
 
 const byTime = (a: { ms: number }, b: { ms: number }) => a.ms - b.ms;
 /** Whether a finalist is worth being asked for by name. */
-const isWorth = ({ technique, ms }: Measured, auto: Measured) =>
-  auto.ms.mean / ms.mean >= worthwhile && (isLean(technique) || auto.ms.mean - ms.mean >= worthLoading);
+const isWorth = ({ technique, ms }: Measured, auto: Measured, noise: number) =>
+  auto.ms.mean / ms.mean >= Math.max(worthwhile, 1 + timesNoise * noise) &&
+  auto.ms.mean - ms.mean >= (isLean(technique) ? worthAnOption : worthLoading);
 
 const isAuto = ({ technique }: Candidate) => technique === 'auto';
 
@@ -358,7 +372,7 @@ function runFinal(
   frames: readonly Frame[],
   seconds: number,
   progress: (done: number) => void,
-): Measured[] {
+): { candidate: Candidate; measured: Measured }[] {
   const runs = candidates.map((candidate) => ({
     candidate,
     space: new BroadPhase({ ...worldOf(frames[0]), ...candidate, dimensions }),
@@ -381,9 +395,9 @@ function runFinal(
     .map(({ candidate, space, times }) => {
       space.dispose();
       const those = counted(frames, times);
-      return { ...candidate, times: those, ms: summarize(those) };
+      return { candidate, measured: { ...candidate, times: those, ms: summarize(those) } };
     })
-    .sort((a, b) => a.ms.mean - b.ms.mean);
+    .sort((a, b) => a.measured.ms.mean - b.measured.ms.mean);
 }
 
 function describeFrames(frames: readonly Frame[], dimensions: 2 | 3): Tuned['frames'] {

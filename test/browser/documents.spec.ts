@@ -1,10 +1,11 @@
 // The pages to read: every link within the site leads somewhere, the guides and the reference fit a phone, light and
 // dark, and are reached by keyboard; the reference can be searched.
-import { readdirSync, readFileSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { expect, test } from '@playwright/test';
 
 const dist = fileURLToPath(new URL('../../site/dist/', import.meta.url));
+const readme = readFileSync(fileURLToPath(new URL('../../README.md', import.meta.url)), 'utf8');
 /** Anchors that scripts make when the page runs. */
 const made = /^(article\/index\.html#fig-\d+|questions\/index\.html#\w+)$/;
 
@@ -67,7 +68,9 @@ for (const colorScheme of ['light', 'dark'] as const) {
         ['guide', 'guides/moving-here/'],
         ['promises', 'guides/promises/'],
         ['example', 'examples/ecs/'],
-        ['reference', 'api/classes/broadphase.BroadPhase.html'],
+        ['reference', 'api/'],
+        ['reference-class', 'api/classes/broadphase.BroadPhase.html'],
+        ['reference-all', 'api/documents/broadphase_all.html'],
       ]) {
         await page.goto(address);
         await expect(page.getByRole('heading', { level: 1 })).toBeVisible();
@@ -99,6 +102,65 @@ test('the navigation leads by keyboard from the first page to a guide, and on to
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('API');
 });
 
+test('a guide leads on to the next and back, and to the reference where it names something of it', async ({ page }) => {
+  await page.goto('guides/queries/');
+  const beside = page.getByRole('navigation', { name: 'Previous and next' });
+  await beside.getByRole('link', { name: 'Events' }).click();
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Events');
+  await beside.getByRole('link', { name: 'Queries' }).click();
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('Queries');
+  await expect(page.getByRole('link', { name: 'queryPlanes' })).toHaveCount(1); // the first time alone
+  await page.getByRole('link', { name: 'queryPlanes' }).click();
+  await expect(page).toHaveURL(/api\/classes\/broadphase\.BroadPhase\.html#queryplanes$/);
+});
+
+test('code of a guide is copied by a button', async ({ page, context }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  await page.goto('guides/getting-started/');
+  const block = page.locator('.copied').first();
+  await block.hover();
+  await block.getByRole('button', { name: 'Copy' }).click();
+  await expect(block.getByRole('button')).toHaveText('Copied');
+  expect(await page.evaluate(() => navigator.clipboard.readText())).toMatch(/^mkdir overlaps && cd overlaps\n.*\S$/s);
+});
+
+test('llms.txt lists what there is to read, llms-full.txt has it', () => {
+  const list = readFileSync(`${dist}llms.txt`, 'utf8');
+  const links = [...list.matchAll(/\]\(([^)]+)\)/g)].map(([, link]) => link.replace(/\/$/, '/index.html'));
+  expect(links.length).toBeGreaterThan(20);
+  expect(links.filter((link) => !existsSync(dist + link))).toEqual([]);
+  const full = readFileSync(`${dist}llms-full.txt`, 'utf8');
+  for (const words of ['# Getting started', "import from 'broadphase/trace'", '#### queryBox(', 'within?: boolean']) {
+    expect(full).toContain(words);
+  }
+  expect(full).not.toMatch(/\]\([\w./-]+\.md/);
+});
+
+test('the reference leads with BroadPhase: a line for each member, in the groups of the README', async ({ page }) => {
+  await page.goto('api/');
+  const groups = [...readme.matchAll(/^\| \*\*(.+?)\*\*/gm)].map(([, title]) => title);
+  const headings = (await page.getByRole('heading', { level: 3 }).allTextContents()).map((text) => text.trim());
+  expect(headings.slice(0, groups.length)).toEqual(groups);
+  expect(groups.length).toBeGreaterThan(4);
+  const line = page.getByRole('row').filter({ has: page.getByRole('link', { name: 'rayCast()', exact: true }) });
+  await expect(line).toContainText('The first box that a ray meets');
+  await line.getByRole('link').click();
+  await expect(page).toHaveURL(/broadphase\.BroadPhase\.html#raycast$/);
+  await page.goto('api/');
+  await page.locator('h3').getByRole('link', { name: 'broadphase/all' }).click();
+  await expect(page.getByRole('heading', { level: 1 })).toHaveText('broadphase/all, /2d and /3d');
+});
+
+test('the reference has the options of a method beside it', async ({ page }) => {
+  await page.goto('api/classes/broadphase.BroadPhase.html#querybox');
+  const told = page
+    .locator('.tsd-member')
+    .filter({ has: page.locator('#querybox') })
+    .locator('.tsd-comment li');
+  await expect(told.filter({ hasText: 'within?: boolean' })).toContainText('wholly inside');
+  await expect(told.filter({ hasText: 'mask?: number' })).toContainText('32 bits');
+});
+
 test('the reference finds a method by its name', async ({ page }) => {
   await page.goto('api/');
   await page.getByRole('button', { name: 'Search' }).click();
@@ -106,4 +168,12 @@ test('the reference finds a method by its name', async ({ page }) => {
   await page.getByRole('option').first().click();
   await expect(page).toHaveURL(/broadphase\.BroadPhase\.html#raycastall/);
   await expect(page.getByText('All boxes that a ray meets').first()).toBeVisible();
+});
+
+test('Enter leads to the first that the search finds, also at once after typing', async ({ page }) => {
+  await page.goto('api/');
+  await page.getByRole('button', { name: 'Search' }).click();
+  await page.keyboard.type('rayCastAll');
+  await page.keyboard.press('Enter');
+  await expect(page).toHaveURL(/broadphase\.BroadPhase\.html#raycastall/);
 });

@@ -77,7 +77,7 @@ test('the command converts, cuts and describes it', async () => {
   const out = (text: string) => {
     said += text;
   };
-  const terminal = { out, err: out, interactive: false, columns: 80 };
+  const terminal = { out, err: out, interactive: false, columns: 80, tableColumns: 80, colour: false };
   expect(await main(['convert', from, to, '--frames', '1..2'], terminal)).toBe(0);
   expect(await main(['info', to], terminal)).toBe(0);
   expect(said).toContain('in a world of 32 × 20 that wraps around');

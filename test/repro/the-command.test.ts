@@ -13,7 +13,7 @@ const file = (name: string) => join(folder, name);
 const small = file('small.trace');
 const commands = ['info', 'replay', 'compare', 'tune', 'convert', 'generate'];
 
-async function run(argv: string[], columns = 80) {
+async function run(argv: string[], columns = 80, tableColumns = Infinity, colour = false) {
   let [out, err] = ['', ''];
   const code = await main(argv, {
     out: (text) => {
@@ -24,6 +24,8 @@ async function run(argv: string[], columns = 80) {
     },
     interactive: false,
     columns,
+    tableColumns,
+    colour,
   });
   return { code, out, err };
 }
@@ -104,19 +106,42 @@ describe('what cannot be done is said at once', () => {
 
 describe('its own words', () => {
   test.each([
-    [['info', small, '--colour'], 'no option --colour, expected --json, --help, --frames or --salvage'],
-    [['info', small, '-x'], 'no option -x, expected'],
-    [['info', small, '--frames'], '--frames has no value, expected --frames <a..b>'],
-    [['info', small, '--frames', '--json'], '--frames has no value'],
-    [['info', small, '--json=yes'], '--json is yes, expected no value'],
-    [['info', small, small, small], 'expected <trace>, got 3 arguments'],
-    [['convert', small], 'expected <trace> <file>, got 1 argument\n'],
-    [['convert'], 'got 0 arguments'],
+    [['info', small, '--colour'], "unknown option '--colour'"],
+    [['info', small, '-x'], "unknown option '-x'"],
+    [['info', small, '--frames'], "option '--frames <a..b>' argument missing"],
+    [['info', small, '--frames', '--json'], "'--json' is invalid. Expected a value, not an option."],
+    [['info', small, '--frame', '0..1'], '(Did you mean --frames?)'],
+    [['tunes', small], "unknown command 'tunes' (Did you mean tune?)"],
+    [['info', small, '--json=yes'], "unknown option '--json=yes'"],
+    [['info', small, small, small], 'Expected 1 argument but got 3.'],
+    [['convert', small], "missing required argument 'file'"],
+    [['convert'], "missing required argument 'trace'"],
   ])('%j', async (argv, message) => {
     const { code, err } = await run(argv);
     expect(code).toBe(2);
     expect(err).toContain(message);
-    expect(err).not.toMatch(/positional|argument is missing|place it at the end/);
+    expect(err).toMatch(/^broadphase: [^\n]*\nTry: broadphase [a-z ]*--help\n$/);
+  });
+
+  test.each([80, 60, 40])('tables fit %i columns, and say what they leave out', async (columns) => {
+    for (const argv of [
+      ['replay', small],
+      ['compare', small, '--passes', '1'],
+      ['info', small],
+    ]) {
+      const { out } = await run(argv, columns, columns);
+      const table = out.split('\n\n').find((part) => part.includes('─'))!;
+      for (const line of table.split('\n').slice(0, 3)) expect(line.length, line).toBeLessThanOrEqual(columns);
+      if (argv[0] === 'replay') expect(out).toMatch(/not shown, for lack of room: .*memory; --json has all/);
+    }
+    expect((await run(['replay', small], columns)).out).toContain('memory');
+  });
+
+  test('colours are for terminals that have them', async () => {
+    const argv = ['compare', small, '--passes', '1'];
+    expect((await run(argv)).out).not.toContain('\x1b');
+    expect((await run(['--help'], 80, 80, true)).out).toContain('\x1b[1m');
+    expect((await run(argv, 80, 80, true)).out).toContain('\x1b[32m');
   });
 
   test('one frame is one frame', async () => {
@@ -131,6 +156,7 @@ describe('its own words', () => {
     const { version } = JSON.parse(readFileSync('package.json', 'utf8'));
     expect(await run(['--version'])).toEqual({ code: 0, out: `${version}\n`, err: '' });
     const { out } = await run(['--help']);
+    expect(await run(['-v'])).toEqual({ code: 0, out: `${version}\n`, err: '' });
     for (const argv of [['-h'], ['help']]) expect(await run(argv)).toEqual({ code: 0, out, err: '' });
     for (const name of commands) {
       const help = await run([name, '--help']);
@@ -166,18 +192,25 @@ describe('what tune recommends', () => {
 
   test('says what is saved, and what it costs to load', () => {
     const best = ran('quadtree', 0.25);
-    const text = verdictOf({ best, auto, finalists: [best, auto], margin: 2 });
+    const text = verdictOf({ best, auto, finalists: [best, auto], margin: 2, noise: 0.01 });
     expect(text).toContain('0.2500 less than `auto`: 2.00 times as fast');
     expect(text).toContain(`'broadphase/all', ${moreOfAll} kB more to load`);
     const lean = ran('strip-sweep', 0.25);
-    expect(verdictOf({ best: lean, auto, finalists: [lean, auto], margin: 2 })).not.toContain('broadphase/all');
+    expect(verdictOf({ best: lean, auto, finalists: [lean, auto], margin: 2, noise: 0.01 })).not.toContain(
+      'broadphase/all',
+    );
   });
 
   test('says so where what is faster is not worth loading', () => {
     const first = ran('quadtree', 0.4935);
-    const text = verdictOf({ best: auto, auto, finalists: [first, auto], margin: 1 });
-    expect(text).toContain('Nothing to tune');
-    expect(text).toContain(`quadtree would save 0.0065 ms of it, but is in 'broadphase/all'`);
+    const found = { best: auto, auto, finalists: [first, auto], margin: 1 };
+    const text = verdictOf({ ...found, noise: 0.001 });
+    expect(text).toContain('`auto` is fine: it takes 0.5000 ms a frame.');
+    expect(text).toContain(`quadtree took 0.0065 ms less: too little for 'broadphase/all'`);
+    expect(verdictOf({ ...found, noise: 0.02 })).toContain(
+      'quadtree took 0.0065 ms less, which is noise: `auto` differs from itself by 2.0 %.',
+    );
+    expect(verdictOf({ ...found, finalists: [auto], noise: 0 })).toContain('Nothing is faster');
   });
 
   test('knows the size of what it asks to load', () => {

@@ -27,6 +27,8 @@ async function run(...argv: string[]) {
       err += text;
     },
     interactive: false,
+    tableColumns: Infinity,
+    colour: false,
     columns: 80,
   });
   return { code, out, err };
@@ -66,9 +68,9 @@ describe('help and wrong command lines', () => {
 
   test.each([
     [[], 'expected a command'],
-    [['toString'], 'no command toString'],
-    [['info'], 'expected <trace>'],
-    [['info', 'a', 'b'], 'got 2 arguments'],
+    [['toString'], "unknown command 'toString'"],
+    [['info'], "missing required argument 'trace'"],
+    [['info', 'a', 'b'], 'but got 2'],
     [['info', small, '--colour'], '--colour'],
     [['replay', small, '--technique', 'magic'], 'no magic, expected one of brute-force'],
     [['replay', small, '--technique', 'auto,auto'], 'expected one name'],
@@ -167,6 +169,8 @@ test('tune recommends options, as code, and writes a report that asks for nothin
   const { best, auto, code: paste, finalists, techniques, curves } = result as Tuned;
   expect(code).toBe(0);
   expect(best.ms.mean).toBeLessThanOrEqual(auto.ms.mean);
+  expect(result.noise).toBeGreaterThanOrEqual(0);
+  expect(finalists.filter(({ technique }) => technique === 'auto')).toHaveLength(1);
   expect(finalists.map(({ ms }) => ms.mean)).toEqual(finalists.map(({ ms }) => ms.mean).sort((a, b) => a - b));
   expect(techniques.map(({ technique }) => technique).sort()).toEqual([...BroadPhase.techniques].sort());
   expect(curves.filter(({ parameter }) => parameter === 'cellSize').map(({ technique }) => technique)).toContain(
@@ -181,6 +185,7 @@ test('tune recommends options, as code, and writes a report that asks for nothin
   const page = readFileSync(report, 'utf8');
   expect(page).toContain(`default-src 'none'`);
   expect(page).toContain('<svg');
+  expect(page).toMatch(/<title>frame 1\n[\s\S]*?<\/title>/); // numbers where the pointer rests
   expect(page).not.toMatch(/https?:|src=|href=|@import|url\(|<script|NaN|undefined/);
   const { out } = await run('tune', small, '--seconds', '0', '--techniques', 'brute-force');
   expect(out).toContain('new BroadPhase(');

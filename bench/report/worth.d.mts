@@ -1,0 +1,1 @@
+export function adviceOf(row: object): string;

@@ -1,0 +1,43 @@
+// Is it worth it? By number of things: what one would write oneself, the packages, this, and which of them is enough.
+import { fastest, isPackage, named, ofKind } from './rows.mjs';
+import { markdownTable, short, whole } from './words.mjs';
+
+/** A frame at 60 Hz in milliseconds, and the share of it that nobody misses. */
+const frame = 1000 / 60;
+const missed = 0.01;
+
+/** The least of what does for these things: what takes less than a hundredth of a frame is as good as what takes nothing. */
+export function adviceOf(row) {
+  const isEnough = (name) => named(row, name)?.total.median < missed * frame;
+  if (isEnough('brute force')) return 'fifteen lines';
+  const byHand = ['sort and sweep', 'grid in a Map'].find(isEnough);
+  return byHand ?? 'this';
+}
+
+/** Whole frames from objects, and what is enough. `counts`: only so many things. */
+export function worthTable(record, counts) {
+  const rows = ofKind(record, 'objects').filter(({ count }) => !counts || counts.includes(count));
+  const titles = [
+    'things',
+    'brute force',
+    'sort and sweep',
+    'grid in a Map',
+    'the fastest npm package',
+    'this, by `set`',
+    'by `boxes()`',
+    'enough is',
+  ];
+  const cells = rows.map((row) => {
+    const [of, peer] = [(name) => named(row, name), fastest(row, isPackage)];
+    const byHand = ['brute force', 'sort and sweep', 'grid in a Map'].map((name) => of(name));
+    const ours = [of('set movers') ?? of('set'), of('boxes()')];
+    return [
+      row.name === 'all move' ? whole(row.count) : `${whole(row.count)}, ${row.name}`,
+      ...byHand.map((found) => (found ? short(found.total.median) : 'slow')),
+      peer ? `${short(peer.total.median)} ${peer.name}` : 'slow',
+      ...ours.map((found) => (found ? short(found.total.median) : '')),
+      adviceOf(row),
+    ];
+  });
+  return markdownTable(titles, cells);
+}

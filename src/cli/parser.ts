@@ -1,0 +1,97 @@
+// Command lines and help, by commander, which is bundled: names that are nearly right, versions, and lines of help that
+// fit. What each value may be the commands check themselves.
+import { CommanderError, InvalidArgumentError, Command as Parser, Option as ParserOption } from 'commander';
+import { version } from '../../package.json' with { type: 'json' };
+import { type Command, exitCode, Input, type Option, type Terminal, UsageError } from './arguments.ts';
+import { leastText, list, paint } from './terminal.ts';
+
+const about =
+  'Looks into, replays, compares and tunes on traces: recordings of the boxes of a game. Joins files of boxes.';
+const codes = [
+  ['0', 'all well'],
+  ['1', 'wrong pairs'],
+  ['2', 'wrong command line'],
+  ['3', 'broken trace, or a row that is no box'],
+  ['4', 'file trouble'],
+  ['5', 'a package missing'],
+  ['70', 'a fault here'],
+] as const;
+
+/** An option behind one is not its value; a negative number may be. */
+function checkValue(given: string): string {
+  if (/^-(?!\d)/.test(given)) throw new InvalidArgumentError('Expected a value, not an option.');
+  return given;
+}
+
+function optionOf(name: string, { value, help }: Option): ParserOption {
+  const option = new ParserOption(`--${name}${value ? ` <${value}>` : ''}`, help);
+  return value ? option.argParser(checkValue) : option;
+}
+
+/** Adds a command, whose exit code goes to `ended`. */
+function addCommand(
+  program: Parser,
+  name: string,
+  command: Command,
+  terminal: Terminal,
+  ended: (code: number) => void,
+): void {
+  const options = { ...command.options, json: { help: 'write the result as JSON' } };
+  const made = Object.entries(options).map(([option, what]) => [option, optionOf(option, what)] as const);
+  const parser = program.command(name).description(command.summary);
+  for (const operand of command.operands) parser.argument(`<${operand}>`);
+  for (const [, option] of made) parser.addOption(option);
+  parser.action(async () => {
+    const given = parser.opts();
+    const values = Object.fromEntries(made.map(([option, parsed]) => [option, given[parsed.attributeName()]]));
+    ended(await command.run(new Input(parser.args, values), terminal));
+  });
+}
+
+/** What the parser says, as all errors here are said: on one line. */
+const wordsOf = ({ code, message }: CommanderError): string =>
+  code === 'commander.help' ? 'expected a command' : message.replace(/^error: /, '').replaceAll('\n', ' ');
+
+/**
+ * Runs a command line, given without the program's own name.
+ * @returns the exit code
+ * @throws UsageError that says what is wrong
+ */
+export async function runLine(
+  commands: Readonly<Record<string, Command>>,
+  argv: readonly string[],
+  terminal: Terminal,
+): Promise<number> {
+  let code: number = exitCode.ok;
+  const program = new Parser('broadphase')
+    .description(about)
+    .version(version, '-v, --version', 'say which version this is')
+    .helpOption('-h, --help', 'show this')
+    .helpCommand('help [command]', 'show what a command takes')
+    .configureHelp({
+      minWidthToWrap: leastText,
+      styleTitle: (title) => paint(terminal, 'bold', title),
+      subcommandTerm: (each) => [each.name(), ...each.registeredArguments.map((one) => `<${one.name()}>`)].join(' '),
+    })
+    .configureOutput({
+      writeOut: terminal.out,
+      writeErr: () => {}, // errors are said by main.ts, like all others
+      getOutHelpWidth: () => terminal.columns,
+      getErrHelpWidth: () => terminal.columns,
+      getOutHasColors: () => terminal.colour,
+    })
+    .addHelpText('after', `\n${paint(terminal, 'bold', 'Exit codes:')}\n${list(codes, terminal.columns)}`)
+    .exitOverride();
+  for (const [name, command] of Object.entries(commands)) {
+    addCommand(program, name, command, terminal, (ended) => {
+      code = ended;
+    });
+  }
+  try {
+    await program.parseAsync(argv, { from: 'user' });
+  } catch (error) {
+    if (!(error instanceof CommanderError)) throw error;
+    if (error.exitCode !== 0) throw new UsageError(wordsOf(error));
+  }
+  return code;
+}
