@@ -325,6 +325,14 @@ EXPORT(seen_count)() -> u32 {
 EXPORT(see_rows)(u32 count) -> void {
   with_space([&](auto& space) { space.bulk.fill_rows(space.seen(), count); });
 }
+/// How far a box reaches at most that the last update saw.
+EXPORT(most_reach)() -> f64 {
+  return with_space([](auto& space) { return space.seen().most_reach(); });
+}
+/// Whether the two boxes that `io` begins with overlap, in a world that wraps around.
+EXPORT(meet_around)() -> u32 {
+  return with_space([](auto& space) { return u32(space.meet_around(io)); });
+}
 EXPORT(hits_address)() -> const Hit* {
   return with_space([](auto& space) { return space.hits.data(); });
 }

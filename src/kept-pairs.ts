@@ -161,8 +161,21 @@ export function grow(numbers: Float64Array, at: number, width: number): void {
   }
 }
 
-/** Whether two boxes, of these numbers, do more than touch. */
-function overlap(ones: Float64Array, one: number, others: Float64Array, other: number, d: number): boolean {
+/** Makes a box larger by so much on each side. */
+export function reachOut(numbers: Float64Array, at: number, width: number, reach: number): void {
+  for (let n = 0; n < width; n++) numbers[at + n]! += n < width / 2 ? -reach : reach;
+}
+
+/** Whether two boxes, of these numbers, touch. */
+export function touch(ones: Float64Array, one: number, others: Float64Array, other: number, d: number): boolean {
+  for (let a = 0; a < d; a++) {
+    if (ones[one + a]! > others[other + a + d]! || others[other + a]! > ones[one + a + d]!) return false;
+  }
+  return true;
+}
+
+/** Whether they do more than touch. */
+export function overlap(ones: Float64Array, one: number, others: Float64Array, other: number, d: number): boolean {
   for (let a = 0; a < d; a++) {
     if (ones[one + a]! >= others[other + a + d]! || others[other + a]! >= ones[one + a + d]!) return false;
   }

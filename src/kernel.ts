@@ -27,6 +27,8 @@ export interface KernelExports {
   set_static(id: number, on: number): number;
   set_enabled(id: number, on: number): number;
   set_touching(on: number): void;
+  most_reach(): number;
+  meet_around(): number;
   set_group(id: number, group: number): number;
   set_reach(id: number, distance: number): number;
   get_rule(id: number): number;

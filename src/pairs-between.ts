@@ -10,7 +10,7 @@ import type { BroadPhase } from './broad-phase.ts';
 import { BulkQueries } from './bulk-queries.ts';
 import type { Dimensions } from './dimensions.ts';
 import { badValue } from './errors.ts';
-import { grow, Kept, roomFor, rowMore, type Side } from './kept-pairs.ts';
+import { grow, Kept, overlap, reachOut, roomFor, rowMore, type Side, touch } from './kept-pairs.ts';
 import { everything, nobody } from './query-options.ts';
 
 const where = 'pairsWith';
@@ -24,8 +24,8 @@ export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> 
   /**
    * Every pair of a box here and a box of another space, `[here0, there0, here1, there1, …]`, as of the last update of
    * each: such as of a level at rest and of what moves in it. Kept from call to call, at the cost of what has changed since.
-   * Filters count as between boxes of one space, boxes that are off are in no pair, and which are static makes no
-   * difference. The order depends on the calls made. The array stays as it is until the next call.
+   * Filters and reaches count as between boxes of one space, boxes that are off are in no pair, and which are static or in
+   * a group makes no difference. The order depends on the calls made. The array stays as it is until the next call.
    *
    * @param other a space of as many dimensions, and of the same `wrap` and `touching`
    * @throws TypeError for what is no other space; RangeError for one with another of these; Error for
@@ -152,7 +152,7 @@ export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> 
       if (listed) lists.begin(rows, row);
       for (let n = words[ends + k + 1]! - words[ends + k]!; n > 0; n--, answer += stride) {
         if (listed) lists.add(its, answer);
-        else kept.add(rows[row]!, its[answer]!);
+        else if (other.#meets(its, answer, rows, row)) kept.add(rows[row]!, its[answer]!);
       }
       if (listed) kept.addNear(rows, row);
     }
@@ -175,9 +175,28 @@ export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> 
     const words = other.wordView();
     for (let k = 0; k < asked; k++) {
       const id = rows[loose.asking[k]!]!;
-      for (let n = words[ends + k + 1]! - words[ends + k]!; n > 0; n--, answer += stride)
-        kept.addPair(its[answer]!, id);
+      for (let n = words[ends + k + 1]! - words[ends + k]!; n > 0; n--, answer += stride) {
+        if (other.#meets(its, answer, rows, loose.asking[k]!)) kept.addPair(its[answer]!, id);
+      }
     }
+  }
+
+  /**
+   * Whether the boxes of two rows overlap, the first of which is here and answered a question about the other. Where no box
+   * here reaches beyond itself the answer said so.
+   */
+  #meets(its: Float64Array, answer: number, rows: Float64Array, row: number): boolean {
+    if (this.kernel.most_reach() === 0) return true;
+    const { width } = this;
+    if (this.wrap === undefined) {
+      return (this.touching ? touch : overlap)(its, answer + 1, rows, row + 1, width / 2);
+    }
+    const io = this.io();
+    for (let n = 0; n < width; n++) {
+      io[n] = its[answer + 1 + n]!;
+      io[width + n] = rows[row + 1 + n]!;
+    }
+    return this.kernel.meet_around() === 1;
   }
 
   /** Asks another space about so many boxes here, of which the rows are given, grown or not; returns the place of the ends. */
@@ -185,6 +204,7 @@ export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> 
     try {
       const { width } = this;
       const step = width + 2;
+      const reach = other.kernel.most_reach();
       const at = other.kernel.stage_questions(count * (step + 1)) >>> 3;
       const to = other.doubleView();
       const rows = this.doubleView();
@@ -193,6 +213,7 @@ export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> 
         const place = at + k * step;
         for (let n = 0; n < step; n++) to[place + n] = rows[row + 1 + n]!;
         if (grown) grow(to, place, width);
+        if (reach > 0) reachOut(to, place, width, reach);
       }
       other.tellTouching(where, undefined);
       to.fill(nobody, at + count * step, at + count * (step + 1));

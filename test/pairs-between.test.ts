@@ -23,16 +23,20 @@ function expected(here: Entries, there: Entries, wrap?: readonly number[], touch
   const found: string[] = [];
   for (const [a, entry] of here) {
     for (const [b, other] of there) {
+      const [one, its] = [grownBox(entry), grownBox(other)];
       const overlap = wrap
-        ? wrappedOverlap(entry.box, other.box, wrap, touching)
+        ? wrappedOverlap(one, its, wrap, touching)
         : touching
-          ? touches(entry.box, other)
-          : overlaps(entry.box, other.box);
+          ? touches(one, { ...other, box: its })
+          : overlaps(one, its);
       if (overlap && meets(entry, other)) found.push(keyOf(a, b));
     }
   }
   return found.sort();
 }
+
+/** A box as far as it reaches. */
+const grownBox = ({ box, reach = 0 }: Entry) => box.map((x, k) => (k < box.length / 2 ? x - reach : x + reach));
 
 const overlaps = (a: readonly number[], b: readonly number[]) =>
   a.every((x, k) => (k < a.length / 2 ? x < b[k + a.length / 2]! : b[k - a.length / 2]! < x));
@@ -40,10 +44,12 @@ const overlaps = (a: readonly number[], b: readonly number[]) =>
 /** A space with its model, and what its last update saw. */
 class Side extends Modelled {
   seen: Entries = new Map();
+  reaching = false;
 
   change(count: number): void {
     for (let n = 0; n < count; n++) {
-      if (this.random() < 0.1) this.setEnabled(this.id(), this.random() < 0.5);
+      if (this.reaching && this.random() < 0.1) this.setReach(this.id(), [0, 1, 3, 0.1][this.integer(4)]!);
+      else if (this.random() < 0.1) this.setEnabled(this.id(), this.random() < 0.5);
       else if (this.random() < 0.7) this.set(this.id());
       else this.step();
     }
@@ -66,6 +72,8 @@ describe(`pairs with another space (SEED=${seed})`, () => {
       const options = { dimensions, touching, ...(wrap && { wrap }) } as never;
       const here = new Side(options, seed + round);
       const there = new Side(options, seed + round + 1000);
+      here.reaching = round % 4 === 1 || round % 4 === 3;
+      there.reaching = round % 4 > 1;
       for (let frame = 0; frame < 40; frame++) {
         for (const side of [here, there]) {
           side.change(frame === 0 ? 60 : side.integer(3) * side.integer(6));

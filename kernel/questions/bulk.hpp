@@ -57,7 +57,7 @@ template <int D> class Bulk {
   }
 
   /// Rows of what the last update saw, each of which has a slot: in place of it comes the id, or -1 where the box meets
-  /// nobody, and behind it the box's numbers, layer and mask.
+  /// nobody, and behind it the box's numbers, as far as it reaches, its layer and mask.
   COLD void fill_rows(const Index<D>& index, u32 count) {
     f64* row = given_.data();
     for (u32 k = 0; k < count; k++, row += width + 3) {
@@ -67,6 +67,7 @@ template <int D> class Bulk {
       if (rule.is_off() || rule.layer == 0 || rule.mask == 0) continue;
       row[0] = index.id_of_slot(slot);
       index.box_of_slot(slot, row + 1);
+      for (u32 k = 0; k < width; k++) row[1 + k] += k < D ? -index.reach(slot) : index.reach(slot);
       row[width + 1] = rule.layer;
       row[width + 2] = rule.mask;
     }

@@ -30,9 +30,11 @@ template <int D> class Index {
   Buffer<f64> exact_;
   Buffer<u32> ids_;
   Buffer<Rule> rules_;
+  Buffer<f64> reaches_;
+  f64 most_reach_ = 0;
   u32 count_ = 0;
   const f64* world_ = nullptr;  // where it wraps around: then boxes stand in `exact_`, and are moved as they are rounded
-  bool rounded_ = false, named_ = false, filtered_ = false;
+  bool rounded_ = false, named_ = false, filtered_ = false, reached_ = false;
 
   bool built_ = false;
   Buffer<u32> slots_;       // per place in the order
@@ -82,6 +84,9 @@ template <int D> class Index {
     for (u32 k = 0; k < width; k++) to[k] = rounded_ ? exact_[u64(slot) * width + k] : f64(boxes_[u64(slot) * width + k]);
   }
   bool filtered() const { return filtered_; }
+  /// How far a box reaches, by its slot, and no less than any does.
+  f64 reach(u32 slot) const { return reached_ ? reaches_[slot] : 0; }
+  f64 most_reach() const { return most_reach_; }
   u32 slot(u32 place) const { return slots_[place]; }
   const u32* slots() const { return slots_.data(); }
   u32 layer(u32 place) const { return filtered_ ? rules_[slots_[place]].layer : 0xffffffff; }
@@ -99,7 +104,7 @@ template <int D> class Index {
   }
 
   /// Copies the boxes of a space.
-  COLD void see(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* world) {
+  COLD void see(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches, const f64* world) {
     u32 n = ids.count();
     count_ = 0;
     known_ = smaller(known_, n);
@@ -113,6 +118,10 @@ template <int D> class Index {
     else copy(boxes_, boxes, u64(n) * width, 4);
     filtered_ = rules;
     if (rules) copy(rules_, rules, n, 0);
+    reached_ = reaches;
+    most_reach_ = 0;
+    if (reaches) copy(reaches_, reaches, n, 0);
+    for (u32 s = 0; s < n && reaches; s++) most_reach_ = larger(most_reach_, reaches[s]);
     named_ = !ids.same();
     if (named_) {
       ids_.reserve(n);
@@ -122,14 +131,15 @@ template <int D> class Index {
   }
 
   /// Takes over the slots that have changed, of which new ones are some: false where all has to be seen anew.
-  COLD bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const u32* slots, u32 many,
-                   const f64* world) {
-    if (world_ != world || rounded_ != (exact || world_) || named_ != !ids.same() || filtered_ != (rules != nullptr)) return false;
+  COLD bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches, const u32* slots,
+                   u32 many, const f64* world) {
+    if (reached_ != (reaches != nullptr) || world_ != world || rounded_ != (exact || world_) || named_ != !ids.same() || filtered_ != (rules != nullptr)) return false;
     u32 n = ids.count(), had = count_;
     if (built_ || !rounded_) boxes_.grow(u64(n) * width + 4, u64(had) * width);
     if (rounded_) exact_.grow(u64(n) * width, u64(had) * width);
     if (named_) ids_.grow(n, had);
     if (filtered_) rules_.grow(n, had);
+    if (reached_) reaches_.grow(n, had);
     if (built_) {
       places_.grow(larger(n, 1u), had);
       for (u32 s = n; s < had; s++) vacate(places_[s]);
@@ -149,6 +159,7 @@ template <int D> class Index {
       }
       if (named_) ids_[s] = ids.id(s);
       if (filtered_) rules_[s] = rules[s];
+      if (reached_) most_reach_ = larger(most_reach_, reaches_[s] = reaches[s]);
       if (!built_) continue;
       if (!is_off(s)) {
         move(s);
@@ -209,6 +220,7 @@ template <int D> class Index {
     exact_.release();
     ids_.release();
     rules_.release();
+    reaches_.release();
     slots_.release();
     placed_ids_.release();
     places_.release();

@@ -110,6 +110,18 @@ template <int D> class Copies {
     return true;
   }
 
+  /// Whether the question overlaps a box at any turn.
+  COLD bool meets(const f64* box, bool touching) const {
+    bool all = true;
+    for (int a = 0; a < D; a++) {
+      Span its = Span::of(box[a], box[D + a], world_[a]);
+      bool some = false;
+      for (u32 n = 0; n < 3; n++) some |= touches(a, its, number_of(n), false, touching);
+      all &= some;
+    }
+    return all;
+  }
+
   /// How far a box is away along each axis; false where it is nearer at another turn.
   COLD bool away(const f64* box, f64* to) const {
     for (int a = 0; a < D; a++) {

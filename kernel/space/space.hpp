@@ -300,6 +300,7 @@ template <int D> class Space {
   /// Says how far a box reaches.
   COLD void set_reach(u32 slot, f64 distance) {
     if (distance == reaches_.of(slot)) return;
+    if (!holds_) hold();
     reaches_.set(slot, distance, boxes_.capacity() / width);
     changes_.note(slot);
   }
@@ -519,6 +520,12 @@ template <int D> class Space {
   }
   /// What the last update saw.
   const Index<D>& seen() const { return index_; }
+  /// Whether two boxes overlap, one behind the other, where the world wraps around.
+  COLD bool meet_around(const f64* boxes) const {
+    Copies<D> copies;
+    copies.begin(options_.wrap, boxes, boxes + D);
+    return copies.meets(boxes + width, options_.touching);
+  }
 
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
   /// all finite boxes.
@@ -689,7 +696,7 @@ template <int D> class Space {
     const Rule* rules = filters_.active() ? filters_.rules() : nullptr;
     u32 few = larger(ids_.count() / 32, 8u);  // more are dearer to follow than the index is to make
     holds_ = holds_ && !changes_.all() && changes_.count() <= few &&
-             index_.follow(boxes_.data(), exact, ids_, rules, changes_.list(), changes_.count(), world());
+             index_.follow(boxes_.data(), exact, ids_, rules, reaches_.data(), changes_.list(), changes_.count(), world());
     // Who writes in place does not say when.
     if (exposed_ && !holds_ && (asked_ || ids_.count() <= spared_in_place)) see();
   }
@@ -701,7 +708,7 @@ template <int D> class Space {
   COLD void see() {
     see_shown();
     const Rule* rules = filters_.active() ? filters_.rules() : nullptr;
-    index_.see(boxes_.data(), rounding_ ? exact_.data() : nullptr, ids_, rules, world());
+    index_.see(boxes_.data(), rounding_ ? exact_.data() : nullptr, ids_, rules, reaches_.data(), world());
     holds_ = true;
   }
 
