@@ -961,12 +961,12 @@ template <int D> class Space {
     return -1;
   }
 
-  /// Whether some box is nowhere along an axis, as float32: differences of its bounds are no numbers, and doubts may go
-  /// unnoticed.
-  COLD bool some_nowhere() const {
+  /// Whether some box is nowhere along an axis. What ends at infinity only touches it; but differences of these bounds are no
+  /// numbers, and of doubles the one is rounded to a finite number: that doubt goes unnoticed.
+  template <class T> COLD bool some_nowhere(const T* boxes) const {
     bool some = false;
     for (u64 k = 0; k < u64(ids_.count()) * width; k += width) {
-      for (u32 a = 0; a < D; a++) some |= boxes_[k + a] == __builtin_inff() || boxes_[k + D + a] == -__builtin_inff();
+      for (u32 a = 0; a < D; a++) some |= boxes[k + a] == T(__builtin_inf()) || boxes[k + D + a] == -T(__builtin_inf());
     }
     return some;
   }
@@ -995,31 +995,31 @@ template <int D> class Space {
       kept += until - at;
       at = until;
     };
-    bool all = !(watching >> u32(ran_) & 1) || (!doubles && some_nowhere());
+    bool all = !(watching >> u32(ran_) & 1) || (!options_.touching && (doubles ? some_nowhere(doubles) : some_nowhere(boxes_.data())));
     for (u32 k = 0; k < (all ? 1 : pairs.doubt_count); k++) {
       if (!all) keep(pairs.doubts[2 * k]);
       u64 until = all ? pairs.count : pairs.doubts[2 * k + 1];
-      u64* end = doubles ? retest(doubles, list + at, list + until, list + kept)
-                         : retest(boxes_.data(), list + at, list + until, list + kept);
-      kept = Pairs::between(list, end);
+      const u64 *from = list + at, *end = list + until;
+      u64* to = list + kept;
+      if (!doubles) to = retest<false>(boxes_.data(), from, end, to);
+      else to = options_.touching ? retest<true>(doubles, from, end, to) : retest<false>(doubles, from, end, to);
+      kept = Pairs::between(list, to);
       at = until;
     }
     keep(pairs.count);
     pairs.count = kept;
   }
-  template <class T> NOINLINE u64* retest(const T* boxes, const u64* from, const u64* until, u64* to) const {
-    bool touching = options_.touching;
+  template <bool touching, class T> NOINLINE u64* retest(const T* boxes, const u64* from, const u64* until, u64* to) const {
     for (; from < until; from++) {
       u64 pair = *from;
       const T* first = boxes + u64(filters_.slot(u32(pair))) * width;
       const T* second = boxes + u64(filters_.slot(u32(pair >> 32))) * width;
-      bool overlap = true, touch = false;
+      bool overlap = true;
       for (int k = 0; k < D; k++) {
-        overlap &= first[k] <= second[D + k] && second[k] <= first[D + k];
-        touch |= first[k] == second[D + k] || second[k] == first[D + k];
+        overlap &= touching ? first[k] <= second[D + k] && second[k] <= first[D + k] : first[k] < second[D + k] && second[k] < first[D + k];
       }
       *to = pair;
-      to += overlap & (touching | !touch);
+      to += overlap;
     }
     return to;
   }
