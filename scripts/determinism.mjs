@@ -45,6 +45,8 @@ for (const dimensions of [2, 3]) {
 for (const dimensions of [2, 3]) {
   tapes[`switched${dimensions}d`] = randomTape(dimensions, techniques.length, 4, callsPlayed, 'setEnabled');
   tapes[`grouped${dimensions}d`] = randomTape(dimensions, techniques.length, 5, callsPlayed, 'setGroup');
+  tapes[`reaching${dimensions}d`] = randomTape(dimensions, techniques.length, 6, callsPlayed, 'setReach');
+  tapes[`apart${dimensions}d`] = randomTape(dimensions, techniques.length, 7, callsPlayed, 'setReach', false);
 }
 for (const dimensions of [2, 3]) {
   tapes[`many${dimensions}d`] = randomTape(dimensions, techniques.length, 6, callsPlayed, 'many');

@@ -989,7 +989,7 @@ template <int D> class Space {
 
   /// Whether some box is nowhere along an axis: the difference of its bounds is no number, or, where they were rounded,
   /// infinite, so that doubts go unnoticed.
-  template <class T> NOINLINE bool some_nowhere(const T* boxes) const {
+  template <class T> COLD bool some_nowhere(const T* boxes) const {
     bool some = false;
     for (u64 k = 0; k < u64(ids_.count()) * width; k += width) {
       for (u32 a = 0; a < D; a++) some |= boxes[k + a] == __builtin_inff() || boxes[k + D + a] == -__builtin_inff();
@@ -1026,27 +1026,27 @@ template <int D> class Space {
     for (u32 k = 0; k < (all ? 1 : pairs.doubt_count); k++) {
       if (!all) keep(pairs.doubts[2 * k]);
       u64 until = all ? pairs.count : pairs.doubts[2 * k + 1];
-      u64* end = doubles ? retest(doubles, list + at, list + until, list + kept)
-                         : retest(boxes_.data(), list + at, list + until, list + kept);
-      kept = Pairs::between(list, end);
+      const u64 *from = list + at, *end = list + until;
+      u64* to = list + kept;
+      if (!doubles) to = retest<false>(boxes_.data(), from, end, to);
+      else to = options_.touching ? retest<true>(doubles, from, end, to) : retest<false>(doubles, from, end, to);
+      kept = Pairs::between(list, to);
       at = until;
     }
     keep(pairs.count);
     pairs.count = kept;
   }
-  template <class T> NOINLINE u64* retest(const T* boxes, const u64* from, const u64* until, u64* to) const {
-    bool touching = options_.touching;
+  template <bool touching, class T> NOINLINE u64* retest(const T* boxes, const u64* from, const u64* until, u64* to) const {
     for (; from < until; from++) {
       u64 pair = *from;
       const T* first = boxes + u64(filters_.slot(u32(pair))) * width;
       const T* second = boxes + u64(filters_.slot(u32(pair >> 32))) * width;
-      bool overlap = true, touch = false;
+      bool overlap = true;
       for (int k = 0; k < D; k++) {
-        overlap &= first[k] <= second[D + k] && second[k] <= first[D + k];
-        touch |= first[k] == second[D + k] || second[k] == first[D + k];
+        overlap &= touching ? first[k] <= second[D + k] && second[k] <= first[D + k] : first[k] < second[D + k] && second[k] < first[D + k];
       }
       *to = pair;
-      to += overlap & (touching | !touch);
+      to += overlap;
     }
     return to;
   }

@@ -9,7 +9,8 @@ type Numbers = [number, number, number, number];
 export function play(tape: Float64Array, technique: number): string {
   const { techniques } = BroadPhase;
   const dimensions = tape[0] as 2 | 3;
-  const space = new BroadPhase({ dimensions, events: tape[1] === 1, technique: techniques[technique]! });
+  const options = { events: (tape[1]! & 1) !== 0, touching: (tape[1]! & 2) === 0 };
+  const space = new BroadPhase({ dimensions, ...options, technique: techniques[technique]! });
   let [first, second] = [0x811c9dc5, 0x1b873593];
   const add = (word: number) => {
     first = Math.imul(first ^ word, 0x9e3779b1);
@@ -56,6 +57,9 @@ export function play(tape: Float64Array, technique: number): string {
         break;
       case calls.setGroup:
         space.setGroup(next(), next());
+        break;
+      case calls.setReach:
+        space.setReach(next(), next());
         break;
       case calls.setAll:
         space.setAll(take(next() * 2 * dimensions));

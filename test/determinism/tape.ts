@@ -1,5 +1,6 @@
 // Calls written down as numbers, to be made again anywhere: by play.ts in Node and in browsers, by kernel/test/play.cpp
-// on the bare machine. Every number is a double; the first two are the dimensions and whether events are kept.
+// on the bare machine. Every number is a double; the first two are the dimensions, and 1 where events are
+// kept plus 2 where boxes that only touch are no pairs.
 import { createRandom } from '../../src/scenes/random.ts';
 
 /** The calls, by their number on the tape, and what follows each. */
@@ -21,7 +22,8 @@ export const calls = {
   collisionsOf: 14, // id
   setEnabled: 15, // id, 0 or 1
   setGroup: 16, // id, group
-  many: 17, // kind, as kernel/questions/bulk.hpp counts, k, count, numbers of so many questions
+  setReach: 17, // id, distance
+  many: 18, // kind, as kernel/questions/bulk.hpp counts, k, count, numbers of so many questions
 } as const;
 
 /** Numbers of a question of each kind, as kernel/questions/bulk.hpp counts them. */
@@ -30,8 +32,8 @@ export const manyNumbers = {
   3: [3, 6, 9, 6, 6, 3, 4, 0],
 };
 
-/** What a tape may have more of than the others, and how many values each call takes. */
-const extras = { setEnabled: 2, setGroup: 4 };
+/** What a tape may have more of than the others: how many values each call takes, and how far these are apart. */
+const extras = { setEnabled: [2, 1], setGroup: [4, 1], setReach: [6, 0.3] } as const;
 
 /**
  * A tape of random calls: boxes that touch, move a little, jump, come and go, and are asked about.
@@ -43,10 +45,11 @@ export function randomTape(
   seed: number,
   count: number,
   extra?: keyof typeof extras | 'many',
+  touching = true,
 ): Float64Array {
   const random = createRandom(seed);
   const integer = (below: number) => Math.floor(random() * below);
-  const tape: number[] = [dimensions, 1];
+  const tape: number[] = [dimensions, touching ? 1 : 3];
   const known = new Map<number, number[]>();
   let saved: Map<number, number[]> | undefined;
   const place = () => integer(50) + [0, 0, 0, 0.5, 0.1, 1e-12][integer(6)]!;
@@ -86,7 +89,10 @@ export function randomTape(
   for (let n = 0; n < count; n++) {
     if (extra === 'many') {
       if (random() < 0.1) askMany();
-    } else if (extra && known.size && random() < 0.2) tape.push(calls[extra], someone(), integer(extras[extra]));
+    } else if (extra && known.size && random() < 0.2) {
+      const [values, apart] = extras[extra];
+      tape.push(calls[extra], someone(), apart * integer(values));
+    }
     const chance = random();
     if (chance < 0.3) set(id(), fresh());
     else if (chance < 0.5 && known.size) {

@@ -46,7 +46,8 @@ template <int D> class Player {
  public:
   Player(const std::vector<f64>& tape, u32 technique) : at_(tape.data() + 2), end_(tape.data() + tape.size()) {
     space_.technique = Technique(technique);
-    space_.keeps_events = tape[1] == 1;
+    space_.keeps_events = u32(tape[1]) & 1;
+    settings_.touching = !(u32(tape[1]) & 2);
   }
 
   void run() {
@@ -74,7 +75,8 @@ template <int D> class Player {
       case 14: return partners();
       case 15: return enable();
       case 16: return group();
-      case 17: return many();
+      case 17: return reach();
+      case 18: return many();
       default: std::fprintf(stderr, "play: the tape has no such call\n"); std::exit(1);
     }
   }
@@ -101,6 +103,10 @@ template <int D> class Player {
   void group() {
     u32 slot = ids_.slot(whole());
     space_.put_in_group(slot, whole());
+  }
+  void reach() {
+    u32 slot = ids_.slot(whole());
+    space_.set_reach(slot, next());
   }
   void replace() {
     u32 count = whole();
@@ -136,6 +142,7 @@ template <int D> class Player {
     Question<D>& question = space_.question;
     question = {};
     question.radius = -1;
+    question.touching = settings_.touching;
     question.mask = mask;
     question.ignored = ~0u;
     for (int a = 0; a < D; a++) {
