@@ -186,7 +186,7 @@ describe('documents', () => {
     const read = (file: string) => readFileSync(new URL(`../${file}`, import.meta.url), 'utf8');
     const readme = read('README.md');
     const put = putFigures(readme, headlineOf(record));
-    const worth = '| 1,000 | 2.00 | 0.150 | 0.200 | 0.500 flatbush | 0.0300 | 0.0200 | sort and sweep |';
+    const worth = '| 1,000 | sort and sweep | 2.00 | 0.150 | 0.200 | 0.500 flatbush | 0.0300 | 0.0200 |';
     expect(put).toContain(worth);
     const guide = putFigures(read('docs/guides/worth-it.md'), worthOf(record));
     expect(guide).toContain(worth);

@@ -19,13 +19,13 @@ export function worthTable(record, counts) {
   const rows = ofKind(record, 'objects').filter(({ count }) => !counts || counts.includes(count));
   const titles = [
     'things',
+    'enough is',
     'brute force',
     'sort and sweep',
     'grid in a Map',
     'the fastest npm package',
     'this, by `set`',
     'by `boxes()`',
-    'enough is',
   ];
   const cells = rows.map((row) => {
     const [of, peer] = [(name) => named(row, name), fastest(row, isPackage)];
@@ -33,10 +33,10 @@ export function worthTable(record, counts) {
     const ours = [of('set movers') ?? of('set'), of('boxes()')];
     return [
       row.name === 'all move' ? whole(row.count) : `${whole(row.count)}, ${row.name}`,
+      adviceOf(row),
       ...byHand.map((found) => (found ? short(found.total.median) : 'slow')),
       peer ? `${short(peer.total.median)} ${peer.name}` : 'slow',
       ...ours.map((found) => (found ? short(found.total.median) : '')),
-      adviceOf(row),
     ];
   });
   return markdownTable(titles, cells);
