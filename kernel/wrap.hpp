@@ -29,12 +29,12 @@ struct Span {
   }
 
   /// Whether it ends at or behind where another one begins that much further on, which is a whole number of worlds.
-  bool reaches(const Span& other, f64 further) const {
+  COLD bool reaches(const Span& other, f64 further) const {
     return !is_positive({other.low, -low, -size, -rest, other.shift - shift + further});
   }
 
   /// Whether it lies within another one that is moved so much further on.
-  bool is_within(const Span& other, f64 further) const {
+  COLD bool is_within(const Span& other, f64 further) const {
     f64 shifted = other.shift - shift + further;
     return !is_positive({other.low, -low, shifted}) &&
            !is_positive({low, -other.low, size, -other.size, rest, -other.rest, -shifted});
@@ -46,7 +46,7 @@ struct Span {
   };
 
   /// x modulo world, with the sign of x: exact.
-  static f64 remainder(f64 x, f64 world) {
+  COLD static f64 remainder(f64 x, f64 world) {
     f64 rest = __builtin_fabs(x), step = world;
     while (step <= rest / 2) step *= 2;
     for (; step >= world; step /= 2) {
@@ -56,7 +56,7 @@ struct Span {
   }
 
   /// Whether a sum is above 0.
-  static bool is_positive(const Sum& all) {
+  COLD static bool is_positive(const Sum& all) {
     f64 sum = 0, largest = 0;
     for (f64 term : all.terms) {
       sum += term;
@@ -67,7 +67,7 @@ struct Span {
   }
 
   /// The sign of a sum, by Shewchuk's expansions: doubles that add up to it and do not overlap, the largest last.
-  static f64 sign(const Sum& all) {
+  COLD static f64 sign(const Sum& all) {
     constexpr int most = sizeof(all.terms) / sizeof(f64);
     f64 parts[most] = {};
     for (int n = 0; n < most; n++) {
