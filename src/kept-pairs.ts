@@ -1,6 +1,6 @@
 // What is kept between calls of pairsWith: the pairs, what has changed, and the lists of what is near. See pairs-between.ts.
 
-/** In a row of the kernel's: the id in front of the numbers of a box, layer and mask behind. See kernel/bulk.hpp. */
+/** In a row of the kernel's: the id in front of the numbers of a box, layer and mask behind. See kernel/questions/bulk.hpp. */
 export const rowMore = 3;
 /** A number of views kept, so that counts seen lately make no garbage. */
 const viewsKept = 256;
@@ -33,7 +33,7 @@ export class Side {
   count = 0;
   /** By id, the number of the call in which it has changed last. */
   marks = new Uint32Array(16);
-  /** Where the rows of those stand that ask. */
+  /** Which of the slots ask. */
   asking = new Uint32Array(16);
 
   /** Reads the kernel's list: see kernel/changed_ids.hpp. False where all may have changed. */
@@ -70,7 +70,7 @@ export class Side {
   }
 }
 
-/** By id, which boxes of the other space overlap a grown box: their ids and numbers, one list behind the other. */
+/** By slot, which boxes of the other space overlap a grown box: their ids and numbers, one list behind the other. */
 export class Lists {
   readonly #width: number;
   /** Lists of another version hold no longer. */
@@ -94,12 +94,11 @@ export class Lists {
   }
 
   /** Whether the list of the box of a row holds all that it may overlap. */
-  holds(rows: Float64Array, row: number): boolean {
-    const id = rows[row]!;
-    if (this.#versions[id] !== this.version) return false;
+  holds(slot: number, rows: Float64Array, row: number): boolean {
+    if (this.#versions[slot] !== this.version) return false;
     const width = this.#width;
     const grown = this.#grown;
-    const at = id * (width + 2);
+    const at = slot * (width + 2);
     const within =
       width === 4
         ? grown[at]! <= rows[row + 1]! &&
@@ -116,19 +115,18 @@ export class Lists {
   }
 
   /** Begins the list of the box of a row, as it was asked for. */
-  begin(rows: Float64Array, row: number): void {
+  begin(slot: number, rows: Float64Array, row: number): void {
     const width = this.#width;
-    const id = rows[row]!;
-    this.#versions = roomFor(this.#versions, id + 1);
-    this.#firsts = roomFor(this.#firsts, id + 1);
-    this.#ends = roomFor(this.#ends, id + 1);
-    this.#grown = roomFor(this.#grown, (id + 1) * (width + 2));
-    const at = id * (width + 2);
+    this.#versions = roomFor(this.#versions, slot + 1);
+    this.#firsts = roomFor(this.#firsts, slot + 1);
+    this.#ends = roomFor(this.#ends, slot + 1);
+    this.#grown = roomFor(this.#grown, (slot + 1) * (width + 2));
+    const at = slot * (width + 2);
     for (let n = 0; n < width + 2; n++) this.#grown[at + n] = rows[row + 1 + n]!;
     grow(this.#grown, at, width);
-    this.#versions[id] = this.version;
-    this.#firsts[id] = this.#ends[id] = this.used;
-    this.#last = id;
+    this.#versions[slot] = this.version;
+    this.#firsts[slot] = this.#ends[slot] = this.used;
+    this.#last = slot;
   }
 
   /** Adds the box of a row of the other space to the list that was begun last. */
@@ -139,11 +137,11 @@ export class Lists {
     this.#ends[this.#last] = this.used;
   }
 
-  first(id: number): number {
-    return this.#firsts[id]!;
+  first(slot: number): number {
+    return this.#firsts[slot]!;
   }
-  end(id: number): number {
-    return this.#ends[id]!;
+  end(slot: number): number {
+    return this.#ends[slot]!;
   }
 }
 
@@ -230,9 +228,9 @@ export class Kept {
   }
 
   /** What has changed in the space with more boxes is loose from now on; where that are too many, all lists go. */
-  loosen(): void {
+  loosen(boxes: number): void {
     const { many, loose, lists } = this;
-    const most = leastLoose + looseShare * this.few.marks.length;
+    const most = leastLoose + looseShare * boxes;
     if (loose.count + many.count > most || lists.used > mostNumbers) this.dropLists();
     for (let k = 0; k < many.count; k++) {
       const id = many.ids[k]!;
@@ -265,15 +263,14 @@ export class Kept {
   }
 
   /** Adds the pairs of the box of a row that its list holds. */
-  addNear(rows: Float64Array, row: number): void {
+  addNear(slot: number, rows: Float64Array, row: number): void {
     const { numbers } = this.lists;
-    const id = rows[row]!;
-    const end = this.lists.end(id);
+    const end = this.lists.end(slot);
     const minX = rows[row + 1]!;
     const minY = rows[row + 2]!;
     const third = rows[row + 3]!;
     const fourth = rows[row + 4]!;
-    let at = this.lists.first(id);
+    let at = this.lists.first(slot);
     if (this.#width === 4) {
       for (; at < end; at += 5) {
         if (numbers[at + 1]! > third || minX > numbers[at + 3]!) continue;

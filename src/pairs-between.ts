@@ -83,7 +83,7 @@ export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> 
     const same = other.#follow(many, kept.call);
     if (followed && same && few.count + many.count === 0) return;
     if (!same) kept.dropLists();
-    kept.loosen();
+    kept.loosen(this.kernel.seen_count());
     if (followed && same) {
       kept.dropPairs();
     } else {
@@ -139,22 +139,24 @@ export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> 
       const row = at + k * stride;
       const id = rows[row]!;
       if (id < 0) continue;
-      if (listed && lists.holds(rows, row)) kept.addNear(rows, row);
-      else few.asking[asked++] = row;
+      const slot = few.slots[k]!;
+      if (listed && lists.holds(slot, rows, row)) kept.addNear(slot, rows, row);
+      else few.asking[asked++] = k;
     }
     if (asked === 0) return;
-    const ends = this.#ask(other, few.asking, asked, listed);
+    const ends = this.#ask(other, at, few.asking, asked, listed);
     let answer = other.#see(other.wordView()[ends + asked]!);
     const its = other.doubleView();
     const words = other.wordView();
     for (let k = 0; k < asked; k++) {
-      const row = few.asking[k]!;
-      if (listed) lists.begin(rows, row);
+      const row = at + few.asking[k]! * stride;
+      const slot = few.slots[few.asking[k]!]!;
+      if (listed) lists.begin(slot, rows, row);
       for (let n = words[ends + k + 1]! - words[ends + k]!; n > 0; n--, answer += stride) {
         if (listed) lists.add(its, answer);
         else if (other.#meets(its, answer, rows, row)) kept.add(rows[row]!, its[answer]!);
       }
-      if (listed) kept.addNear(rows, row);
+      if (listed) kept.addNear(slot, rows, row);
     }
   }
 
@@ -167,16 +169,16 @@ export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> 
     const rows = this.doubleView();
     loose.asking = roomFor(loose.asking, loose.count);
     let asked = 0;
-    for (let k = 0; k < loose.count; k++) if (rows[at + k * stride]! >= 0) loose.asking[asked++] = at + k * stride;
+    for (let k = 0; k < loose.count; k++) if (rows[at + k * stride]! >= 0) loose.asking[asked++] = k;
     if (asked === 0) return;
-    const ends = this.#ask(other, loose.asking, asked, false);
+    const ends = this.#ask(other, at, loose.asking, asked, false);
     let answer = other.#see(other.wordView()[ends + asked]!);
     const its = other.doubleView();
     const words = other.wordView();
     for (let k = 0; k < asked; k++) {
-      const id = rows[loose.asking[k]!]!;
+      const id = rows[at + loose.asking[k]! * stride]!;
       for (let n = words[ends + k + 1]! - words[ends + k]!; n > 0; n--, answer += stride) {
-        if (other.#meets(its, answer, rows, loose.asking[k]!)) kept.addPair(its[answer]!, id);
+        if (other.#meets(its, answer, rows, at + loose.asking[k]! * stride)) kept.addPair(its[answer]!, id);
       }
     }
   }
@@ -199,8 +201,8 @@ export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> 
     return this.kernel.meet_around() === 1;
   }
 
-  /** Asks another space about so many boxes here, of which the rows are given, grown or not; returns the place of the ends. */
-  #ask(other: PairsBetween<D>, asking: Uint32Array, count: number, grown: boolean): number {
+  /** Asks another space about so many of the rows at a place, grown or not; returns the place of the ends of the answers. */
+  #ask(other: PairsBetween<D>, first: number, asking: Uint32Array, count: number, grown: boolean): number {
     try {
       const { width } = this;
       const step = width + 2;
@@ -209,7 +211,7 @@ export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> 
       const to = other.doubleView();
       const rows = this.doubleView();
       for (let k = 0; k < count; k++) {
-        const row = asking[k]!;
+        const row = first + asking[k]! * (width + rowMore);
         const place = at + k * step;
         for (let n = 0; n < step; n++) to[place + n] = rows[row + 1 + n]!;
         if (grown) grow(to, place, width);

@@ -232,10 +232,10 @@ template <int D> class Index {
 
  private:
   /// A box outward; where the world wraps around to where it is searched.
-  void round(u32 slot) {
+  NOINLINE void round(u32 slot) {
     const f64* box = &exact_[u64(slot) * width];
     f32* to = &boxes_[u64(slot) * width];
-    if (world_) Copies<D>::place(world_, box, to);
+    if (world_) Copies::place(world_, D, box, to);
     else round_outward<D>(box, to);
   }
 

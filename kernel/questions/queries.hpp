@@ -37,7 +37,7 @@ template <int D> struct Question {
 
   /// In a world that wraps around, once the way is measured. A ray without a limit ends where it has gone once around.
   COLD void wrap(const f64* world) {
-    reach_around<D>(world, lo, hi, along);
+    Copies::reach_around(world, D, lo, hi, along);
     f64 once = __builtin_inf();
     for (int a = 0; a < D; a++) once = smaller(once, world[a] / __builtin_fabs(along[a]));
     if (!stops && limit == __builtin_inf() && once < limit) limit = once * length;
@@ -55,9 +55,12 @@ template <int D> class Wanted {
   /// Whether no box is left out for its layer or its id.
   bool all() const { return ignored_ > slot_mask && (own_ ? !index_.filtered() : mask_ == 0xffffffff); }
   bool operator()(u32 place) const {
-    if (own_) return meet({own_, mask_, 0}, {index_.rule(index_.slot(place)).layer, index_.rule(index_.slot(place)).mask, 0});
+    if (own_) return meets(index_.rule(index_.slot(place)));
     return (mask_ == 0xffffffff || (index_.layer(place) & mask_)) && index_.id(place) != ignored_;
   }
+
+ private:
+  COLD bool meets(const Rule& its) const { return (own_ & its.mask) && (its.layer & mask_); }
 };
 
 struct Hit {
@@ -152,8 +155,9 @@ template <int D> class Queries {
   const Index<D>& index_;
   const Question<D>& asked_;
   const f64* const world_;     // where it wraps around
-  Copies<D> copies_;           // only there
+  Copies copies_;              // only there
   f64 reach_[D];               // how far what moves may come
+  Hits* hits_ = nullptr;       // of what moves
   f32x4 lo_[D], hi_[D];        // what is to be looked at
   f32x4 above_[D], below_[D];  // the point, or what moves, rounded outward or further
   f32x4 slowness_[D];          // time for a unit of way
@@ -168,7 +172,7 @@ template <int D> class Queries {
  public:
   Queries(const Index<D>& index, const Question<D>& asked)
       : index_(index), asked_(asked), world_(index.world()), squared_(asked.radius * asked.radius), names_(asked.layer ? index.slots() : index.ids()), wanted_(index, asked), all_wanted_(wanted_.all()) {
-    if (world_) copies_.begin(world_, asked.lo, asked.hi);
+    if (world_) copies_.begin(world_, D, asked.lo, asked.hi);
   }
 
   /// How many blocks have been looked at.
@@ -180,10 +184,16 @@ template <int D> class Queries {
   COLD u32 area(u32& from, u32 most, Buffer<u32>& answers, u32 found = 0) {
     most_ = most;
     found_ = found;
-    from_ = from;
-    if (world_) return area_around(from, answers);
-    aim_area();
-    from = walk(index_.top(), 0, answers) ? index_.places() : from_;
+    // In a world that wraps around the places of each turn come behind those of the turn before.
+    u32 places = index_.places(), turn = world_ ? from / places : 0;
+    for (from_ = from - turn * places; turn < turns(); turn++, from_ = 0) {
+      if (world_ && !copies_.take(turn)) continue;
+      aim_area();
+      if (walk(index_.top(), 0, answers)) continue;
+      from = turn * places + from_;
+      return found_;
+    }
+    from = turn * places;
     return found_;
   }
 
@@ -195,17 +205,15 @@ template <int D> class Queries {
       f64 reach = asked_.along[a] * (asked_.limit / asked_.length) * (1 + 1e-9);
       reach_[a] = reach == reach ? reach : 0;  // no way at all, however long it takes
     }
-    auto one = [&] {
-      aim_ahead();
-      search<true>(index_.top(), 0, hits);
-    };
-    if (world_) copies_.pass(reach_, one);
-    else one();
+    hits_ = &hits;
+    auto one = [](void* self) { static_cast<Queries*>(self)->cast_once(); };
+    if (world_) copies_.pass(reach_, one, this);
+    else cast_once();
   }
 
   /// The nearest boxes to the box, most often a point.
   COLD void near(Hits& hits) {
-    for (u32 turn = 0; turn < (world_ ? Copies<D>::turns : 1); turn++) {
+    for (u32 turn = 0; turn < turns(); turn++) {
       if (world_ && !copies_.take(turn)) continue;
       for (int a = 0; a < D; a++) {
         above_[a] = splat(round_up(high(a)));
@@ -217,8 +225,15 @@ template <int D> class Queries {
 
  private:
   /// Where the question is looked for.
-  f64 low(int a) const { return world_ ? copies_.low(a) : asked_.lo[a]; }
-  f64 high(int a) const { return world_ ? copies_.high(a) : asked_.hi[a]; }
+  f64 low(int a) const { return world_ ? copies_.end(a, false) : asked_.lo[a]; }
+  f64 high(int a) const { return world_ ? copies_.end(a, true) : asked_.hi[a]; }
+
+  u32 turns() const { return world_ ? Copies::turns(D) : 1; }
+
+  COLD void cast_once() {
+    aim_ahead();
+    search<true>(index_.top(), 0, *hits_);
+  }
 
   void aim_area() {
     for (int a = 0; a < D; a++) {
@@ -246,20 +261,6 @@ template <int D> class Queries {
       slowness_[a] = splat(f32(1 / along));
       is_tame_ &= lo > -tame && hi < tame && (far == 0 || (far > 1 / tame && far < tame));
     }
-  }
-
-  /// The area, in a world that wraps around. Places of each turn come behind those of the turn before.
-  COLD u32 area_around(u32& from, Buffer<u32>& answers) {
-    u32 places = index_.places(), turn = from / places;
-    for (from_ = from % places; turn < Copies<D>::turns; turn++, from_ = 0) {
-      if (!copies_.take(turn)) continue;
-      aim_area();
-      if (walk(index_.top(), 0, answers)) continue;
-      from = turn * places + from_;
-      return found_;
-    }
-    from = turn * places;
-    return found_;
   }
 
   /// Whether the area touches a box here, in a world that wraps around, and not elsewhere before.
@@ -532,7 +533,7 @@ template <int D> class Queries {
   }
 
   /// How the moving box meets a box; false where it does not.
-  bool meets_box(const f64* box, u32 id, Hit& hit) const {
+  SHARED bool meets_box(const f64* box, u32 id, Hit& hit) const {
     Meeting met;
     if (!meets<D>(asked_.lo, asked_.hi, asked_.along, box, asked_.stops, met)) return false;
     hit = {met.time * asked_.length, id | (met.corner ? Hit::corner : 0), met.side};
@@ -544,15 +545,22 @@ template <int D> class Queries {
     f64 copy[2 * D];
     copies_.copy(box, copy);
     if (!meets_box(copy, id, hit) || hit.rank > limit) return false;
-    bool first = true, before = true;
-    Copies<D> others = copies_;
-    others.pass(reach_, [&] {
+    struct Others {
+      const Queries& asks;
+      const f64* box;
+      const Hit& hit;
+      Copies at;
+      bool first, before;
+    } others{*this, box, hit, copies_, true, true};
+    others.at.pass(reach_, [](void* given) {
+      auto& [asks, box, hit, at, first, before] = *static_cast<Others*>(given);
+      f64 copy[2 * D];
       Hit other;
-      before &= !others.same_turn(copies_);
-      others.copy(box, copy);
-      if (first && meets_box(copy, id, other)) first = !(other < hit) && (!before || hit < other);
-    });
-    return first;
+      before &= !at.same_turn(asks.copies_);
+      at.copy(box, copy);
+      if (first && asks.meets_box(copy, hit.id & ~Hit::corner, other)) first = !(other < hit) && (!before || hit < other);
+    }, &others);
+    return others.first;
   }
 
   /// Offers boxes by how far the moving box moves until it meets them.

@@ -6,54 +6,59 @@
 // Exact: whether boxes touch is found as for pairs. Distances and times are those to the copy of a box whose numbers are
 // min + k * world and max + k * world, as doubles have them.
 // Cost: up to 9 (2D) or 27 (3D) searches, most of which end at the root.
+// One copy for 2D and 3D, since it is small code that counts here.
 #pragma once
 #include "rules/wrap.hpp"
 
-/// What is as long as the world along an axis reaches all around, and moves along it in vain.
-template <int D> COLD void reach_around(const f64* world, f64* lo, f64* hi, f64* along) {
-  for (int a = 0; a < D; a++) {
-    if (!Span::of(lo[a], hi[a], world[a]).full) continue;
-    lo[a] = -__builtin_inf();
-    hi[a] = __builtin_inf();
-    along[a] = 0;
-  }
-}
-
-template <int D> class Copies {
+class Copies {
   static constexpr f64 slack = 0x1p-48;  // of all numbers: what roundings may amount to
 
-  const f64 *world_ = nullptr, *lo_ = nullptr, *hi_ = nullptr;
-  Span span_[D];
-  f64 worlds_[D];     // how many it is away from where `span_` has it
-  f64 turn_[D] = {};  // by how many it is moved
+  const f64 *world_, *lo_, *hi_;
+  int axes_ = 0;
+  Span span_[3];
+  f64 worlds_[3];  // how many it is away from where `span_` has it
+  f64 turn_[3];    // by how many it is moved
 
  public:
-  static constexpr u32 turns = D == 2 ? 9 : 27;
+  /// How many turns areas and what is near take.
+  static constexpr u32 turns(int axes) { return axes == 2 ? 9 : 27; }
 
-  /// Where a box is searched, rounded outward.
-  COLD static void place(const f64* world, const f64* box, f32* to) {
-    for (int a = 0; a < D; a++) {
-      f64 lo = box[a], hi = box[D + a];
-      Span span = Span::of(lo, hi, world[a]);
-      f64 at = span.low + span.shift, more = at == lo ? 0 : slack_of(lo, hi, world[a]);
-      to[a] = span.full ? -__builtin_inff() : round_down(at - more);
-      to[D + a] = span.full ? __builtin_inff() : round_up(at == lo ? hi : at + span.size + more);
+  /// What is as long as the world along an axis reaches all around, and moves along it in vain.
+  COLD static void reach_around(const f64* world, int axes, f64* lo, f64* hi, f64* along) {
+    for (int a = 0; a < axes; a++) {
+      if (!Span::of(lo[a], hi[a], world[a]).full) continue;
+      lo[a] = -__builtin_inf();
+      hi[a] = __builtin_inf();
+      along[a] = 0;
     }
   }
 
-  COLD void begin(const f64* world, const f64* lo, const f64* hi) {
+  /// Where a box is searched, rounded outward.
+  COLD static void place(const f64* world, int axes, const f64* box, f32* to) {
+    for (int a = 0; a < axes; a++) {
+      f64 lo = box[a], hi = box[axes + a];
+      Span span = Span::of(lo, hi, world[a]);
+      f64 at = span.low + span.shift, more = at == lo ? 0 : slack_of(lo, hi, world[a]);
+      to[a] = span.full ? -__builtin_inff() : round_down(at - more);
+      to[axes + a] = span.full ? __builtin_inff() : round_up(at == lo ? hi : at + span.size + more);
+    }
+  }
+
+  COLD void begin(const f64* world, int axes, const f64* lo, const f64* hi) {
     world_ = world;
+    axes_ = axes;
     lo_ = lo;
     hi_ = hi;
-    for (int a = 0; a < D; a++) {
+    for (int a = 0; a < axes; a++) {
       span_[a] = Span::of(lo[a], hi[a], world[a]);
       worlds_[a] = worlds_of(lo[a], span_[a], world[a]);
+      turn_[a] = 0;
     }
   }
 
   /// Takes the n-th turn; false where it would be one along an axis along which the question reaches all around.
   COLD bool take(u32 n) {
-    for (int a = 0; a < D; a++, n /= 3) {
+    for (int a = 0; a < axes_; a++, n /= 3) {
       turn_[a] = number_of(n % 3);
       if (turn_[a] != 0 && span_[a].full) return false;
     }
@@ -61,9 +66,9 @@ template <int D> class Copies {
   }
 
   /// Takes each turn at which what moves by `way` may meet boxes, and calls `at`.
-  template <class At> void pass(const f64* way, const At& at, int a = 0, f64 from = 0, f64 until = 1) {
-    if (a == D) return at();
-    if (span_[a].full) return pass(way, at, a + 1, from, until);
+  COLD void pass(const f64* way, void (*at)(void*), void* given, int a = 0, f64 from = 0, f64 until = 1) {
+    if (a == axes_) return at(given);
+    if (span_[a].full) return pass(way, at, given, a + 1, from, until);
     constexpr f64 more = 1e-9;
     f64 world = world_[a], lo = span_[a].low + span_[a].shift, hi = lo + span_[a].size;
     f64 first = way[a] * from, last = way[a] * until;
@@ -78,31 +83,33 @@ template <int D> class Copies {
         leave = smaller(leave, larger(one, other) + some);
       }
       turn_[a] = turn;
-      if (enter <= leave) pass(way, at, a + 1, enter, leave);
+      if (enter <= leave) pass(way, at, given, a + 1, enter, leave);
     }
   }
 
-  bool same_turn(const Copies& other) const {
+  COLD bool same_turn(const Copies& other) const {
     bool same = true;
-    for (int a = 0; a < D; a++) same &= turn_[a] == other.turn_[a];
+    for (int a = 0; a < axes_; a++) same &= turn_[a] == other.turn_[a];
     return same;
   }
 
-  /// Where the question is looked for at this turn, rounded outward.
-  f64 low(int a) const { return span_[a].full ? -__builtin_inf() : moved(a) - slack_of(lo_[a], hi_[a], far(a)); }
-  f64 high(int a) const {
-    return span_[a].full ? __builtin_inf() : moved(a) + span_[a].size + slack_of(lo_[a], hi_[a], far(a));
+  /// Where the question is looked for at this turn, rounded outward: its lower or its upper end.
+  COLD f64 end(int a, bool upper) const {
+    if (span_[a].full) return upper ? __builtin_inf() : -__builtin_inf();
+    f64 moved = span_[a].low + span_[a].shift + turn_[a] * world_[a];
+    f64 more = slack_of(lo_[a], hi_[a], world_[a] * (2 + __builtin_fabs(turn_[a])));
+    return upper ? moved + span_[a].size + more : moved - more;
   }
 
   /// The numbers of a box that is met at this turn, where the question was asked.
   COLD void copy(const f64* box, f64* to) const {
-    for (int a = 0; a < D; a++) copy(a, Span::of(box[a], box[D + a], world_[a]), turn_[a], box, to[a], to[D + a]);
+    for (int a = 0; a < axes_; a++) copy(a, turn_[a], box, to[a], to[axes_ + a]);
   }
 
   /// Whether the question overlaps a box, or holds it, at this turn and at none before. `touching`: touching is enough.
   COLD bool touches(const f64* box, bool holds, bool touching) const {
-    for (int a = 0; a < D; a++) {
-      Span its = Span::of(box[a], box[D + a], world_[a]);
+    for (int a = 0; a < axes_; a++) {
+      Span its = Span::of(box[a], box[axes_ + a], world_[a]);
       u32 n = 0;
       while (n < 3 && !touches(a, its, number_of(n), holds, touching)) n++;
       if (n == 3 || number_of(n) != turn_[a]) return false;
@@ -113,8 +120,8 @@ template <int D> class Copies {
   /// Whether the question overlaps a box at any turn.
   COLD bool meets(const f64* box, bool touching) const {
     bool all = true;
-    for (int a = 0; a < D; a++) {
-      Span its = Span::of(box[a], box[D + a], world_[a]);
+    for (int a = 0; a < axes_; a++) {
+      Span its = Span::of(box[a], box[axes_ + a], world_[a]);
       bool some = false;
       for (u32 n = 0; n < 3; n++) some |= touches(a, its, number_of(n), false, touching);
       all &= some;
@@ -124,12 +131,11 @@ template <int D> class Copies {
 
   /// How far a box is away along each axis; false where it is nearer at another turn.
   COLD bool away(const f64* box, f64* to) const {
-    for (int a = 0; a < D; a++) {
-      Span its = Span::of(box[a], box[D + a], world_[a]);
+    for (int a = 0; a < axes_; a++) {
       u32 best = 0;
       for (u32 n = 0; n < 3; n++) {
         f64 lo, hi;
-        copy(a, its, number_of(n), box, lo, hi);
+        copy(a, number_of(n), box, lo, hi);
         f64 apart = larger(0.0, larger(lo - hi_[a], lo_[a] - hi));
         if (n > 0 && apart >= to[a]) continue;
         to[a] = apart;
@@ -147,21 +153,20 @@ template <int D> class Copies {
   static f64 slack_of(f64 lo, f64 hi, f64 world) {
     return slack * (world + __builtin_fabs(lo) + __builtin_fabs(hi));
   }
-  f64 far(int a) const { return world_[a] * (2 + __builtin_fabs(turn_[a])); }
-  f64 moved(int a) const { return span_[a].low + span_[a].shift + turn_[a] * world_[a]; }
 
-  static f64 worlds_of(f64 lo, const Span& span, f64 world) {
+  COLD static f64 worlds_of(f64 lo, const Span& span, f64 world) {
     if (span.full) return 0;
     return __builtin_floor((lo - span.low) / world + 0.5) - (span.shift > 0 ? 1 : 0);
   }
 
-  void copy(int a, const Span& its, f64 turn, const f64* box, f64& lo, f64& hi) const {
+  COLD void copy(int a, f64 turn, const f64* box, f64& lo, f64& hi) const {
+    Span its = Span::of(box[a], box[axes_ + a], world_[a]);
     f64 world = world_[a], moved = (worlds_[a] - worlds_of(box[a], its, world) - turn) * world;
     lo = its.full ? -__builtin_inf() : box[a] + moved;
-    hi = its.full ? __builtin_inf() : box[D + a] + moved;
+    hi = its.full ? __builtin_inf() : box[axes_ + a] + moved;
   }
 
-  bool touches(int a, const Span& its, f64 turn, bool holds, bool touching) const {
+  COLD bool touches(int a, const Span& its, f64 turn, bool holds, bool touching) const {
     const Span& own = span_[a];
     f64 further = turn * world_[a];
     if (own.full) return true;

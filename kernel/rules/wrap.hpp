@@ -30,12 +30,12 @@ struct Span {
 
   /// Whether it ends behind where another one begins that much further on, which is a whole number of worlds, or, where
   /// `touching` counts, just there.
-  bool reaches(const Span& other, f64 further, bool touching) const {
+  COLD bool reaches(const Span& other, f64 further, bool touching) const {
     return is_below({other.low, -low, -size, -rest, other.shift - shift + further}, touching);
   }
 
   /// Whether it lies within another one that is moved so much further on.
-  bool is_within(const Span& other, f64 further, bool touching) const {
+  COLD bool is_within(const Span& other, f64 further, bool touching) const {
     f64 shifted = other.shift - shift + further;
     return is_below({other.low, -low, shifted}, touching) &&
            is_below({low, -other.low, size, -other.size, rest, -other.rest, -shifted}, touching);
@@ -47,7 +47,7 @@ struct Span {
   };
 
   /// x modulo world, with the sign of x: exact.
-  static f64 remainder(f64 x, f64 world) {
+  COLD static f64 remainder(f64 x, f64 world) {
     f64 rest = __builtin_fabs(x), step = world;
     while (step <= rest / 2) step *= 2;
     for (; step >= world; step /= 2) {
@@ -57,7 +57,7 @@ struct Span {
   }
 
   /// Whether a sum is below 0, or just that.
-  static bool is_below(const Sum& all, bool just) {
+  COLD static bool is_below(const Sum& all, bool just) {
     f64 sum = 0, largest = 0;
     for (f64 term : all.terms) {
       sum += term;
@@ -69,7 +69,7 @@ struct Span {
   }
 
   /// The sign of a sum, by Shewchuk's expansions: doubles that add up to it and do not overlap, the largest last.
-  static f64 sign(const Sum& all) {
+  COLD static f64 sign(const Sum& all) {
     constexpr int most = sizeof(all.terms) / sizeof(f64);
     f64 parts[most] = {};
     for (int n = 0; n < most; n++) {

@@ -522,8 +522,8 @@ template <int D> class Space {
   const Index<D>& seen() const { return index_; }
   /// Whether two boxes overlap, one behind the other, where the world wraps around.
   COLD bool meet_around(const f64* boxes) const {
-    Copies<D> copies;
-    copies.begin(options_.wrap, boxes, boxes + D);
+    Copies copies;
+    copies.begin(options_.wrap, D, boxes, boxes + D);
     return copies.meets(boxes + width, options_.touching);
   }
 
