@@ -20,7 +20,7 @@ import {
 import { ioLength, Space } from './space.ts';
 
 // Places in the kernel's array of numbers: see kernel/abi.cpp.
-export const touchingAt = 11;
+const touchingAt = 11;
 export const radiusAt = 12;
 export const limitAt = 13;
 const afterAt = 14;
@@ -125,7 +125,9 @@ export abstract class Answers<D extends Dimensions> extends Space<D> {
 
   /** Tells the kernel whether what only touches counts. @internal */
   protected tellTouching(where: string, options: AreaOptions | undefined): void {
-    const { touching = this.touching } = options ?? {};
+    // Without an object of its own: this is asked in every frame.
+    const given = options?.touching;
+    const touching = given === undefined ? this.touching : given;
     if (typeof touching !== 'boolean') badValue(`${where}: touching`, touching, 'true or false', true);
     this.io()[touchingAt] = touching ? 1 : 0;
   }
