@@ -199,13 +199,7 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
   });
   screened.sort((a, b) => a.ms - b.ms);
 
-  const close: Candidate[] = [];
-  for (const { ms, ...candidate } of screened) {
-    const ofTechnique = close.filter(({ technique }) => technique === candidate.technique).length;
-    if (close.length === mostFinalists || ms > closeEnough * screened[0].ms) break;
-    if (ofTechnique < mostOfTechnique) close.push(candidate);
-  }
-  if (!close.some(isAuto)) close.push({ technique: 'auto' });
+  const close = closest(screened);
   // A second `auto`, at the other end of the turns, says what the machine's other work makes of equals.
   const twin: Candidate = { technique: 'auto' };
   const ran = runFinal([twin, ...close], dimensions, frames, seconds, (done) => progress?.('final', done, 1));
@@ -225,6 +219,18 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
     frames: counted(frames, describeFrames(frames, dimensions)),
     code: codeOf(best, dimensions, source),
   };
+}
+
+/** Those that run on all frames, of all that were screened, fastest first; `auto` is among them. */
+function closest(screened: readonly (Candidate & { ms: number })[]): Candidate[] {
+  const close: Candidate[] = [];
+  for (const { ms, ...candidate } of screened) {
+    const ofTechnique = close.filter(({ technique }) => technique === candidate.technique).length;
+    if (close.length === mostFinalists || ms > closeEnough * screened[0].ms) break;
+    if (ofTechnique < mostOfTechnique) close.push(candidate);
+  }
+  if (!close.some(isAuto)) close.push({ technique: 'auto' });
+  return close;
 }
 
 const byTime = (a: { ms: number }, b: { ms: number }) => a.ms - b.ms;
