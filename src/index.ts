@@ -21,6 +21,7 @@ export { init } from './kernel.ts';
 export type {
   BoxOptions,
   IdsOptions,
+  ManyAreaOptions,
   ManyBoxOptions,
   ManyFarOptions,
   ManyIds,

@@ -8,7 +8,7 @@ import { badValue, checkWrap } from '../errors.ts';
 const names = ['x', 'y', 'z'] as const;
 
 /** Where a world is cut: ascending coordinates along each axis that is cut, such as `{ x: [100, 200] }`. */
-export type Borders = Partial<Record<(typeof names)[number], readonly number[]>>;
+export type Borders = Partial<Record<'x' | 'y' | 'z', readonly number[]>>;
 
 /** Options of {@link Zones}. */
 export interface ZonesOptions {

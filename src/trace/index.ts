@@ -4,6 +4,7 @@
  * @module broadphase/trace
  */
 
+export type { Own, World } from '../watch.ts';
 export { type Compared, type CompareOptions, compare } from './compare.ts';
 export { type Difference, exactPairs } from './exact.ts';
 export { type Frame, type FrameSource, formatVersion, TraceError } from './format.ts';
