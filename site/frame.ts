@@ -2,7 +2,7 @@
 // says where they go, with the comments `<!-- head -->` and `<!-- navigation -->`; `<!-- repository -->` leads to the source. Every address is relative, so that
 // the site works under any path.
 import type { Plugin } from 'vite';
-import { repository } from '../package.json' with { type: 'json' };
+import manifest from '../package.json' with { type: 'json' };
 
 /** Where one can go, by folder, in this order. */
 const sections = {
@@ -53,7 +53,7 @@ export function navigation(path: string): string {
 
 /** The way to the source. While the address in package.json is a placeholder, it is where the reader has the site from. */
 function source(): string {
-  const address = repository.url.replace(/^git\+/, '').replace(/\.git$/, '');
+  const address = manifest.repository.url.replace(/^git\+/, '').replace(/\.git$/, '');
   if (new URL(address).hostname.endsWith('.invalid')) {
     return 'source in <code>src/</code> and <code>kernel/</code> of the clone';
   }

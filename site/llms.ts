@@ -2,7 +2,7 @@
 // are made of the same texts and doc comments as the pages.
 import { writeFile } from 'node:fs/promises';
 import { type Comment, type DeclarationReflection, type ProjectReflection, ReflectionKind } from 'typedoc';
-import { description } from '../package.json' with { type: 'json' };
+import manifest from '../package.json' with { type: 'json' };
 import { texts } from './documents.ts';
 
 /** What the list of guides says of each, by its file; of what it does not have, the first sentence. */
@@ -69,7 +69,7 @@ function reference(project: ProjectReflection): string {
 }
 
 /** What a program needs to know first. */
-const start = `# broadphase\n\n> ${description}\n`;
+const start = `# broadphase\n\n> ${manifest.description}\n`;
 
 export async function writeTexts(project: ProjectReflection, folder: string): Promise<void> {
   const lines = texts.slice(2).map(({ file, address, title, text }) => {

@@ -1,5 +1,6 @@
 // The page of what comes after the pairs: the worlds of examples/narrow-phase, drawn. Thin lines are the boxes of the
-// broad phase, dashed where two overlap; what is filled really touches.
+// broad phase and their pairs, as broadphase/draw shows them; what is in colour really touches.
+import { drawSpace } from 'broadphase/draw';
 import {
   type FastThing,
   fastBoxes,
@@ -38,19 +39,19 @@ interface Kind {
 const kinds: Record<string, Kind> = {
   shapes: {
     make: shapes,
-    hint: 'Filled: shapes that touch. Dashed: only their boxes do.',
+    hint: 'In colour: shapes that touch. Grey: boxes in a pair.',
     word: 'Separating axes, by SAT.js: two convex shapes are apart exactly where some line parts them. The answer has the way out, so that what touches can be pushed apart.',
     code: '// for each pair a, b:\nconst contact = contactOf(a, b);\nif (contact) pushApart(a, b, contact);',
   },
   masks: {
     make: masks,
-    hint: 'Filled: pictures with a pixel in common. Dashed: only their boxes overlap.',
+    hint: 'In colour: pictures with a pixel in common. Grey: boxes in a pair.',
     word: 'Pixel masks: two pictures touch where both have a solid pixel. Only what both boxes share is looked at.',
     code: '// for each pair a, b:\nif (masksTouch(a.mask, a.x, a.y, b.mask, b.x, b.y)) {\n  hit(a, b);\n}',
   },
   fast: {
     make: fastBoxes,
-    hint: 'Lines: the way of a bullet in this frame. Filled: what it meets first.',
+    hint: 'Grey: bounds of a bullet’s way, and its pairs. In colour: its way until it meets a box, and that box.',
     word: 'Swept boxes: a bullet that flies 40 times its width in a frame is kept as the bounds of its way, so its pairs are all that it may meet; when it does is reckoned exactly.',
     code: 'space.setSwept(id, ...box, dx, dy);\n// for each pair a, b:\nconst met = meeting(a.box, a.way, b.box, b.way);\nif (met) hit(a, b, met.time);',
   },
@@ -85,7 +86,6 @@ function report(): void {
 }
 
 const touching = new Set<number>();
-const paired = new Set<number>();
 
 function draw(): void {
   const { width, height } = canvas;
@@ -95,39 +95,30 @@ function draw(): void {
   context.fillRect(0, 0, width, height);
   context.setTransform(scale, 0, 0, scale, (width - scale * world) / 2, (height - scale * world) / 2);
   touching.clear();
-  paired.clear();
   for (const id of scene.hits) touching.add(id);
-  for (const id of scene.space.pairs) paired.add(id);
-  const pixel = Math.min(sharpest, devicePixelRatio) / scale;
+  const sharpness = Math.min(sharpest, devicePixelRatio);
+  drawSpace(context, scene.space, { colors: { boxes: ink.line, pairs: ink.muted }, lineWidth: sharpness });
+  const pixel = sharpness / scale;
   for (const [id, thing] of scene.things.entries()) {
-    const state = touching.has(id) ? 'touches' : paired.has(id) ? 'paired' : 'alone';
+    const touches = touching.has(id);
     context.fillStyle = ink.accent;
     context.globalAlpha = 1;
-    if ('shape' in thing) drawShape(thing, state, pixel);
-    else if ('mask' in thing) drawMask(thing, state);
-    else drawFast(thing, state, pixel);
+    if ('shape' in thing) drawShape(thing, touches, pixel);
+    else if ('mask' in thing) drawMask(thing, touches);
+    else drawFast(thing, touches, pixel);
     context.globalAlpha = 1;
-    if ('isBullet' in thing) continue;
-    const box = scene.space.get(id)!;
-    context.lineWidth = pixel;
-    context.strokeStyle = state === 'alone' ? ink.line : ink.muted;
-    context.setLineDash(state === 'paired' ? [4 * pixel, 3 * pixel] : []);
-    const grown = 'mask' in thing ? 1 : 0;
-    context.strokeRect(box[0], box[1], box[2] - box[0] + grown, box[3] - box[1] + grown);
   }
 }
 
-type State = 'touches' | 'paired' | 'alone';
-
-function drawShape({ shape: { pos, r, calcPoints } }: ShapeThing, state: State, pixel: number): void {
+function drawShape({ shape: { pos, r, calcPoints } }: ShapeThing, touches: boolean, pixel: number): void {
   context.beginPath();
   if (r !== undefined) context.arc(pos.x, pos.y, r, 0, 2 * Math.PI);
   for (const { x, y } of calcPoints ?? []) context.lineTo(pos.x + x, pos.y + y);
   context.closePath();
   context.setLineDash([]);
   context.lineWidth = 2 * pixel;
-  context.strokeStyle = state === 'touches' ? ink.accent : ink.muted;
-  if (state === 'touches') {
+  context.strokeStyle = touches ? ink.accent : ink.muted;
+  if (touches) {
     context.globalAlpha = 0.45;
     context.fill();
     context.globalAlpha = 1;
@@ -135,22 +126,22 @@ function drawShape({ shape: { pos, r, calcPoints } }: ShapeThing, state: State, 
   context.stroke();
 }
 
-function drawMask({ mask: { width, solid }, left, top }: MaskThing, state: State): void {
-  context.fillStyle = state === 'touches' ? ink.accent : ink.muted;
-  context.globalAlpha = state === 'touches' ? 0.75 : 0.4;
+function drawMask({ mask: { width, solid }, left, top }: MaskThing, touches: boolean): void {
+  context.fillStyle = touches ? ink.accent : ink.muted;
+  context.globalAlpha = touches ? 0.75 : 0.4;
   for (let k = 0; k < solid.length; k++) {
     if (solid[k]) context.fillRect(left + (k % width), top + Math.floor(k / width), 1, 1);
   }
 }
 
-function drawFast(thing: FastThing, state: State, pixel: number): void {
+function drawFast(thing: FastThing, touches: boolean, pixel: number): void {
   const [minX, minY, maxX, maxY] = thing.box;
   context.setLineDash([]);
   context.lineWidth = 2 * pixel;
   if (!thing.isBullet) {
-    context.strokeStyle = state === 'touches' ? ink.accent : ink.muted;
+    context.strokeStyle = touches ? ink.accent : ink.muted;
     context.strokeRect(minX, minY, maxX - minX, maxY - minY);
-    if (state !== 'touches') return;
+    if (!touches) return;
     context.globalAlpha = 0.45;
     context.fillRect(minX, minY, maxX - minX, maxY - minY);
     return;
