@@ -286,7 +286,9 @@ export class Link {
     // Ticks go on while the answer is on its way, and while these are told from when on this one is there.
     const passed = Math.ceil((performance.now() - asked) / tickTime);
     const ticks = welcomes.map(({ tick }) => tick + passed);
-    const start = welcomes.length === 0 ? tick + 1 : Math.max(...ticks) + ahead;
+    // Never back to a tick that this zone was at: it may have gone on alone, and further than the others. A snapshot of
+    // that time would be taken for newer than what they hand to it from now on.
+    const start = Math.max(tick + 1, ...ticks.map((tick) => tick + ahead));
     const others = new Set(welcomes.flatMap(({ owned }) => [...unpack(owned, Uint32Array)]));
     // What others handed to this zone since a snapshot is newer than that; what it has itself is newer than what they handed.
     const offers = welcomes.flatMap((welcome) => unpackEntities(welcome.offers));

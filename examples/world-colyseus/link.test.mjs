@@ -21,7 +21,10 @@ class World {
   servers = [];
   /** Zones that had to be made anew. */
   lost = [];
-  /** The newest tick that all zones reached, and those in which somebody was missing or there twice. */
+  /**
+   * The newest tick that all zones reached, and those in which somebody was missing or there twice, or to which a zone
+   * went back.
+   */
   whole = -1;
   wrong = [];
   /** `lost`, `held`, milliseconds on the way, or nothing, for each message. */
@@ -29,6 +32,7 @@ class World {
   #held = [];
   #listeners = new Map();
   #ticks = new Map();
+  #newest = [-1, -1, -1];
   #watchers = [];
 
   presence = {
@@ -79,7 +83,7 @@ class World {
           link.tick > 0
             ? { tick: link.tick - 1, entities: simulation.everybody(), isLive: true }
             : { tick: -1, entities: mine() },
-        ticked: () => this.#ticked(link.tick, [...simulation.entities.keys()]),
+        ticked: () => this.#ticked(zone, link.tick, [...simulation.entities.keys()]),
         restarted: () => {},
         lost: (other) => this.lost.push(other),
         replaced: () => {},
@@ -92,7 +96,9 @@ class World {
     return link;
   }
 
-  #ticked(tick, ids) {
+  #ticked(zone, tick, ids) {
+    if (tick <= this.#newest[zone]) this.wrong.push(`zone ${zone} went from tick ${this.#newest[zone]} to ${tick}`);
+    this.#newest[zone] = tick;
     const all = [...(this.#ticks.get(tick) ?? []), ids];
     this.#ticks.set(tick, all);
     // Zones that do not know of each other go on each by itself, at ticks of the same number.
@@ -173,6 +179,29 @@ test(
     const { whole } = world;
     world.deliver();
     await world.until(() => world.whole > whole + 20);
+    expect(world.wrong).toEqual([]);
+  },
+  limit,
+);
+
+test(
+  'a zone that has gone on alone, and further than the others, goes back to no tick that it was at',
+  async () => {
+    world = new World();
+    await world.start();
+    // The others take four ticks' time for one, and hear of zone 1 only by what it asks.
+    world.fate = (topic, { from, type }) => {
+      if (type === 'hello') return 'lost';
+      return topic === 'zone:1' || from === 1 ? 'held' : type === 'tick' ? 200 : undefined;
+    };
+    const [first, silent, last] = world.links;
+    const isAlone = () => ![first, last].some((link) => link.isOpen(1)) && !silent.isOpen(0) && !silent.isOpen(2);
+    await world.until(() => isAlone() && silent.tick > first.tick + 20);
+    const { whole } = world;
+    const { tick } = silent;
+    world.deliver();
+    world.fate = (_, { from, type }) => (type === 'hello' && from > 0 ? 'lost' : undefined);
+    await world.until(() => world.whole > Math.max(whole, tick) + 20);
     expect(world.wrong).toEqual([]);
   },
   limit,
