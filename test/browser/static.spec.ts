@@ -68,7 +68,8 @@ for (const base of ['/', '/x/y/']) {
       for (const file of pages) {
         const waitUntil = file.startsWith('api/') ? 'load' : 'networkidle'; // the reference only searches, when asked
         await page.goto(origin + base + file.replace(/(^|\/)index\.html$/, '$1'), { waitUntil });
-        await expect(page.locator('h1').first(), file).toBeVisible();
+        // What runs above the code of an example stands in a frame of a page that has a heading.
+        if (!file.startsWith('live/')) await expect(page.locator('h1').first(), file).toBeVisible();
         const hrefs = await page
           .locator('a[href]')
           .evaluateAll((all) => (all as HTMLAnchorElement[]).map(({ href }) => href));
