@@ -164,18 +164,20 @@ export function reachOut(numbers: Float64Array, at: number, width: number, reach
   for (let n = 0; n < width; n++) numbers[at + n]! += n < width / 2 ? -reach : reach;
 }
 
-/** Whether two boxes, of these numbers, touch. */
-export function touch(ones: Float64Array, one: number, others: Float64Array, other: number, d: number): boolean {
+/** Whether two boxes, of these numbers, overlap; `touching`: or only touch. */
+export function meet(
+  ones: Float64Array,
+  one: number,
+  others: Float64Array,
+  other: number,
+  d: number,
+  touching: boolean,
+): boolean {
   for (let a = 0; a < d; a++) {
-    if (ones[one + a]! > others[other + a + d]! || others[other + a]! > ones[one + a + d]!) return false;
-  }
-  return true;
-}
-
-/** Whether they do more than touch. */
-export function overlap(ones: Float64Array, one: number, others: Float64Array, other: number, d: number): boolean {
-  for (let a = 0; a < d; a++) {
-    if (ones[one + a]! >= others[other + a + d]! || others[other + a]! >= ones[one + a + d]!) return false;
+    const low = one + a;
+    const high = other + a + d;
+    if (ones[low]! > others[high]! || others[other + a]! > ones[low + d]!) return false;
+    if (!touching && (ones[low] === others[high] || others[other + a] === ones[low + d])) return false;
   }
   return true;
 }
@@ -289,7 +291,8 @@ export class Kept {
 
   #addNear(rows: Float64Array, row: number, at: number): void {
     const { numbers } = this.lists;
-    if (this.#touching || overlap(rows, row + 1, numbers, at + 1, this.#width / 2)) this.add(rows[row]!, numbers[at]!);
+    if (this.#touching || meet(rows, row + 1, numbers, at + 1, this.#width / 2, false))
+      this.add(rows[row]!, numbers[at]!);
   }
 
   /** Adds a pair of one of the fewer and another, but where that is loose. */

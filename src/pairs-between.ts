@@ -10,7 +10,7 @@ import type { BroadPhase } from './broad-phase.ts';
 import { BulkQueries } from './bulk-queries.ts';
 import type { Dimensions } from './dimensions.ts';
 import { badValue } from './errors.ts';
-import { grow, Kept, overlap, reachOut, roomFor, rowMore, type Side, touch } from './kept-pairs.ts';
+import { grow, Kept, meet, reachOut, roomFor, rowMore, type Side } from './kept-pairs.ts';
 import { everything, nobody } from './query-options.ts';
 
 const where = 'pairsWith';
@@ -190,9 +190,7 @@ export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> 
   #meets(its: Float64Array, answer: number, rows: Float64Array, row: number): boolean {
     if (this.kernel.most_reach() === 0) return true;
     const { width } = this;
-    if (this.wrap === undefined) {
-      return (this.touching ? touch : overlap)(its, answer + 1, rows, row + 1, width / 2);
-    }
+    if (this.wrap === undefined) return meet(its, answer + 1, rows, row + 1, width / 2, this.touching);
     const io = this.io();
     for (let n = 0; n < width; n++) {
       io[n] = its[answer + 1 + n]!;

@@ -25,6 +25,12 @@ export const meet = (a: Entry, b: Entry): boolean =>
   (b.layer & a.mask) !== 0 &&
   !(a.isStatic && b.isStatic);
 
+/** Whether two boxes overlap and do not only touch. */
+export function overlaps(a: readonly number[], b: readonly number[]): boolean {
+  const d = a.length / 2;
+  return a.every((x, k) => (k < d ? x < b[k + d]! : b[k - d]! < x));
+}
+
 /** The box of an entry with what it reaches. */
 export function grown({ box, reach = 0 }: Entry): number[] {
   return box.map((x, k) => (k < box.length / 2 ? x - reach : x + reach));

@@ -3,7 +3,7 @@
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { copyOf } from './asker.ts';
-import { type Entry, Modelled, touches } from './model.ts';
+import { type Entry, grown, Modelled, overlaps, touches } from './model.ts';
 import type { Entries } from './query-reference.ts';
 import { runs, seed } from './runs.ts';
 import { wrappedOverlap } from './wrapped-reference.ts';
@@ -23,7 +23,7 @@ function expected(here: Entries, there: Entries, wrap?: readonly number[], touch
   const found: string[] = [];
   for (const [a, entry] of here) {
     for (const [b, other] of there) {
-      const [one, its] = [grownBox(entry), grownBox(other)];
+      const [one, its] = [grown(entry), grown(other)];
       const overlap = wrap
         ? wrappedOverlap(one, its, wrap, touching)
         : touching
@@ -34,12 +34,6 @@ function expected(here: Entries, there: Entries, wrap?: readonly number[], touch
   }
   return found.sort();
 }
-
-/** A box as far as it reaches. */
-const grownBox = ({ box, reach = 0 }: Entry) => box.map((x, k) => (k < box.length / 2 ? x - reach : x + reach));
-
-const overlaps = (a: readonly number[], b: readonly number[]) =>
-  a.every((x, k) => (k < a.length / 2 ? x < b[k + a.length / 2]! : b[k - a.length / 2]! < x));
 
 /** A space with its model, and what its last update saw. */
 class Side extends Modelled {

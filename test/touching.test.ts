@@ -6,7 +6,7 @@ import { openTrace } from '../src/trace/reader.ts';
 import { record } from '../src/trace/record.ts';
 import { replay } from '../src/trace/replay.ts';
 import { expectKeys } from './expect-pairs.ts';
-import { type Entry, Modelled, meet, pairsOf } from './model.ts';
+import { type Entry, Modelled, meet, overlaps, pairsOf } from './model.ts';
 import { keyOf, pairOf } from './reference.ts';
 import { runs, seed } from './runs.ts';
 import { setBox } from './set-box.ts';
@@ -22,12 +22,6 @@ const whole = () => 0;
 const ascending = (ids: Iterable<number>) => [...ids].sort((a, b) => a - b);
 const keysIn = (pairs: Uint32Array) =>
   ascending(Array.from({ length: pairs.length / 2 }, (_, k) => keyOf(pairs[2 * k]!, pairs[2 * k + 1]!)));
-
-/** Whether they overlap and do not only touch. */
-function overlaps(a: readonly number[], b: readonly number[]): boolean {
-  const d = a.length / 2;
-  return a.every((x, k) => (k < d ? x < b[k + d]! : b[k - d]! < x));
-}
 
 const apartPairs = (entries: ReadonlyMap<number, Entry>, dimensions: number) =>
   pairsOf(entries, dimensions).filter((key) => {

@@ -9,7 +9,6 @@
 // Cost: 0.3 ns a box without pieces, then a comparison each; 64 samples an axis when it is chosen.
 // From: coordinate compression; rounding that keeps order, as interval arithmetic uses it.
 #pragma once
-#include "boxes/cell_map.hpp"
 #include "boxes/scene_sample.hpp"
 
 template <int D> class GapMap {
