@@ -585,10 +585,13 @@ template <int D> class Calls {
     std::vector<u32> expected;
     for (u32 id : eligible(asks)) {
       const Box<D>& its = seen_->at(id);
-      f64 squared = squared_distance(asks, its), most = asks.radius * asks.radius;
+      // Squares tell where they are exact; those of what is very far away overflow, which only an endless radius reaches.
+      bool is_endless = asks.radius == std::numeric_limits<f64>::infinity();
+      f64 far = is_endless ? distance(asks, its) : squared_distance(asks, its);
+      f64 most = is_endless ? asks.radius : asks.radius * asks.radius;
       // A circle without size, where touching does not count, is a point.
       bool is_round = is_circle && (asks.touching || asks.radius > 0);
-      bool within = !is_round ? overlap(box.data(), its.data(), D, asks.touching) : asks.touching ? squared <= most : squared < most;
+      bool within = !is_round ? overlap(box.data(), its.data(), D, asks.touching) : asks.touching ? far <= most : far < most;
       if (within) expected.push_back(id);
     }
     std::sort(answer.begin(), answer.end());
