@@ -188,11 +188,11 @@ EXPORT(split)(u32 red) -> void {
 }
 
 /// Which techniques there are: a bit for each, in the order of their names.
-EXPORT(techniques)() -> u32 { return built; }
+EXPORT(techniques)() -> u32 {
+  return built;
+}
 EXPORT(set_technique)(u32 technique) -> void {
-  with_space([&](auto& space) {
-    space.technique = Technique(technique);
-  });
+  with_space([&](auto& space) { space.technique = Technique(technique); });
 }
 EXPORT(update)() -> i32 {
   return with_space([](auto& space) { return space.update(); });

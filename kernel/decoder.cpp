@@ -8,8 +8,8 @@ extern "C" u8 __heap_base;
 /// What JavaScript writes before it calls `decode`.
 struct Given {
   u8 places[128];  // by character: its place in the alphabet
-  u8 bytes[256];   // those that one character stands for come first
-  u8 text[1];      // and more: up to the end of the memory
+  u8 bytes[256];  // those that one character stands for come first
+  u8 text[1];  // and more: up to the end of the memory
 };
 
 #define EXPORT(name) extern "C" __attribute__((export_name(#name))) auto name

@@ -63,7 +63,7 @@ NOINLINE inline void read_rows(const void* rows, u32 bytes, const u32* numbers, 
 namespace heap {
 
 inline constexpr u32 least = 64;  // bytes of the smallest block; all are aligned to 16
-inline size_t used = 0;           // bytes in blocks that are handed out
+inline size_t used = 0;  // bytes in blocks that are handed out
 
 /// The size class of a request: class c holds blocks of (4 + c % 4) << (c / 4) times `least` / 4 bytes.
 inline u32 size_class(size_t bytes) {
@@ -83,9 +83,9 @@ inline u32 checked_class(u64 bytes) {
 
 #if defined(__wasm__)
 extern "C" u8 __heap_base;
-inline u8* top = nullptr;       // first byte never handed out
-inline u8* highest = nullptr;   // where `top` stood before it last went down, at most
-inline u8* waiting[112] = {};   // per size class, the given-back blocks, each holding the address of the next
+inline u8* top = nullptr;  // first byte never handed out
+inline u8* highest = nullptr;  // where `top` stood before it last went down, at most
+inline u8* waiting[112] = {};  // per size class, the given-back blocks, each holding the address of the next
 
 /// Makes the memory reach to `bytes` behind `top`; false where it cannot. Growing cuts off every view that
 /// JavaScript holds, so it takes a quarter more than it needs, and 1 MiB: pages not touched cost nothing.

@@ -220,7 +220,7 @@ template <int D> class Lanes {
     for (; k < n + padding; k += 4) {
       Item<D> four[4];
       ROLLED  // once or twice in a list
-      for (u32 lane = 0; lane < 4; lane++) four[lane] = k + lane < n ? items[k + lane] : nothing();
+          for (u32 lane = 0; lane < 4; lane++) four[lane] = k + lane < n ? items[k + lane] : nothing();
       put4(k, four);
     }
   }

@@ -63,7 +63,8 @@ class Changes {
   void clear(u32 slots) {
     make_room(slots);
     if (count_ > room_ / 16) __builtin_memset(marks_.data(), 0, room_);
-    else for (u32 k = 0; k < count_; k++) marks_[list_[k]] = 0;
+    else
+      for (u32 k = 0; k < count_; k++) marks_[list_[k]] = 0;
     count_ = 0;
     some_ = true;
   }

@@ -21,7 +21,7 @@ template <int D> class GapMap {
     f64 from[most_cuts + 1][D], less[most_cuts + 1][D], until[most_cuts + 1][D];
   };
   Axes axes_ = {};
-  u32 pieces_ = 1;     // of the axis that has most
+  u32 pieces_ = 1;  // of the axis that has most
   bool plain_ = true;  // nothing is subtracted, and there is one piece
 
  public:
@@ -108,7 +108,7 @@ template <int D> class GapMap {
 
   NOINLINE f64x2 shifted(f64x2 x, u32 number) const {
     u32 one = number % D, other = (number + 1) % D;
-    auto both = [&](const f64 (&row)[D]) { return f64x2{row[one], row[other]}; };
+    auto both = [&](const f64(&row)[D]) { return f64x2{row[one], row[other]}; };
     f64x2 less = both(axes_.less[0]), until = both(axes_.until[0]);
     for (u32 p = 1; p < pieces_; p++) {
       u64x2 here = bits<u64x2>(x >= both(axes_.from[p]));
@@ -118,7 +118,9 @@ template <int D> class GapMap {
     return min(until, x - less);
   }
 
-  static i32x4 are_infinite(f32x4 x) { return bits<i32x4>((bits<u32x4>(x) & splat(0x7fffffffu)) == splat(0x7f800000u)); }
+  static i32x4 are_infinite(f32x4 x) {
+    return bits<i32x4>((bits<u32x4>(x) & splat(0x7fffffffu)) == splat(0x7f800000u));
+  }
 
   /// What is beyond float32 becomes its largest number, so that it is equal to others, and in doubt; only what has no end
   /// stays so, on the side where it has none: then differences of bounds are numbers.
@@ -147,7 +149,7 @@ template <int D> class GapMap {
   /// Takes the wide gaps between these ascending numbers out of an axis; gives how far from 0 what is left reaches.
   COLD f64 cut(const f64* low, u32 n, f64 size, u32 axis) {
     u32 cuts[most_cuts], best = 0;  // places in front of which there is a gap, the widest first
-    f64 left[most_cuts + 1];        // what is left without so many gaps
+    f64 left[most_cuts + 1];  // what is left without so many gaps
     left[0] = low[n - 1] - low[0];
     u32 found = 0;
     for (; found < smaller(most_cuts, n - 1); found++) {

@@ -22,27 +22,27 @@ template <int D> class CandidateList {
   enum : u32 { rests = 1, late = 2, fresh = 4 };
 
   StripSweep<D>& anew_;
-  u32 count_ = 0;           // boxes that are followed; 0: there is no list
-  bool watched_ = false;    // pairs in doubt are to be noted
-  bool filtered_ = false;   // some have exclusion bits
-  bool grouped_ = false;    // some have a group
+  u32 count_ = 0;  // boxes that are followed; 0: there is no list
+  bool watched_ = false;  // pairs in doubt are to be noted
+  bool filtered_ = false;  // some have exclusion bits
+  bool grouped_ = false;  // some have a group
   // Per slot:
   Buffer<f32> regions_;
-  Buffer<f32> bases_;       // the regions when the list was made, from when the first box was late
-  Buffer<u32> tags_;        // exclusion bits, and ours below them
-  Buffer<u32> groups_;      // while `grouped_`: two of one group are no candidate
-  Buffer<u32> late_;        // slots; and behind them those that a search has met
-  Places<D> places_;        // of the regions, likewise
+  Buffer<f32> bases_;  // the regions when the list was made, from when the first box was late
+  Buffer<u32> tags_;  // exclusion bits, and ours below them
+  Buffer<u32> groups_;  // while `grouped_`: two of one group are no candidate
+  Buffer<u32> late_;  // slots; and behind them those that a search has met
+  Places<D> places_;  // of the regions, likewise
   bool placed_ = false;
   u32 late_count_ = 0, resting_ = 0;
-  u64 met_ = 0;             // regions that a search for the late has met in this update
+  u64 met_ = 0;  // regions that a search for the late has met in this update
   Pairs candidates_, extra_, settled_;  // extra: those of boxes that have been late
-  u64 found_ = 0;           // candidates when the list was made, settled ones among them
-  u64 head_ = 0;            // length of the prefix of `settled_` that the last report has
+  u64 found_ = 0;  // candidates when the list was made, settled ones among them
+  u64 head_ = 0;  // length of the prefix of `settled_` that the last report has
   Stats built_ = {};
   f32 margin_ = 0;
-  Shift common_;            // what the watch said of common motion when the list was made
-  Shift shift_;             // takes back what all have moved in common since
+  Shift common_;  // what the watch said of common motion when the list was made
+  Shift shift_;  // takes back what all have moved in common since
 
  public:
   constexpr explicit CandidateList(StripSweep<D>& anew) : anew_(anew) {}
@@ -59,9 +59,7 @@ template <int D> class CandidateList {
   f64 late_work() const { return late_count_ * tuning.late + (met_ + extra_.count) * tuning.candidate; }
   f64 least_work(f64 looked) const { return candidates_.count * tuning.candidate + looked * tuning.look; }
   /// Work that it took to make the list.
-  f64 made_work() const {
-    return tuning.entry * built_.entries + built_.tests + found_ + 2 * tuning.look * count_;
-  }
+  f64 made_work() const { return tuning.entry * built_.entries + built_.tests + found_ + 2 * tuning.look * count_; }
 
   /// Whether pairs in doubt are to be noted: if that is new, what is settled may be in doubt.
   void watch(bool watched) {
@@ -254,7 +252,8 @@ template <int D> class CandidateList {
     u32 found = 0, slot = 0;
     for (; slot + 4 <= until && found <= enough; slot += 4, box += 4 * width, its += 4 * width) {
       u32 expected[4], all = 1;
-      for (u32 k = 0; k < 4; k++) all &= expected[k] = is_expected<some_rest>(box + k * width, its + k * width, tags[slot + k], shift);
+      for (u32 k = 0; k < 4; k++)
+        all &= expected[k] = is_expected<some_rest>(box + k * width, its + k * width, tags[slot + k], shift);
       if (all) continue;
       for (u32 k = 0; k < 4; k++) {
         out[found] = slot + k;

@@ -18,9 +18,9 @@ template <int D> class Incremental {
   Watch<D> watch_;
   Prospect<D> prospect_ = {};
   PairOrder order_;
-  bool ended_ = false;      // a new list is due
-  u32 age_ = 0;             // of the list, in updates
-  f64 made_ = 0;            // work, for each box: to make the list
+  bool ended_ = false;  // a new list is due
+  u32 age_ = 0;  // of the list, in updates
+  f64 made_ = 0;  // work, for each box: to make the list
   f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // and since then: for the late; of an update; all
   u32 pause_ = 0, pauses_ = tuning.watched;
 
@@ -35,7 +35,9 @@ template <int D> class Incremental {
     list_.watch(pairs.watch);
     bool kept = find(scene, f32(options.margin), pairs, stats);
     if (!kept) rebuild(scene, options, pairs, stats);
-    stats.reason = f64(u32(kept ? Reason::kept : pause_ > 0 || scene.count < tuning.few ? Reason::moving : Reason::watching));
+    stats.reason = f64(u32(kept                                     ? Reason::kept
+                           : pause_ > 0 || scene.count < tuning.few ? Reason::moving
+                                                                    : Reason::watching));
     if (!scene.ordered) return;
     order_.sort(pairs.list.data(), pairs.count, scene.count);
     pairs.doubt_count = 0;  // they stand elsewhere now

@@ -22,7 +22,7 @@ template <int D> class Places {
   Grid grids_[most_grids] = {};
   u32 grid_count_ = 0;
   Buffer<u32> heads_;  // per cell: the slot that stands at the head of its chain, counted from 1
-  Buffer<u32> next_;   // per slot: the one behind it
+  Buffer<u32> next_;  // per slot: the one behind it
   Buffer<u32> cells_;  // per slot
 
  public:
@@ -82,7 +82,8 @@ template <int D> class Places {
       };
       for (at[0] = range.low[0]; at[0] <= range.high[0]; at[0]++) {
         if constexpr (D == 2) row();
-        else for (at[1] = range.low[1]; at[1] <= range.high[1]; at[1]++) row();
+        else
+          for (at[1] = range.low[1]; at[1] <= range.high[1]; at[1]++) row();
       }
     }
   }

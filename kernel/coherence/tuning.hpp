@@ -14,6 +14,6 @@ template <int D> struct Tuning {
   f64 build = 2;                       // of a rebuild: a list that would cost more is not made
   f64 worth = 0.9;                   // of a rebuild: a list must promise to cost less, and have cost less, to go on
   u32 few = 32;                      // boxes: fewer are not worth keeping anything
-  u32 watched = 8;                   // updates: after which it is known what is worth keeping; the first pause is as long
-  u32 longest_pause = 512;           // updates
+  u32 watched = 8;  // updates: after which it is known what is worth keeping; the first pause is as long
+  u32 longest_pause = 512;  // updates
 };

@@ -27,13 +27,13 @@ struct Shift {
 
 /// What is known of the lists to come, for each box, in tests of strip sweep.
 template <int D> struct Prospect {
-  f64 sizes[D] = {};       // of boxes on average, but no less than the next
-  f64 least[D] = {};       // an eighth of what they are apart
-  f64 looked = 0;          // the share of boxes that an update looks at
-  f64 pairs = 0;           // candidates of a list without a margin
-  f64 fresh = 0;           // a rebuild
-  f64 tests = 0;           // of it, the tests
-  f64 rest = 0;            // the share of boxes that will be known to rest
+  f64 sizes[D] = {};  // of boxes on average, but no less than the next
+  f64 least[D] = {};  // an eighth of what they are apart
+  f64 looked = 0;  // the share of boxes that an update looks at
+  f64 pairs = 0;  // candidates of a list without a margin
+  f64 fresh = 0;  // a rebuild
+  f64 tests = 0;  // of it, the tests
+  f64 rest = 0;  // the share of boxes that will be known to rest
 
   /// The smallest of the sizes that are above 0.
   f64 smallest() const {
@@ -58,7 +58,7 @@ template <int D> struct Prospect {
 
 struct Plan {
   f32 margin = 0;
-  f64 growth = 1;              // candidates, in numbers of pairs
+  f64 growth = 1;  // candidates, in numbers of pairs
   f64 work = __builtin_inf();  // for each box and update
 };
 
@@ -101,7 +101,8 @@ template <int D> class Watch {
   /// The share of boxes that have not moved for as long as is known.
   f64 resting() const {
     u32 count = 0;
-    for (u32 k = 0; known_ > 0 && !common_ && k < many_; k++) count += horizons_[known_ - 1].reach[k] == 0 && horizons_[known_ - 1].jumps[k] == 0;
+    for (u32 k = 0; known_ > 0 && !common_ && k < many_; k++)
+      count += horizons_[known_ - 1].reach[k] == 0 && horizons_[known_ - 1].jumps[k] == 0;
     return count ? f64(count) / many_ : 0;
   }
 

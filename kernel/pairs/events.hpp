@@ -48,7 +48,8 @@ class Events {
       u64 pair = before_.list[p];
       bool fresh = next < began.count && began.list[next] == pair;
       next += fresh;
-      to[p] = pair | (fresh ? has_begun : 0) | (is_gone(u32(pair)) ? smaller_gone : 0) | (is_gone(u32(pair >> 32)) ? larger_gone : 0);
+      to[p] = pair | (fresh ? has_begun : 0) | (is_gone(u32(pair)) ? smaller_gone : 0) |
+              (is_gone(u32(pair >> 32)) ? larger_gone : 0);
     }
   }
 

@@ -26,7 +26,8 @@ class PairOrder {
     u32 per_slot = (bits + digit - 1) / digit;
     digit = (bits + per_slot - 1) / per_slot;
     u32 values = 1u << digit, passes = 2 * per_slot, shifts[most_passes];
-    for (u32 p = 0; p < passes; p++) shifts[p] = (p < per_slot ? 32 : 0) + p % per_slot * digit;  // the larger slot first
+    for (u32 p = 0; p < passes; p++)
+      shifts[p] = (p < per_slot ? 32 : 0) + p % per_slot * digit;  // the larger slot first
     u64* from = list;
     u64* to = spare_.reserve(count);
     u32* counts = counts_.reserve(values);

@@ -12,20 +12,25 @@ enum class Asks : u32 { nearest, ray, way, box, within, point, circle, others, m
 template <int D> class Bulk {
   static constexpr u32 width = 2 * D;
 
-  Buffer<f64> given_;    // numbers of all questions, then of each the id it ignores
+  Buffer<f64> given_;  // numbers of all questions, then of each the id it ignores
   Buffer<u32> offsets_;  // of each question, where its answers begin; and where those of the last end
 
-  static bool has_box(Asks kind) { return kind == Asks::way || kind == Asks::box || kind == Asks::within || kind == Asks::meeting; }
+  static bool has_box(Asks kind) {
+    return kind == Asks::way || kind == Asks::box || kind == Asks::within || kind == Asks::meeting;
+  }
   static bool moves(Asks kind) { return kind == Asks::ray || kind == Asks::way; }
   static u32 stride(Asks kind) {
-    return (has_box(kind) ? width : u32(D)) + (moves(kind) ? u32(D) : 0) + (kind == Asks::circle ? 1 : kind == Asks::meeting ? 2 : 0);
+    return (has_box(kind) ? width : u32(D)) + (moves(kind) ? u32(D) : 0) +
+           (kind == Asks::circle    ? 1
+            : kind == Asks::meeting ? 2
+                                    : 0);
   }
   static bool is_finite(f64 x) { return x - x == 0; }
 
  public:
-  Buffer<u32> ids;   // the answers of all questions: of areas
+  Buffer<u32> ids;  // the answers of all questions: of areas
   Buffer<Hit> hits;  // and where they ask for an order
-  u64 looks = 0;     // at blocks, by all questions of a call
+  u64 looks = 0;  // at blocks, by all questions of a call
 
   const u32* offsets() const { return offsets_.data(); }
 

@@ -22,7 +22,7 @@ template <int D> class Index {
   static constexpr u32 width = 2 * D;
   static constexpr u32 most_levels = 9;  // 8^8 boxes, and spare places
   static constexpr f32 nothing = __builtin_nanf("");
-  static constexpr u32 sampled = 256;   // groups of eight, by which an order is judged
+  static constexpr u32 sampled = 256;  // groups of eight, by which an order is judged
   static constexpr f32 most_wider = 2;  // they may become before boxes are sorted anew
 
   // As the update saw them, by slot.
@@ -33,18 +33,19 @@ template <int D> class Index {
   Buffer<f64> reaches_;
   f64 most_reach_ = 0;
   u32 count_ = 0;
-  const f64* world_ = nullptr;  // where it wraps around: then boxes stand in `exact_`, and are moved as they are rounded
+  const f64*
+      world_ = nullptr;  // where it wraps around: then boxes stand in `exact_`, and are moved as they are rounded
   bool rounded_ = false, named_ = false, filtered_ = false, reached_ = false;
 
   bool built_ = false;
-  Buffer<u32> slots_;       // per place in the order
+  Buffer<u32> slots_;  // per place in the order
   Buffer<u32> placed_ids_;  // the same, while `named_`
-  Buffer<u32> places_;      // per slot, its place
+  Buffer<u32> places_;  // per slot, its place
   u32 sorted_ = 0, used_ = 0, room_ = 0;  // places of boxes in order; and with those behind; and with those to come
   bool holes_ = false;
-  u32 known_ = 0;   // slots that have an entry in `places_`
-  u64 looks_ = 0;   // at blocks, by questions, since boxes were sorted: each costs about as much as to sort a box
-  f32 width_ = 0;   // of groups, when they were
+  u32 known_ = 0;  // slots that have an entry in `places_`
+  u64 looks_ = 0;  // at blocks, by questions, since boxes were sorted: each costs about as much as to sort a box
+  f32 width_ = 0;  // of groups, when they were
   RadixSort sort_;
 
  public:
@@ -81,7 +82,8 @@ template <int D> class Index {
   /// The rule of a box by its slot, and the numbers it was given with.
   Rule rule(u32 slot) const { return filtered_ ? rules_[slot] : Rule{0xffffffff, 0xffffffff, 0}; }
   void box_of_slot(u32 slot, f64* to) const {
-    for (u32 k = 0; k < width; k++) to[k] = rounded_ ? exact_[u64(slot) * width + k] : f64(boxes_[u64(slot) * width + k]);
+    for (u32 k = 0; k < width; k++)
+      to[k] = rounded_ ? exact_[u64(slot) * width + k] : f64(boxes_[u64(slot) * width + k]);
   }
   bool filtered() const { return filtered_; }
   /// How far a box reaches, by its slot, and no less than any does.
@@ -104,7 +106,8 @@ template <int D> class Index {
   }
 
   /// Copies the boxes of a space.
-  COLD void see(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches, const f64* world) {
+  COLD void see(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
+                const f64* world) {
     u32 n = ids.count();
     count_ = 0;
     known_ = smaller(known_, n);
@@ -131,9 +134,11 @@ template <int D> class Index {
   }
 
   /// Takes over the slots that have changed, of which new ones are some: false where all has to be seen anew.
-  COLD bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches, const u32* slots,
-                   u32 many, const f64* world) {
-    if (reached_ != (reaches != nullptr) || world_ != world || rounded_ != (exact || world_) || named_ != !ids.same() || filtered_ != (rules != nullptr)) return false;
+  COLD bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
+                   const u32* slots, u32 many, const f64* world) {
+    if (reached_ != (reaches != nullptr) || world_ != world || rounded_ != (exact || world_) || named_ != !ids.same() ||
+        filtered_ != (rules != nullptr))
+      return false;
     u32 n = ids.count(), had = count_;
     if (built_ || !rounded_) boxes_.grow(u64(n) * width + 4, u64(had) * width);
     if (rounded_) exact_.grow(u64(n) * width, u64(had) * width);
@@ -334,7 +339,8 @@ template <int D> class Index {
       }
     }
     if ((sorted_ - 1) % 8 < 4) {
-      for (u32 n = 0; n < width; n++) store(reinterpret_cast<f32*>(&blocks_[(sorted_ - 1) / 8]) + 8 * n + 4, splat(nothing));
+      for (u32 n = 0; n < width; n++)
+        store(reinterpret_cast<f32*>(&blocks_[(sorted_ - 1) / 8]) + 8 * n + 4, splat(nothing));
     }
   }
 

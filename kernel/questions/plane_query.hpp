@@ -34,7 +34,11 @@ template <int D> class PlaneQuery {
   static constexpr u32 inside = 0x80000000;
 
   PlaneQuery(const Index<D>& index, const Question<D>& asked, const Planes<D>& planes)
-      : index_(index), planes_(planes), wanted_(index, asked), touching_(asked.touching), takes_all_(wanted_.all() && !index.holes()) {}
+      : index_(index),
+        planes_(planes),
+        wanted_(index, asked),
+        touching_(asked.touching),
+        takes_all_(wanted_.all() && !index.holes()) {}
 
   u32 looks() const { return looks_; }
 

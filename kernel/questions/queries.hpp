@@ -50,7 +50,8 @@ template <int D> class Wanted {
   const u32 mask_, ignored_, own_;
 
  public:
-  Wanted(const Index<D>& index, const Question<D>& asked) : index_(index), mask_(asked.mask), ignored_(asked.ignored), own_(asked.layer) {}
+  Wanted(const Index<D>& index, const Question<D>& asked)
+      : index_(index), mask_(asked.mask), ignored_(asked.ignored), own_(asked.layer) {}
 
   /// Whether no box is left out for its layer or its id.
   bool all() const { return ignored_ > slot_mask && (own_ ? !index_.filtered() : mask_ == 0xffffffff); }
@@ -65,7 +66,7 @@ template <int D> class Wanted {
 
 struct Hit {
   f64 rank;  // what the moving box has moved, or the distance
-  u32 id;    // with `corner`
+  u32 id;  // with `corner`
   i32 side;  // of moving boxes: axis + 1 of the face that is hit, negative where its normal is; 0: none
 
   /// With the ids of what is met only at a corner, so that faces that are met at the same time come before it: who
@@ -154,24 +155,30 @@ template <int D> class Queries {
 
   const Index<D>& index_;
   const Question<D>& asked_;
-  const f64* const world_;     // where it wraps around
-  Copies copies_;              // only there
-  f64 reach_[D];               // how far what moves may come
-  Hits* hits_ = nullptr;       // of what moves
-  f32x4 lo_[D], hi_[D];        // what is to be looked at
+  const f64* const world_;  // where it wraps around
+  Copies copies_;  // only there
+  f64 reach_[D];  // how far what moves may come
+  Hits* hits_ = nullptr;  // of what moves
+  f32x4 lo_[D], hi_[D];  // what is to be looked at
   f32x4 above_[D], below_[D];  // the point, or what moves, rounded outward or further
-  f32x4 slowness_[D];          // time for a unit of way
-  f64 squared_;                // the circle's radius
-  f64 scale_ = 1;              // of what is estimated in place of ranks
-  bool is_tame_ = true;        // whether times may be estimated
-  const u32* const names_;     // of answers: ids; slots, where another space asks
+  f32x4 slowness_[D];  // time for a unit of way
+  f64 squared_;  // the circle's radius
+  f64 scale_ = 1;  // of what is estimated in place of ranks
+  bool is_tame_ = true;  // whether times may be estimated
+  const u32* const names_;  // of answers: ids; slots, where another space asks
   const Wanted<D> wanted_;
   const bool all_wanted_;
   u32 from_ = 0, most_ = 0, found_ = 0, looks_ = 0;
 
  public:
   Queries(const Index<D>& index, const Question<D>& asked)
-      : index_(index), asked_(asked), world_(index.world()), squared_(asked.radius * asked.radius), names_(asked.layer ? index.slots() : index.ids()), wanted_(index, asked), all_wanted_(wanted_.all()) {
+      : index_(index),
+        asked_(asked),
+        world_(index.world()),
+        squared_(asked.radius * asked.radius),
+        names_(asked.layer ? index.slots() : index.ids()),
+        wanted_(index, asked),
+        all_wanted_(wanted_.all()) {
     if (world_) copies_.begin(world_, D, asked.lo, asked.hi);
   }
 
@@ -452,7 +459,8 @@ template <int D> class Queries {
     const Block& block = index_.block(level, number);
     looks_++;
     u32 least[8], order[8], n = 0;
-    if (level == 0) return moving ? offer_ahead(number, least_times(block, hits.limit, least), hits) : offer_near(number, hits);
+    if (level == 0)
+      return moving ? offer_ahead(number, least_times(block, hits.limit, least), hits) : offer_near(number, hits);
     u32 left = moving ? least_times(block, hits.limit, least) : least_distances(block, hits.limit, least);
     for (; left; left &= left - 1) {
       u32 at = n++, rank = least[__builtin_ctz(left)];
@@ -552,14 +560,18 @@ template <int D> class Queries {
       Copies at;
       bool first, before;
     } others{*this, box, hit, copies_, true, true};
-    others.at.pass(reach_, [](void* given) {
-      auto& [asks, box, hit, at, first, before] = *static_cast<Others*>(given);
-      f64 copy[2 * D];
-      Hit other;
-      before &= !at.same_turn(asks.copies_);
-      at.copy(box, copy);
-      if (first && asks.meets_box(copy, hit.id & ~Hit::corner, other)) first = !(other < hit) && (!before || hit < other);
-    }, &others);
+    others.at.pass(
+        reach_,
+        [](void* given) {
+          auto& [asks, box, hit, at, first, before] = *static_cast<Others*>(given);
+          f64 copy[2 * D];
+          Hit other;
+          before &= !at.same_turn(asks.copies_);
+          at.copy(box, copy);
+          if (first && asks.meets_box(copy, hit.id & ~Hit::corner, other))
+            first = !(other < hit) && (!before || hit < other);
+        },
+        &others);
     return others.first;
   }
 
@@ -571,7 +583,8 @@ template <int D> class Queries {
       f64 box[2 * D];
       index_.box(place, box);
       Hit hit;
-      if (world_ ? meets_around(box, index_.id(place), hit, hits.limit) : meets_box(box, index_.id(place), hit)) hits.offer(hit);
+      if (world_ ? meets_around(box, index_.id(place), hit, hits.limit) : meets_box(box, index_.id(place), hit))
+        hits.offer(hit);
     }
   }
 };

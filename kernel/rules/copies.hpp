@@ -17,7 +17,7 @@ class Copies {
   int axes_ = 0;
   Span span_[3];
   f64 worlds_[3];  // how many it is away from where `span_` has it
-  f64 turn_[3];    // by how many it is moved
+  f64 turn_[3];  // by how many it is moved
 
  public:
   /// How many turns areas and what is near take.
@@ -150,9 +150,7 @@ class Copies {
   /// By how many worlds the n-th turn of an axis is.
   static f64 number_of(u32 n) { return n == 2 ? -1.0 : f64(n); }
 
-  static f64 slack_of(f64 lo, f64 hi, f64 world) {
-    return slack * (world + __builtin_fabs(lo) + __builtin_fabs(hi));
-  }
+  static f64 slack_of(f64 lo, f64 hi, f64 world) { return slack * (world + __builtin_fabs(lo) + __builtin_fabs(hi)); }
 
   COLD static f64 worlds_of(f64 lo, const Span& span, f64 world) {
     if (span.full) return 0;

@@ -27,28 +27,28 @@ inline bool meet(const Rule& a, const Rule& b) {
 class Filters {
   static constexpr Rule everybody{0xffffffff, 0xffffffff, 0}, nobody{0, 0, 0};
   static constexpr u32 most_classes = 64, table_size = 4 * most_classes;
-  static constexpr u32 rest = most_classes;        // stands for all classes beyond: they may meet anybody
-  static constexpr u32 spare_bits = 0x0f000000;    // of the tag: those that no box has set are for classes
+  static constexpr u32 rest = most_classes;  // stands for all classes beyond: they may meet anybody
+  static constexpr u32 spare_bits = 0x0f000000;  // of the tag: those that no box has set are for classes
 
   struct Class {
     Rule rule;
     u64 meets;  // bit d: class d
     u32 count;  // its boxes
-    u32 bits;   // the exclusion bits of its boxes in the search
+    u32 bits;  // the exclusion bits of its boxes in the search
     bool lonely;
   };
 
-  bool active_ = false;   // some box has a rule of its own
+  bool active_ = false;  // some box has a rule of its own
   bool changed_ = false;  // since the classes were found
-  bool check_ = false;    // some pairs that the search finds may be forbidden
-  bool some_ = false;     // not all boxes are searched
-  u32 searched_ = 0;      // how many are, while `some_`
-  Buffer<Rule> rules_;    // per slot
-  Buffer<Rule> staged_;   // what `replace` puts in their place
+  bool check_ = false;  // some pairs that the search finds may be forbidden
+  bool some_ = false;  // not all boxes are searched
+  u32 searched_ = 0;  // how many are, while `some_`
+  Buffer<Rule> rules_;  // per slot
+  Buffer<Rule> staged_;  // what `replace` puts in their place
   Buffer<u32> excluded_;  // per slot, or per searched box: the exclusion bits for the search
-  Buffer<u32> slots_;     // per searched box
-  Buffer<f32> boxes_;     // per searched box
-  Buffer<u8> class_of_;   // per slot
+  Buffer<u32> slots_;  // per searched box
+  Buffer<f32> boxes_;  // per searched box
+  Buffer<u8> class_of_;  // per slot
 
   // Only while classes are found, so one for all spaces.
   inline static Class classes_[most_classes + 1];

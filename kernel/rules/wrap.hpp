@@ -15,8 +15,8 @@
 /// A box along one axis of a world that wraps around: from low + shift to low + shift + size + rest.
 struct Span {
   f64 low, size, rest;  // low: in ]-world, world[
-  f64 shift;            // 0, or the world where low is negative
-  bool full;            // it reaches all around
+  f64 shift;  // 0, or the world where low is negative
+  bool full;  // it reaches all around
 
   COLD static Span of(f64 lo, f64 hi, f64 world) {
     f64 size = hi - lo;
@@ -89,10 +89,10 @@ struct Span {
 };
 
 class Wrap {
-  Buffer<f32> boxes_;     // rounded outward: the boxes, then the ghosts
+  Buffer<f32> boxes_;  // rounded outward: the boxes, then the ghosts
   Buffer<u32> excluded_;  // of both
-  Buffer<u32> owners_;    // per ghost: its box, and above 24 bits the axes along which it is one
-  Buffer<u8> plain_;      // per box, whether float32 holds it, as it was given and without ghosts
+  Buffer<u32> owners_;  // per ghost: its box, and above 24 bits the axes along which it is one
+  Buffer<u8> plain_;  // per box, whether float32 holds it, as it was given and without ghosts
   const Filters* filters_ = nullptr;  // where each box stands among those given
   const f32* given_ = nullptr;
   const f64* doubles_ = nullptr;
@@ -103,8 +103,8 @@ class Wrap {
  public:
   /// The boxes that are to be searched, and how many there are, with their ghosts. `given`: the boxes by slot, as
   /// float32 and, unless null, as doubles. Also puts the exclusion bits of the ghosts behind those of the boxes.
-  NOINLINE const f32* unfold(u32& count, const u32*& excluded, const Filters& filters, const f32* given, const f64* doubles,
-                         const f64* world, u32 dimensions) {
+  NOINLINE const f32* unfold(u32& count, const u32*& excluded, const Filters& filters, const f32* given,
+                             const f64* doubles, const f64* world, u32 dimensions) {
     u32 width = 2 * dimensions;
     dimensions_ = dimensions;
     filters_ = &filters;
@@ -191,9 +191,7 @@ class Wrap {
     return doubles_ ? doubles_[at] : f64(given_[at]);
   }
 
-  Span span(u32 k, u32 axis) const {
-    return Span::of(number(k, axis), number(k, dimensions_ + axis), world_[axis]);
-  }
+  Span span(u32 k, u32 axis) const { return Span::of(number(k, axis), number(k, dimensions_ + axis), world_[axis]); }
 
   /// What roundings may amount to.
   static f64 slack(f64 world) { return world * 0x1p-50; }
@@ -221,7 +219,8 @@ class Wrap {
     for (u32 axis = 0; axis < dimensions_; axis++) {
       Span first = span(a, axis), second = span(b, axis);
       bool one = ghost_a >> axis & 1, other = ghost_b >> axis & 1;
-      bool met = first.full || second.full || (first.reaches(second, 0, touching_) && second.reaches(first, 0, touching_));
+      bool met = first.full || second.full ||
+                 (first.reaches(second, 0, touching_) && second.reaches(first, 0, touching_));
       if (met) {
         if (one || other) return false;
       } else if (second.reaches(first, world_[axis], touching_)) {

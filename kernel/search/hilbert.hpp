@@ -30,7 +30,8 @@ template <int D> class HilbertCurve {
     f32x4 centres[4];
     for (int k = 0; k < 4; k++) {
       Item<D> item = items[index[k]];
-      if constexpr (D == 2) centres[k] = item.box * 0.5f + __builtin_shufflevector(item.box, item.box, 2, 3, 0, 1) * 0.5f;
+      if constexpr (D == 2)
+        centres[k] = item.box * 0.5f + __builtin_shufflevector(item.box, item.box, 2, 3, 0, 1) * 0.5f;
       else centres[k] = item.first() * 0.5f + item.high * 0.5f;
     }
     transpose(centres);

@@ -27,7 +27,8 @@ template <int D> class QuantizedSweep {
   /// appends the pairs. Where the items stand in ascending order of their minima along axis 0, `sorted`, no `end` is
   /// needed: those are tested that start before it ends. Returns the number of tests, but only then.
   template <bool sorted = true>
-  NOINLINE u64 find(const Lanes<D>& from, const SceneSample<D>& world, u32 first, u32 last, Pairs& pairs, const u32* end = nullptr) {
+  NOINLINE u64 find(const Lanes<D>& from, const SceneSample<D>& world, u32 first, u32 last, Pairs& pairs,
+                    const u32* end = nullptr) {
     u32 stride = last - first + block + 8;
     i16* row = cells_.reserve(u64(stride) * 2 * (D - 1));
     const i16* least[D - 1];
@@ -56,7 +57,8 @@ template <int D> class QuantizedSweep {
       }
       auto misses = [&](u32 at) {
         i16x8 all = {};
-        for (int a = 0; a < D - 1; a++) all |= (load<i16x8>(least[a] + at) > high[a]) | (low[a] > load<i16x8>(most[a] + at));
+        for (int a = 0; a < D - 1; a++)
+          all |= (load<i16x8>(least[a] + at) > high[a]) | (low[a] > load<i16x8>(most[a] + at));
         return all;
       };
       u32 j = i + 1;
@@ -89,13 +91,15 @@ template <int D> class QuantizedSweep {
   NOINLINE static void round(const Axis& axis, const f32* from, i16* to, u32 count) {
     Axes axes(axis, axis, axis, axis);
     for (u32 k = 0; k < count + block; k += 8) {
-      u32x4 low = axes(load<f32x4>(from + k)) - splat(cells / 2), high = axes(load<f32x4>(from + k + 4)) - splat(cells / 2);
+      u32x4 low = axes(load<f32x4>(from + k)) - splat(cells / 2),
+            high = axes(load<f32x4>(from + k + 4)) - splat(cells / 2);
       store(to + k, __builtin_shufflevector(bits<i16x8>(low), bits<i16x8>(high), 0, 2, 4, 6, 8, 10, 12, 14));
     }
   }
 
   /// Appends those that overlap.
-  template <bool watch> NOINLINE static void test_as(const LaneView<D>& lanes, const Near* from, const Near* end, Pairs& pairs) {
+  template <bool watch>
+  NOINLINE static void test_as(const LaneView<D>& lanes, const Near* from, const Near* end, Pairs& pairs) {
     u64* out = pairs.room(pairs.list.data() + pairs.count, u64(end - from) * block);
     for (; from < end; from++) {
       Probe<D> probe(lanes, from->item);
@@ -105,7 +109,8 @@ template <int D> class QuantizedSweep {
       for (u32 which = from->which; which; which &= ~0xfu << four) {
         four = u32(__builtin_ctz(which)) & ~3u;
         u32x4 tags = load<u32x4>(lanes.tag + from->at + four);
-        out = append(out, probe.slot, tags & splat(slot_mask), bitmask(probe.template hits<watch>(lanes, from->at + four, tags, touching)));
+        out = append(out, probe.slot, tags & splat(slot_mask),
+                     bitmask(probe.template hits<watch>(lanes, from->at + four, tags, touching)));
       }
       if (watch && any(touching)) pairs.doubt(begin, out);
     }

@@ -135,8 +135,7 @@ NOINLINE void sweep_as(const Lanes<D>& from, const u32* end, u32 count, Pairs& p
   pairs.count = Pairs::between(pairs.list.data(), out);
 }
 
-template <int D, bool exact_end = false>
-void sweep(const Lanes<D>& from, const u32* end, u32 count, Pairs& pairs) {
+template <int D, bool exact_end = false> void sweep(const Lanes<D>& from, const u32* end, u32 count, Pairs& pairs) {
   if (!exact_end && pairs.watch) sweep_as<D, exact_end, !exact_end>(from, end, count, pairs);
   else sweep_as<D, exact_end, false>(from, end, count, pairs);
 }

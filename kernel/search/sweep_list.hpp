@@ -73,7 +73,9 @@ template <int D> class SweepList {
   void find(u32 count, Pairs& pairs) const { sweep<D>(lanes_, end_.data(), count, pairs); }
 
   /// The same where items look far and few of those they meet overlap. `world`: where most of them are.
-  COLD void find_few(const SceneSample<D>& world, u32 count, Pairs& pairs) requires(D == 3) {
+  COLD void find_few(const SceneSample<D>& world, u32 count, Pairs& pairs)
+    requires(D == 3)
+  {
     quantized_sweep_.template find<false>(lanes_, world, 0, count, pairs, end_.data());
   }
 

@@ -14,8 +14,9 @@ inline constexpr u32 handful = 24;
 namespace detail {
 constexpr bool has(Technique name) { return built >> u32(name) & 1; }
 }  // namespace detail
-static_assert(!detail::has(Technique::automatic) || (detail::has(Technique::brute_force) && detail::has(Technique::strip_sweep) &&
-                                                     detail::has(Technique::incremental)));
+static_assert(!detail::has(Technique::automatic) ||
+              (detail::has(Technique::brute_force) && detail::has(Technique::strip_sweep) &&
+               detail::has(Technique::incremental)));
 
 /// What a technique that was asked for stands for, given how many boxes there are, and whether no update before may show.
 inline Technique auto_choice(Technique asked, u32 boxes, bool ordered) {

@@ -13,20 +13,29 @@
 /// Little endian, as WebAssembly is.
 struct SnapshotHeader {
   u32 magic;
-  u8 version;         // 2 where there are parts that 1 does not know
+  u8 version;  // 2 where there are parts that 1 does not know
   u8 dimensions : 4;
-  u8 reaches : 4;     // 1: they are a part too
-  u8 parts;      // SnapshotPart
+  u8 reaches : 4;  // 1: they are a part too
+  u8 parts;  // SnapshotPart
   u8 technique;  // its number, or `automatic`
   u64 checksum;  // of all bytes, with this one 0
-  u32 count;     // boxes
+  u32 count;  // boxes
   u32 pairs;
 
   static constexpr u32 right_magic = 0x53504270;  // "pBPS"
   static constexpr u8 newest = 2, automatic = 255;
 };
 
-enum SnapshotPart : u8 { has_ids = 1, has_doubles = 2, has_layers = 4, has_masks = 8, has_bits = 16, has_pairs = 32, has_order = 64, has_groups = 128 };
+enum SnapshotPart : u8 {
+  has_ids = 1,
+  has_doubles = 2,
+  has_layers = 4,
+  has_masks = 8,
+  has_bits = 16,
+  has_pairs = 32,
+  has_order = 64,
+  has_groups = 128
+};
 
 /// Why bytes are refused: src/snapshot.ts says it in words.
 enum class SnapshotFault : u32 { none, foreign, newer, length, damaged, dimensions, technique, content };
@@ -35,7 +44,8 @@ class Snapshot {
   Buffer<u64> words_;
   SnapshotHeader head_ = {};
   // Where each part begins, in bytes.
-  u32 pairs_ = 0, boxes_ = 0, ids_ = 0, order_ = 0, layers_ = 0, masks_ = 0, groups_ = 0, reaches_ = 0, bits_ = 0, end_ = 0;
+  u32 pairs_ = 0, boxes_ = 0, ids_ = 0, order_ = 0, layers_ = 0, masks_ = 0, groups_ = 0, reaches_ = 0, bits_ = 0,
+      end_ = 0;
 
   u8* at(u64 byte) const { return reinterpret_cast<u8*>(words_.data()) + byte; }
   bool has(u8 parts) const { return head_.parts & parts; }
@@ -85,7 +95,8 @@ class Snapshot {
                   const f64* reaches, const Events* events) {
     u32 n = ids.count();
     const Rule* rules = filters.active() ? filters.rules() : nullptr;
-    u32 parts = (ids.same() ? 0 : has_ids) | (ids.since() ? has_order : 0) | (doubles ? has_doubles : 0) | (events ? has_pairs : 0);
+    u32 parts = (ids.same() ? 0 : has_ids) | (ids.since() ? has_order : 0) | (doubles ? has_doubles : 0) |
+                (events ? has_pairs : 0);
     for (u32 s = 0; rules && s < n; s++) {
       if (~rules[s].layer) parts |= has_layers;
       if (~rules[s].mask) parts |= has_masks;
@@ -180,7 +191,9 @@ class Snapshot {
   COLD bool take(Ids& ids, Filters& filters, PerBox<u32>& groups, PerBox<f64>& reaches, Events* events) const {
     const u32* order = has(has_order) ? reinterpret_cast<const u32*>(at(order_)) : nullptr;
     if (!has(has_ids)) ids.reset(head_.count);
-    else if (!ids.replace(reinterpret_cast<const u32*>(at(ids_)), head_.count, order ? order + 1 : nullptr, order ? *order : 0)) return false;
+    else if (!ids.replace(reinterpret_cast<const u32*>(at(ids_)), head_.count, order ? order + 1 : nullptr,
+                          order ? *order : 0))
+      return false;
     filters.clear();
     if (has(has_layers | has_masks | has_bits)) filters.replace();
     groups.clear();

@@ -45,20 +45,21 @@ template <int D> class Space {
   Buffer<f32> boxes_, staged_;
   Buffer<f64> exact_, staged_exact_;  // the doubles given, while `rounding_`
   bool rounding_ = false;
-  GapMap<D> map_;  // from doubles to float32, while `rounding_`; plain while boxes are exposed or the world wraps around
-  u32 collapsed_ = 0;   // how many boxes given since the last update are points in float32, on some axis, but are none
+  GapMap<D>
+      map_;  // from doubles to float32, while `rounding_`; plain while boxes are exposed or the world wraps around
+  u32 collapsed_ = 0;  // how many boxes given since the last update are points in float32, on some axis, but are none
   u32 bearable_ = usual_collapsed;  // with more of them another map is looked for at once
-  u32 look_in_ = 0;     // updates until it is looked for anyhow
+  u32 look_in_ = 0;  // updates until it is looked for anyhow
   bool exposed_ = false;  // `boxes()` has handed out the memory: look at each update for what was written
-  Buffer<f32> shown_;     // where that memory is, once the boxes had to move elsewhere
-  u32 shown_count_ = 0;   // boxes in it; 0: it is not in use
+  Buffer<f32> shown_;  // where that memory is, once the boxes had to move elsewhere
+  u32 shown_count_ = 0;  // boxes in it; 0: it is not in use
   bool renamed_ = false;  // since the last update, boxes have come, gone or got other ids
-  bool tight_ = false;    // memory may not be had for the first double
+  bool tight_ = false;  // memory may not be had for the first double
   Filters filters_;
   PerBox<u32> groups_;
   Buffer<u32> searched_groups_;  // where not all boxes are searched
   PerBox<f64> reaches_;
-  Buffer<f32> grown_;        // by their reaches: the boxes that are searched, where some box has one
+  Buffer<f32> grown_;  // by their reaches: the boxes that are searched, where some box has one
   Buffer<f64> grown_exact_;  // the same as doubles, of which they are made
   Changes changes_;  // since the last update, for the technique that asks
   Wrap wrap_;
@@ -73,12 +74,13 @@ template <int D> class Space {
   // What questions see is what the last update saw. While nothing has changed since, the boxes themselves are that; the
   // index takes a copy before the first change. Large spaces that nobody has asked are spared it, and then cannot say.
   bool asked_ = false;  // ever
-  bool holds_ = true;   // the index has what the last update saw: at first, nothing
-  bool lost_ = false;   // nobody has
+  bool holds_ = true;  // the index has what the last update saw: at first, nothing
+  bool lost_ = false;  // nobody has
   static constexpr u32 spared = 16384, spared_in_place = 4096;
   bool searching_ = false;  // in an update: until its end there are no pairs
   bool restored_ = false;  // since the last update: the pairs before are not those of which `table_` may be made
-  bool ordered_ = false;   // a snapshot was taken or restored: from then on no update before may show in the order of pairs
+  bool ordered_ =
+      false;  // a snapshot was taken or restored: from then on no update before may show in the order of pairs
 
  public:
   Pairs pairs;
@@ -88,9 +90,9 @@ template <int D> class Space {
   Question<D> question;
   Planes<D> planes;  // of a question about planes
   Buffer<u32> answers;  // ids, of the last question
-  Hits hits;            // where the question asks for an order
-  Bulk<D> bulk;         // many questions, and their answers
-  ChangedIds changed;   // for who keeps pairs with another space
+  Hits hits;  // where the question asks for an order
+  Bulk<D> bulk;  // many questions, and their answers
+  ChangedIds changed;  // for who keeps pairs with another space
   Stats stats;
   Buffer<f32> cells;  // what structure() has written
   u32 cell_count = 0;
@@ -262,7 +264,9 @@ template <int D> class Space {
     return boxes_.data();
   }
 
-  COLD Rule rule(u32 slot) const { return filters_.active() ? filters_.rules()[slot] : Rule{0xffffffff, 0xffffffff, 0}; }
+  COLD Rule rule(u32 slot) const {
+    return filters_.active() ? filters_.rules()[slot] : Rule{0xffffffff, 0xffffffff, 0};
+  }
 
   /// Sets the layer and the mask of a box.
   COLD void filter(u32 slot, u32 layer, u32 mask) {
@@ -332,7 +336,9 @@ template <int D> class Space {
     if (head.count) __builtin_memcpy(staged, snapshot.boxes(), snapshot.box_bytes());
     i32 bad = doubles ? round_staged(head.count, rounded) : first_bad(staged_.data(), head.count);
     Events* kept = keeps_events ? &events : nullptr;
-    if (bad >= 0 || !snapshot.check(filters_, groups_, reaches_, kept) || !snapshot.take(ids_, filters_, groups_, reaches_, kept)) return SnapshotFault::content;
+    if (bad >= 0 || !snapshot.check(filters_, groups_, reaches_, kept) ||
+        !snapshot.take(ids_, filters_, groups_, reaches_, kept))
+      return SnapshotFault::content;
     changes_.note_all();
     take_staged(rounded);
     technique = head.technique == SnapshotHeader::automatic ? Technique::automatic : Technique(head.technique);
@@ -410,7 +416,8 @@ template <int D> class Space {
     ran_ = chosen;
     pairs.same = false;
     Settings mapped = options_;
-    for (u32 n = 0; options_.bounds[0] < options_.bounds[D] && n < width; n++) mapped.bounds[n] = map_.map(options_.bounds[n], n % D);
+    for (u32 n = 0; options_.bounds[0] < options_.bounds[D] && n < width; n++)
+      mapped.bounds[n] = map_.map(options_.bounds[n], n % D);
     techniques_.with(ran_, [&](auto& chosen) { chosen.update(scene, mapped, pairs, stats); });
     bool same = pairs.same && !renamed_ && !doubles;  // doubles may have changed below float32
     if (filters_.active() || wraps || !ids_.same()) pairs.stable = 0;
@@ -691,12 +698,14 @@ template <int D> class Space {
 
   /// After an update, while its changes are known.
   COLD void follow_with_index() {
-    changed.note(changes_.all(), changes_.list(), changes_.count(), ids_.count(), [&](u32 slot) { return ids_.id(slot); });
+    changed.note(changes_.all(), changes_.list(), changes_.count(), ids_.count(),
+                 [&](u32 slot) { return ids_.id(slot); });
     const f64* exact = rounding_ ? exact_.data() : nullptr;
     const Rule* rules = filters_.active() ? filters_.rules() : nullptr;
     u32 few = larger(ids_.count() / 32, 8u);  // more are dearer to follow than the index is to make
     holds_ = holds_ && !changes_.all() && changes_.count() <= few &&
-             index_.follow(boxes_.data(), exact, ids_, rules, reaches_.data(), changes_.list(), changes_.count(), world());
+             index_.follow(boxes_.data(), exact, ids_, rules, reaches_.data(), changes_.list(), changes_.count(),
+                           world());
     // Who writes in place does not say when.
     if (exposed_ && !holds_ && (asked_ || ids_.count() <= spared_in_place)) see();
   }
@@ -830,7 +839,8 @@ template <int D> class Space {
   }
   /// What changed in another way is seen by who writes in place.
   COLD void show(u32 slot) {
-    if (slot < shown_count_) __builtin_memcpy(shown_.data() + u64(slot) * width, boxes_.data() + u64(slot) * width, width * sizeof(f32));
+    if (slot < shown_count_)
+      __builtin_memcpy(shown_.data() + u64(slot) * width, boxes_.data() + u64(slot) * width, width * sizeof(f32));
   }
 
   /// From now on the doubles are kept too.
@@ -1036,14 +1046,16 @@ template <int D> class Space {
     keep(pairs.count);
     pairs.count = kept;
   }
-  template <bool touching, class T> NOINLINE u64* retest(const T* boxes, const u64* from, const u64* until, u64* to) const {
+  template <bool touching, class T>
+  NOINLINE u64* retest(const T* boxes, const u64* from, const u64* until, u64* to) const {
     for (; from < until; from++) {
       u64 pair = *from;
       const T* first = boxes + u64(filters_.slot(u32(pair))) * width;
       const T* second = boxes + u64(filters_.slot(u32(pair >> 32))) * width;
       bool overlap = true;
       for (int k = 0; k < D; k++) {
-        overlap &= touching ? first[k] <= second[D + k] && second[k] <= first[D + k] : first[k] < second[D + k] && second[k] < first[D + k];
+        overlap &= touching ? first[k] <= second[D + k] && second[k] <= first[D + k]
+                            : first[k] < second[D + k] && second[k] < first[D + k];
       }
       *to = pair;
       to += overlap;

@@ -39,15 +39,15 @@ enum class Technique : u32 {
 inline constexpr u32 built = TECHNIQUES & ((2u << u32(Technique::automatic)) - 1);
 
 /// Those that note which of their pairs are in doubt: see Pairs::watch. Of the others all are.
-inline constexpr u32 watching = 1u << u32(Technique::brute_force) | 1u << u32(Technique::strip_sweep) | 1u << u32(Technique::incremental);
+inline constexpr u32 watching = 1u << u32(Technique::brute_force) | 1u << u32(Technique::strip_sweep) |
+                                1u << u32(Technique::incremental);
 
 /// Stands in the place of a technique that is not built: nobody asks for it.
 struct LeftOut {
   template <class... Any> constexpr LeftOut(Any&...) {}
 };
 
-template <Technique name, class Kind>
-using IfBuilt = std::conditional_t<(built >> u32(name) & 1) != 0, Kind, LeftOut>;
+template <Technique name, class Kind> using IfBuilt = std::conditional_t<(built >> u32(name) & 1) != 0, Kind, LeftOut>;
 
 template <int D> class Techniques {
   IfBuilt<Technique::brute_force, BruteForce<D>> brute_force_;

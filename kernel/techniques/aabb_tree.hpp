@@ -159,7 +159,8 @@ template <int D> class AabbTree {
       const f32* box = scene.boxes + u64(slot) * width;
       const f32* fat = fat_.data() + u64(slot) * width;
       u32 excluded = scene.excluded ? scene.excluded[slot] : 0;
-      u32 inside = bitmask(load<f32x4>(fat) <= load<f32x4>(box)) & bitmask(load<f32x4>(box + D) <= load<f32x4>(fat + D));
+      u32 inside = bitmask(load<f32x4>(fat) <= load<f32x4>(box)) &
+                   bitmask(load<f32x4>(box + D) <= load<f32x4>(fat + D));
       bool stays = slot < had && !(~inside & ((1 << D) - 1)) && (tags_[slot] | rests) == (excluded | rests);
       tags_[slot] = excluded | (stays ? u32(rests) : 0);
       moved_[moved] = slot;
@@ -221,7 +222,8 @@ template <int D> class AabbTree {
     auto take = [&](u64 pair, bool is_kept) {
       const f32* one = boxes + u64(u32(pair)) * width;
       const f32* other = boxes + (pair >> 32) * width;
-      u32 overlap = bitmask((load<f32x4>(one) <= load<f32x4>(other + D)) & (load<f32x4>(other) <= load<f32x4>(one + D)));
+      u32 overlap = bitmask((load<f32x4>(one) <= load<f32x4>(other + D)) &
+                            (load<f32x4>(other) <= load<f32x4>(one + D)));
       *left = pair;
       left += is_kept;
       *out = pair;

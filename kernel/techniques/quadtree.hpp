@@ -82,7 +82,8 @@ template <int D> class Quadtree {
   /// Makes the node of the boxes from `first` to `end`, which are all those of one cell, and the nodes below it.
   void divide(u32 first, u32 end, u32 at) {
     // A cell with nothing of its own and all in one quarter is not worth a node.
-    while (end - first > few && at < Curve::levels && level(first) > at && cell(first, at + 1) == cell(end - 1, at + 1)) {
+    while (end - first > few && at < Curve::levels && level(first) > at &&
+           cell(first, at + 1) == cell(end - 1, at + 1)) {
       at++;
     }
     u32 last = end;

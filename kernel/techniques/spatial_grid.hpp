@@ -52,7 +52,8 @@ template <int D> class SpatialGrid {
     ItemsAt<D> ordered(ordered_, 0);
     for (u32 k = 0; k < scene.count; k++) {
       Item<D> item = items[k];
-      grid_.visit(grid_.range(axes, item), [&](u32 cell, u32 continues) { ordered.put(starts[cell]++, with_tag(item, continues)); });
+      grid_.visit(grid_.range(axes, item),
+                  [&](u32 cell, u32 continues) { ordered.put(starts[cell]++, with_tag(item, continues)); });
     }
     lanes_.fill(ordered, u32(total));
     // starts[c] is now where cell c ends.

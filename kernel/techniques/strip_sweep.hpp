@@ -74,13 +74,13 @@ template <int D> class StripSweep {
     }
   }
 
-  Items<D> entries_;       // by strip; deeper cuts stack theirs on top
-  SweepList<D> swept_;     // the items of one strip
-  Buffer<Range> ranges_;   // per item that is being cut
+  Items<D> entries_;  // by strip; deeper cuts stack theirs on top
+  SweepList<D> swept_;  // the items of one strip
+  Buffer<Range> ranges_;  // per item that is being cut
   Buffer<u32> offsets_[deepest + 1];  // per cut: where each strip's entries begin
   Buffer<Region> leaves_;  // the strips in use
   AxisOrder<D> order_ = {};
-  Cut cut_ = {};     // the outermost
+  Cut cut_ = {};  // the outermost
   u32 boxes_ = 0;
   u32 entered_ = 0;  // entries of the outermost cut
   Stats* stats_ = nullptr;
@@ -150,7 +150,7 @@ template <int D> class StripSweep {
       relative[a] = extent > 0 ? smaller(1.0, larger(world.size[a] / extent, 1e-3 / count)) : 1;
     }
     f64 neighbours = world.crowding * count * relative[0];  // along the sweep axis, in the whole width
-    f64 width[D];                                           // as a share of the extent
+    f64 width[D];  // as a share of the extent
     auto one_axis = [&](int axis) {
       f64 balanced = __builtin_sqrt(entry_cost * relative[axis] / neighbours);
       return larger(balanced, free_candidates / neighbours);

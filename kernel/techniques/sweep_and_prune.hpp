@@ -23,7 +23,7 @@ template <int D> class SweepAndPrune {
   static constexpr u32 patience = 2, head_start = 256;
 
   Buffer<u32> order_;  // the slots 0 … count_ - 1, as they stood in the last update
-  Buffer<f32> keys_;   // where they start
+  Buffer<f32> keys_;  // where they start
   Buffer<u32> cells_, starts_, dealt_order_;
   Buffer<f32> dealt_keys_;
   Lanes<D> lanes_;

@@ -129,7 +129,9 @@ template <int D> class Calls {
     switch (what) {
       default: return set(id(), box());
       case 7: return give();
-      case 8: case 9: case 10: return remove(id());
+      case 8:
+      case 9:
+      case 10: return remove(id());
       case 11: return replace_by_a_scene();
       case 12: return replace_by_few();
       case 13: return expose();
@@ -140,7 +142,8 @@ template <int D> class Calls {
       case 18: return switch_technique();
       case 19: return look();
       case 20: return compare();
-      case 21: case 22: return update();
+      case 21:
+      case 22: return update();
       case 23: return ask_area(true);
       case 24: return filter();
       case 25: return save();
@@ -160,7 +163,8 @@ template <int D> class Calls {
     if (spells_left_ == 0) return;
     spells_left_--;
     Random random(bytes_.next16());
-    if (model_.count() < 250 || space_.pairs.count > most_boxes) replace(as_floats<D>(spread<D>(random, 250 + random.below(200), 0, D == 2 ? 200 : 60, 10)), false);
+    if (model_.count() < 250 || space_.pairs.count > most_boxes)
+      replace(as_floats<D>(spread<D>(random, 250 + random.below(200), 0, D == 2 ? 200 : 60, 10)), false);
     u8 how = bytes_.next();
     bool in_place = how & 4, disturbed = how & 8;
     bool keeps = space_.technique >= Technique::aabb_tree || space_.technique == Technique::retained_grid;
@@ -215,7 +219,8 @@ template <int D> class Calls {
       }
       case 0: return set(model_.count(), box);
       case 1: return remove(someone);
-      case 2: case 3: return set(someone, box);
+      case 2:
+      case 3: return set(someone, box);
       case 4: return set(someone, cube<D>(-std::numeric_limits<f64>::infinity(), box[D]));
       case 5: {
         u32 bit = u32(is_static) >> random.below(3);
@@ -337,7 +342,8 @@ template <int D> class Calls {
   void exclude() {
     if (model_.count() == 0) return;
     std::vector<u32> all = model_.ids();
-    u32 id = all[bytes_.next16() % all.size()], which = bytes_.below(4), bit = which < 3 ? u32(is_static) >> which : Rule::off;
+    u32 id = all[bytes_.next16() % all.size()], which = bytes_.below(4),
+        bit = which < 3 ? u32(is_static) >> which : Rule::off;
     bool on = bytes_.below(4) > 0;
     auto exclude = [&] {
       if (bit == Rule::off) space_.enable(ids_.slot(id), !on);
@@ -404,17 +410,20 @@ template <int D> class Calls {
     __builtin_memcpy(&head, bytes, smaller(size, u64(sizeof(head))));
     SnapshotFault fault = SnapshotFault::none;
     // The technique tells whether anything was restored: meanwhile it is another than that of the snapshot.
-    Technique mine = space_.technique, other = head.technique == u8(Technique::brute_force) ? Technique::automatic : Technique::brute_force;
+    Technique mine = space_.technique,
+              other = head.technique == u8(Technique::brute_force) ? Technique::automatic : Technique::brute_force;
     space_.technique = other;
-    bool done = made([&] {
-      fault = space_.snapshot.stage(head, u32(size), D, built);
-      if (fault != SnapshotFault::none) return;
-      __builtin_memcpy(const_cast<u64*>(space_.snapshot.words()), bytes, size);
-      if (how == 3) space_.snapshot.seal();
-      fault = space_.restore();
-      CHECK(how == 0 || how == 3 || fault != SnapshotFault::none);
-      CHECK(how != 0 || fault == SnapshotFault::none);
-    }, [&] { CHECK(space_.technique == other || space_.pairs.count == 0); });
+    bool done = made(
+        [&] {
+          fault = space_.snapshot.stage(head, u32(size), D, built);
+          if (fault != SnapshotFault::none) return;
+          __builtin_memcpy(const_cast<u64*>(space_.snapshot.words()), bytes, size);
+          if (how == 3) space_.snapshot.seal();
+          fault = space_.restore();
+          CHECK(how == 0 || how == 3 || fault != SnapshotFault::none);
+          CHECK(how != 0 || fault == SnapshotFault::none);
+        },
+        [&] { CHECK(space_.technique == other || space_.pairs.count == 0); });
     if (space_.technique == other) {
       space_.technique = mine;
       return compare();
@@ -591,7 +600,9 @@ template <int D> class Calls {
       f64 most = is_endless ? asks.radius : asks.radius * asks.radius;
       // A circle without size, where touching does not count, is a point.
       bool is_round = is_circle && (asks.touching || asks.radius > 0);
-      bool within = !is_round ? overlap(box.data(), its.data(), D, asks.touching) : asks.touching ? far <= most : far < most;
+      bool within = !is_round       ? overlap(box.data(), its.data(), D, asks.touching)
+                    : asks.touching ? far <= most
+                                    : far < most;
       if (within) expected.push_back(id);
     }
     std::sort(answer.begin(), answer.end());
@@ -750,10 +761,22 @@ template <int D> class Calls {
   }
 
   f64 number() {
-    static const f64 special[] = {std::numeric_limits<f64>::infinity(), -std::numeric_limits<f64>::infinity(),
-                                  std::numeric_limits<f64>::max(), -std::numeric_limits<f64>::max(),
-                                  std::numeric_limits<f32>::max(), -std::numeric_limits<f32>::max(),
-                                  1e39, -1e39, 1e9, -1e9, 1e-45, -1e-45, 1e-320, -1e-320, -0.0, 0.1};
+    static const f64 special[] = {std::numeric_limits<f64>::infinity(),
+                                  -std::numeric_limits<f64>::infinity(),
+                                  std::numeric_limits<f64>::max(),
+                                  -std::numeric_limits<f64>::max(),
+                                  std::numeric_limits<f32>::max(),
+                                  -std::numeric_limits<f32>::max(),
+                                  1e39,
+                                  -1e39,
+                                  1e9,
+                                  -1e9,
+                                  1e-45,
+                                  -1e-45,
+                                  1e-320,
+                                  -1e-320,
+                                  -0.0,
+                                  0.1};
     u8 kind = bytes_.next();
     if (kind < 128) return kind % 32;
     if (kind < 180) return (kind - 128) * 0.1;

@@ -43,7 +43,7 @@ inline bool list(std::initializer_list<Test> more) {
 #define CHECK(...) testing::check((__VA_ARGS__), #__VA_ARGS__, __FILE__, __LINE__)
 #define TEST(name) TEST_ON(name, __LINE__)
 #define TEST_ON(name, line) TEST_AT(name, line)
-#define TEST_AT(name, line)                                                    \
-  static void test_##line();                                                   \
-  static const bool listed_##line = testing::list({{name, 0, test_##line}});   \
+#define TEST_AT(name, line)                                                  \
+  static void test_##line();                                                 \
+  static const bool listed_##line = testing::list({{name, 0, test_##line}}); \
   static void test_##line()

@@ -116,10 +116,12 @@ template <int D> void check_updates() {
     f.works();
     // What is no update leaves the pairs of the last.
     PairList pairs = sorted_pairs(f.space);
-    starve(f.space, [&] { f.space.structure(); }, [&] {
-      f.boxes_unchanged();
-      CHECK(sorted_pairs(f.space) == pairs);
-    });
+    starve(
+        f.space, [&] { f.space.structure(); },
+        [&] {
+          f.boxes_unchanged();
+          CHECK(sorted_pairs(f.space) == pairs);
+        });
   }
 }
 
@@ -143,7 +145,8 @@ template <int D> void check_kept_updates() {
       f.model.set(id, other);
     }
   };
-  for (Technique technique : {Technique::incremental, Technique::automatic, Technique::aabb_tree, Technique::retained_grid}) {
+  for (Technique technique :
+       {Technique::incremental, Technique::automatic, Technique::aabb_tree, Technique::retained_grid}) {
     testing::Where where("technique " + std::to_string(u32(technique)));
     for (u32 last : {1u, 2u, 3u, 40u, 93u, 98u, 130u}) {
       for (u32 room : {0u, 100u, 1000u, 10'000u}) {

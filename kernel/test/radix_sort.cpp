@@ -30,9 +30,22 @@ void check_sorted(RadixSort& sort, const std::vector<f32>& keys) {
 }  // namespace
 
 TEST("radix sort orders all kinds of floats") {
-  const f32 special[] = {0.0f, -0.0f, 1.0f, -1.0f, Limits::infinity(), -Limits::infinity(), Limits::max(),
-                         Limits::lowest(), Limits::min(), -Limits::min(), Limits::denorm_min(),
-                         -Limits::denorm_min(), 1e-40f, -1e-40f, 8388608.0f, 16777216.0f};
+  const f32 special[] = {0.0f,
+                         -0.0f,
+                         1.0f,
+                         -1.0f,
+                         Limits::infinity(),
+                         -Limits::infinity(),
+                         Limits::max(),
+                         Limits::lowest(),
+                         Limits::min(),
+                         -Limits::min(),
+                         Limits::denorm_min(),
+                         -Limits::denorm_min(),
+                         1e-40f,
+                         -1e-40f,
+                         8388608.0f,
+                         16777216.0f};
   RadixSort sort;
   Random random(3);
   for (u32 n : {1u, 2u, 3u, 7u, 16u, 17u, 255u, 1000u, 5000u, 20000u}) {

@@ -154,9 +154,10 @@ template <int D> std::vector<TestScene<D>> make_scenes() {
   add("coordinates of 1e9", spread<D>(random, 800, 1e9, 1e9 + 200, 10));
   add("coordinates of -1e9", spread<D>(random, 800, -1e9 - 200, -1e9, 10));
   add("coordinates of 1e-30", spread<D>(random, 800, 0, 2e-28, 1e-29));
-  add("coordinates of 1e9 and of 1e-30",
-      join({spread<D>(random, 400, -1e-28, 1e-28, 1e-29), spread<D>(random, 400, 1e9 - 200, 1e9, 10),
-            spread<D>(random, 50, -1e9, 1e9, 1e8), {cube<D>(0, 1e9), cube<D>(-1e9, 1e-30)}}));
+  add("coordinates of 1e9 and of 1e-30", join({spread<D>(random, 400, -1e-28, 1e-28, 1e-29),
+                                               spread<D>(random, 400, 1e9 - 200, 1e9, 10),
+                                               spread<D>(random, 50, -1e9, 1e9, 1e8),
+                                               {cube<D>(0, 1e9), cube<D>(-1e9, 1e-30)}}));
   add("denormals of float32",
       many(500, [&](u32) { return box_of<D>([&](u32) { return Extent{whole(80, 0x1p-149), 0x3p-149}; }); }));
   add("denormals of double",
@@ -172,11 +173,10 @@ template <int D> std::vector<TestScene<D>> make_scenes() {
   add("the whole range of float32",
       many(300, [&](u32) { return box_of<D>([&](u32) { return Extent{(random.fraction() - 0.5) * 6.8e38, 1e37}; }); }));
 
-  add("a tiny cluster and outliers",
-      join({spread<D>(random, 1000, 0, 1e-3, 4e-5), many(10, [](u32 k) {
-              f64 at = (f64(k) - 5) * 1e9;
-              return cube<D>(at, at + 1);
-            })}));
+  add("a tiny cluster and outliers", join({spread<D>(random, 1000, 0, 1e-3, 4e-5), many(10, [](u32 k) {
+                                             f64 at = (f64(k) - 5) * 1e9;
+                                             return cube<D>(at, at + 1);
+                                           })}));
   add("two clusters far apart", join({spread<D>(random, 500, 0, 20, 1), spread<D>(random, 500, 1e6, 1e6 + 20, 1)}));
   add("doubles that float32 cannot tell apart", many(500, [&](u32) {
         return box_of<D>([&](u32) { return Extent{1 + whole(40, 0x1p-50), whole(12, 0x1p-50)}; });

@@ -222,9 +222,9 @@ template <int D> void check_rounding() {
   auto instance = open<D>(Technique::automatic);
   Space<D>& space = instance->space;
   const f64 infinity = std::numeric_limits<f64>::infinity();
-  const f64 special[] = {0.0, -0.0, 1, 0.1, -0.1, 1e-46, -1e-46, 5e-324, -5e-324, 1e39, -1e39, 3.4028235e38,
-                         1e308, -1e308, infinity, -infinity, 0x1p-149, 0x1.8p-149, -0x1.8p-149, 1 + 0x1p-24,
-                         1 - 0x1p-25, 16777217};
+  const f64 special[] = {0.0,      -0.0,       1,           0.1,          -0.1,        1e-46,   -1e-46,   5e-324,
+                         -5e-324,  1e39,       -1e39,       3.4028235e38, 1e308,       -1e308,  infinity, -infinity,
+                         0x1p-149, 0x1.8p-149, -0x1.8p-149, 1 + 0x1p-24,  1 - 0x1p-25, 16777217};
   for (u32 k = 0; k < 5000; k++) {
     f64 x = k < std::size(special) ? special[k] : bits<f64>(random.bits64());
     if (x != x) continue;

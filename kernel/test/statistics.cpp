@@ -15,8 +15,15 @@ using Limits = std::numeric_limits<f32>;
 
 /// Coordinates over all magnitudes, and those around a range's borders.
 std::vector<f32> probes(Random& random, f64 low, f64 high) {
-  std::vector<f32> all = {0.0f, -0.0f, Limits::infinity(), -Limits::infinity(), Limits::max(), Limits::lowest(),
-                          Limits::denorm_min(), -Limits::denorm_min(), Limits::min()};
+  std::vector<f32> all = {0.0f,
+                          -0.0f,
+                          Limits::infinity(),
+                          -Limits::infinity(),
+                          Limits::max(),
+                          Limits::lowest(),
+                          Limits::denorm_min(),
+                          -Limits::denorm_min(),
+                          Limits::min()};
   for (int k = 0; k < 300; k++) {
     f32 any = bits<f32>(u32(random.bits64()));
     if (any == any) all.push_back(any);
@@ -58,8 +65,8 @@ void check_axis(Random& random, f64 low, f64 high, u32 cells) {
 
 TEST("axis is monotone and clamped for any range") {
   Random random(4);
-  const f64 ends[] = {0, -0.0, 1, -1, 1000, 1e-45, -1e-45, 1e-38, 1e-300, 5e-324, 1e9, -1e9, 1e30, -1e38, 3.4e38,
-                      -3.4e38, 1e300, -1e300, 1.7e308, -1.7e308};
+  const f64 ends[] = {0,   -0.0, 1,    -1,    1000,   1e-45,   -1e-45, 1e-38,  1e-300,  5e-324,
+                      1e9, -1e9, 1e30, -1e38, 3.4e38, -3.4e38, 1e300,  -1e300, 1.7e308, -1.7e308};
   for (f64 low : ends) {
     for (f64 high : ends) {
       for (u32 cells : {1u, 2u, 3u, 255u, 4096u, 1u << 20, (1u << 23) + 1, 1u << 24}) {
