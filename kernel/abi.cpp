@@ -372,10 +372,10 @@ EXPORT(recover)() -> u32 {
 
 /// Everything as in a new instance, but that memory has grown. Returns how many bytes have been in use at most.
 /// What holds memory is made anew rather than emptied: so no list of what has to be reset can miss anything.
-COLD EXPORT(begin_anew)() -> size_t {
+SMALL EXPORT(begin_anew)() -> size_t {
   new (&ids) Ids;
   options = Settings{};
-  with_space([]<int D>(Space<D>& space) COLD { new (&space) Space<D>(ids, options); });
+  with_space([]<int D>(Space<D>& space) SMALL { new (&space) Space<D>(ids, options); });
   return heap::forget_all();
 }
 #endif

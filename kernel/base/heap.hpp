@@ -9,11 +9,11 @@
 
 // Code that runs once in a while: small rather than fast, and out of the way of the code that runs often.
 #if defined(__clang__)
-#define COLD __attribute__((noinline, minsize))
+#define SMALL __attribute__((noinline, minsize))
 // Before a loop of known length that is long enough without being unrolled.
 #define ROLLED _Pragma("clang loop unroll(disable)")
 #else
-#define COLD __attribute__((noinline, cold))
+#define SMALL __attribute__((noinline, cold))
 #define ROLLED  // g++ builds the tests only, and warns where its own pragma comes to nothing
 #endif
 // One copy for all callers: code that runs long each time it is called.
@@ -109,7 +109,7 @@ inline size_t forget_all() {
   return most;
 }
 
-COLD inline void* take(u32 c) {
+SMALL inline void* take(u32 c) {
   u8* block = waiting[c];
   if (block) {
     waiting[c] = load<u8*>(block);
@@ -122,7 +122,7 @@ COLD inline void* take(u32 c) {
   return block;
 }
 
-COLD inline void give(void* block, u32 c) {
+SMALL inline void give(void* block, u32 c) {
   used -= class_bytes(c);
   if (static_cast<u8*>(block) + class_bytes(c) == top) {
     highest = larger(highest, top);
@@ -203,7 +203,7 @@ class Block {
   ~Block() { release(); }  // the wasm's arrays are all global: they go with its memory
 #endif
 
-  COLD void release() {
+  SMALL void release() {
     if (at_) heap::give(at_, class_);
     at_ = nullptr;
   }

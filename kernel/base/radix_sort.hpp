@@ -58,7 +58,7 @@ class RadixSort {
   u32 index(u32 rank) const { return from_[rank].index; }
   u32 key(u32 rank) const { return from_[rank].key; }
 
-  COLD void release() {
+  SMALL void release() {
     from_.release();
     to_.release();
     counts_.release();

@@ -10,7 +10,7 @@ struct Axis {
   static constexpr f32 magic = 8388608;  // 2^23
   f32 low = 0, shrink = 0, scale = 0, last = 0;
 
-  COLD static Axis make(f64 low, f64 high, u32 cells) {
+  SMALL static Axis make(f64 low, f64 high, u32 cells) {
     Axis axis{f32(low), 1, 0, magic};
     f64 extent = high - low;
     if (!(extent > 0) || cells < 2) return axis;

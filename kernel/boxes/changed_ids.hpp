@@ -30,14 +30,14 @@ class ChangedIds {
   const u32* list() const { return list_.data(); }
 
   /// A box is deleted.
-  COLD void remove(u32 id) {
+  SMALL void remove(u32 id) {
     if (!kept_) return;
     gone_.grow(u64(gone_count_) + 1, gone_count_);
     gone_[gone_count_++] = id;
   }
 
   /// After an update of so many boxes, which has seen these slots change.
-  template <class IdOf> COLD void note(bool all, const u32* slots, u32 many, u32 boxes, IdOf id_of) {
+  template <class IdOf> SMALL void note(bool all, const u32* slots, u32 many, u32 boxes, IdOf id_of) {
     if (!kept_) return;
     if (all || count_ + gone_count_ + many > boxes) return note_all();
     for (u32 k = 0; k < gone_count_; k++) add(gone_[k], gone);
@@ -47,7 +47,7 @@ class ChangedIds {
     gone_count_ = 0;
   }
 
-  COLD void note_all() {
+  SMALL void note_all() {
     epoch_++;
     count_ = gone_count_ = 0;
   }

@@ -26,7 +26,7 @@ template <int D> class GapMap {
 
  public:
   bool plain() const { return plain_; }
-  COLD void reset() {
+  SMALL void reset() {
     pieces_ = 1;
     plain_ = true;
   }
@@ -70,7 +70,7 @@ template <int D> class GapMap {
   }
 
   /// Chooses a map for these boxes, of which those in `more` are to be looked at too; false where this one will do.
-  COLD bool choose(const f64* boxes, u32 count, const u32* more, u32 more_count) {
+  SMALL bool choose(const f64* boxes, u32 count, const u32* more, u32 more_count) {
     GapMap other;
     bool better = false;
     for (u32 a = 0; a < D; a++) {
@@ -124,7 +124,7 @@ template <int D> class GapMap {
 
   /// What is beyond float32 becomes its largest number, so that it is equal to others, and in doubt; only what has no end
   /// stays so, on the side where it has none: then differences of bounds are numbers.
-  COLD void bound(const f64* box, f32* to) const {
+  SMALL void bound(const f64* box, f32* to) const {
     for (u32 n = 0; n < width; n++) {
       bool is_low = n < D;
       f64 given = box[n];
@@ -135,7 +135,7 @@ template <int D> class GapMap {
   }
 
   /// Takes over an axis of another map.
-  COLD void take(const GapMap& other, u32 axis) {
+  SMALL void take(const GapMap& other, u32 axis) {
     for (u32 p = 0; p <= most_cuts; p++) {
       bool is = !other.plain_ && p < other.pieces_;
       axes_.from[p][axis] = is ? other.axes_.from[p][axis] : __builtin_nan("");
@@ -147,7 +147,7 @@ template <int D> class GapMap {
   }
 
   /// Takes the wide gaps between these ascending numbers out of an axis; gives how far from 0 what is left reaches.
-  COLD f64 cut(const f64* low, u32 n, f64 size, u32 axis) {
+  SMALL f64 cut(const f64* low, u32 n, f64 size, u32 axis) {
     u32 cuts[most_cuts], best = 0;  // places in front of which there is a gap, the widest first
     f64 left[most_cuts + 1];  // what is left without so many gaps
     left[0] = low[n - 1] - low[0];
@@ -194,7 +194,7 @@ template <int D> class GapMap {
   }
 
   /// Shell's, which is short.
-  COLD static void sort(f64* x, u32 n) {
+  SMALL static void sort(f64* x, u32 n) {
     for (u32 gap = 301; gap > 0; gap = gap / 9 * 4 + gap % 9 / 3) {
       for (u32 k = gap; k < n; k++) {
         f64 mine = x[k];

@@ -40,7 +40,7 @@ class Ids {
   }
 
   /// Numbers the slots, which have been in order so far, or are to get small numbers again.
-  COLD void number_slots() {
+  SMALL void number_slots() {
     if (clock_ == 0) {
       since_.reserve(larger(count_, 1u));
       for (u32 s = 0; s < count_; s++) since_[s] = s;
@@ -52,14 +52,14 @@ class Ids {
     clock_ = count_;
   }
 
-  COLD void sort_slots() {
+  SMALL void sort_slots() {
     sort_.begin(count_);
     for (u32 s = 0; s < count_; s++) sort_.put_bits(s, since_[s]);
     sort_.sort(count_);
   }
 
   /// Writes to the pages, which are there, in which slots these ids stand, or that they are free.
-  COLD void mark(const u32* ids, u32 count, bool on) {
+  SMALL void mark(const u32* ids, u32 count, bool on) {
     for (u32 s = 0; s < count; s++) page(ids[s])[ids[s] % page_size] = on ? s + 1 : 0;
   }
 
@@ -130,7 +130,7 @@ class Ids {
   u32 clock() const { return clock_; }
 
   /// The ids in the order in which they came.
-  COLD void in_order(Buffer<u32>& to) {
+  SMALL void in_order(Buffer<u32>& to) {
     to.reserve(larger(count_, 1u));
     if (clock_ && count_) sort_slots();
     for (u32 k = 0; k < count_; k++) to[k] = id(clock_ ? sort_.index(k) : k);
@@ -139,7 +139,7 @@ class Ids {
 
   /// From now on the ids are these, in this order, or came as `since` says; false, and nothing has changed, where they are
   /// not ids or one of them comes twice.
-  COLD bool replace(const u32* ids, u32 count, const u32* since, u32 clock) {
+  SMALL bool replace(const u32* ids, u32 count, const u32* since, u32 clock) {
     for (u32 s = 0; s < count; s++) {
       if (ids[s] >= page_size * page_count) return false;
     }

@@ -18,10 +18,10 @@ template <class T> class PerBox {
   const T* data() const { return some_ ? values_.data() : nullptr; }
   T of(u32 slot) const { return some_ ? values_[slot] : T(0); }
 
-  COLD void clear() { some_ = false; }
+  SMALL void clear() { some_ = false; }
 
   /// Gives a slot one, with room for `capacity` of them.
-  COLD void set(u32 slot, T value, u64 capacity) {
+  SMALL void set(u32 slot, T value, u64 capacity) {
     if (!some_) values_.reserve(capacity);
     for (u64 s = 0; !some_ && s < capacity; s++) values_[s] = 0;
     some_ = changed_ = true;
@@ -29,20 +29,20 @@ template <class T> class PerBox {
   }
 
   /// Room for the numbers that `replace` will put in the place of all.
-  COLD T* stage(u32 count) { return staged_.reserve(larger(count, 1u)); }
-  COLD void replace() {
+  SMALL T* stage(u32 count) { return staged_.reserve(larger(count, 1u)); }
+  SMALL void replace() {
     values_.swap(staged_);
     some_ = changed_ = true;
   }
 
   // The slots' doings, as in Space.
-  COLD void make_room(u64 count, u32 keep) {
+  SMALL void make_room(u64 count, u32 keep) {
     if (some_) values_.grow(count, keep);
   }
   u64 room() const { return values_.capacity(); }
-  COLD void insert(u32 slot) { move_in(slot, 0); }
-  COLD void move(u32 from, u32 to) { move_in(to, of(from)); }
-  COLD void renumber(const Ids& ids, u32 count) {
+  SMALL void insert(u32 slot) { move_in(slot, 0); }
+  SMALL void move(u32 from, u32 to) { move_in(to, of(from)); }
+  SMALL void renumber(const Ids& ids, u32 count) {
     if (!some_) return;
     Buffer<T>& moved = staged_;
     moved.reserve(larger(count, 1u));

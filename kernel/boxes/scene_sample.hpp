@@ -19,7 +19,7 @@ template <int D> struct SceneSample {
   f64 crowding;         // 1: spread evenly
 
   /// The axis along which the world is longest, measured in boxes.
-  COLD int longest() const {
+  SMALL int longest() const {
     int best = 0;
     f64 most = -1;
     for (int a = 0; a < D; a++) {
@@ -53,7 +53,7 @@ inline f32 sorted[most_samples];
 
 /// The k-th smallest of n values, which are reordered (quickselect with the median of three).
 /// Where they are points of `width` coordinates: of those along one axis.
-template <int width = 1> COLD f32 select(f32* points, i32 n, i32 k, int axis = 0) {
+template <int width = 1> SMALL f32 select(f32* points, i32 n, i32 k, int axis = 0) {
   f32* v = points + axis;
   i32 from = 0, to = n - 1;
   while (from < to) {
@@ -100,7 +100,7 @@ inline u32 samples_of(u32 count) { return smaller(count, smaller(larger(count / 
 inline bool is_finite(f32 x) { return x - x == 0; }
 
 /// Extents of the finite ones among n values, without outliers.
-COLD inline void extents(const f32* v, u32 n, f64& low, f64& high) {
+SMALL inline void extents(const f32* v, u32 n, f64& low, f64& high) {
   // Finite values near the largest float would overflow in float32; none does in double.
   f64 least = __builtin_inf(), most = -__builtin_inf(), sum = 0, squares = 0;
   for (u32 k = 0; k < n; k++) {
@@ -140,7 +140,7 @@ COLD inline void extents(const f32* v, u32 n, f64& low, f64& high) {
 }
 
 /// After `measure` of `count` items: the size along an axis that this share of the sample does not exceed.
-COLD inline f64 common_size(int axis, int dimensions, u32 count, f64 share) {
+SMALL inline f64 common_size(int axis, int dimensions, u32 count, f64 share) {
   i32 n = i32(samples_of(count)), kept = 0;
   for (i32 k = 0; k < n; k++) {
     f32 size = sample[dimensions + axis][k] - sample[axis][k];

@@ -68,12 +68,12 @@ template <int D> class CandidateList {
   }
 
   /// Gives up the list, but not the memory.
-  COLD void forget() {
+  SMALL void forget() {
     count_ = resting_ = 0;
     candidates_.count = extra_.count = settled_.count = 0;
   }
 
-  COLD void release() {
+  SMALL void release() {
     forget();
     regions_.release();
     bases_.release();
@@ -87,7 +87,7 @@ template <int D> class CandidateList {
   }
 
   /// A list of these boxes, with this margin. `candidates`: so many it will hardly exceed. `some_rest`: not all move.
-  COLD void build(const Scene<D>& scene, f32 margin, u64 candidates, bool some_rest, const Shift& common) {
+  SMALL void build(const Scene<D>& scene, f32 margin, u64 candidates, bool some_rest, const Shift& common) {
     u32 n = scene.count, had = smaller(count_, n);
     make_room(n, had);
     if (had == 0 && some_rest) anew_.each_same(scene, [&](u32 slot) { tags_[slot] = rests; });
@@ -115,7 +115,7 @@ template <int D> class CandidateList {
 
   /// Sees to it that boxes are in their regions; false where a new list is due, since that would take more than `most` work
   /// for each box. `size`: of boxes.
-  COLD bool follow(const Scene<D>& scene, const Shift& common, f64 most, f32 size) {
+  SMALL bool follow(const Scene<D>& scene, const Shift& common, f64 most, f32 size) {
     u32 n = scene.count, had = count_, both = smaller(n, had);
     u32* list = late_.reserve(2 * u64(n) + 4);
     Shift shift = common_.after(common.back());
@@ -148,7 +148,7 @@ template <int D> class CandidateList {
   }
 
   /// Reports what is settled, and the candidates that overlap. Only here does a pair become one.
-  COLD void report(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
+  SMALL void report(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
     u64 head = settled_.count, same = smaller(smaller(pairs.stable, head_), head);
     pairs.same = same == head && head == head_ && resting_ == count_ && late_count_ + candidates_.count == 0;
     u64* out = pairs.room(pairs.list.data() + same, head - same);
@@ -168,7 +168,7 @@ template <int D> class CandidateList {
 
   // --- a list is made ---
 
-  COLD void make_room(u64 n, u64 had) {
+  SMALL void make_room(u64 n, u64 had) {
     regions_.grow(n * width + padding, had * width);
     tags_.grow(n, had);
     if (n > had) __builtin_memset(tags_.data() + had, 0, (n - had) * sizeof(u32));
@@ -278,7 +278,7 @@ template <int D> class CandidateList {
   }
 
   /// Adds those to the late whose exclusion bits or group have changed, which makes them as good as new.
-  COLD void refilter(const Scene<D>& scene, u32 until, u32* list) {
+  SMALL void refilter(const Scene<D>& scene, u32 until, u32* list) {
     filtered_ = scene.excluded != nullptr;
     bool were_grouped = grouped_;
     grouped_ = scene.groups != nullptr;
@@ -315,7 +315,7 @@ template <int D> class CandidateList {
   }
 
   /// Gives new regions to the late; those from slot `had` on had none. False where they meet more regions than `enough`.
-  COLD bool serve(const Scene<D>& scene, u32* list, u32 had, u64 enough, f32 margin) {
+  SMALL bool serve(const Scene<D>& scene, u32* list, u32 had, u64 enough, f32 margin) {
     u32 many = 0, were = 0;
     for (u32 k = 0; k < late_count_; k++) {
       u32 slot = list[k], tag = tags_[slot];
@@ -346,7 +346,7 @@ template <int D> class CandidateList {
   }
 
   /// The settled pairs of boxes that do not rest become candidates.
-  COLD void unsettle() {
+  SMALL void unsettle() {
     u64* list = settled_.list.data();
     u64 left = 0, many = settled_.count;
     u64* out = candidates_.list.data() + candidates_.count;

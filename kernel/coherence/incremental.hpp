@@ -46,11 +46,11 @@ template <int D> class Incremental {
     pairs.same = false;
   }
 
-  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     anew_.structure(boxes, count, list_.is_empty() ? stats : list_.built());
   }
 
-  COLD void release() {
+  SMALL void release() {
     forget();
     watch_.release();
     list_.release();
@@ -64,7 +64,7 @@ template <int D> class Incremental {
  private:
   f32 size() const { return f32(prospect_.smallest()); }
 
-  COLD bool find(const Scene<D>& scene, f32 margin, Pairs& pairs, Stats& stats) {
+  SMALL bool find(const Scene<D>& scene, f32 margin, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     if (n < tuning.few) {
       forget();
@@ -99,7 +99,7 @@ template <int D> class Incremental {
     return true;
   }
 
-  COLD Plan choose(const Scene<D>& scene) {
+  SMALL Plan choose(const Scene<D>& scene) {
     prospect_.looked = scene.listed() ? f64(scene.changes->count()) / scene.count : 1;
     prospect_.rest = watch_.resting();
     return watch_.plan(prospect_, tuning);
@@ -116,7 +116,7 @@ template <int D> class Incremental {
     if (scene.count >= tuning.few) learn_sizes(scene.count, 0);
   }
 
-  COLD void build(const Scene<D>& scene, const Plan& plan) {
+  SMALL void build(const Scene<D>& scene, const Plan& plan) {
     f64 n = scene.count, growth = plan.growth;
     u64 most = u64(1.25 * n * prospect_.pairs * prospect_.widening(growth));  // it will hardly have more candidates
     list_.build(scene, plan.margin, most, watch_.resting() > 0, watch_.common());
@@ -135,7 +135,7 @@ template <int D> class Incremental {
   }
 
   /// Of boxes on average, whose regions have this margin; or an eighth of what they are apart.
-  COLD void learn_sizes(u32 boxes, f64 margin) {
+  SMALL void learn_sizes(u32 boxes, f64 margin) {
     f64 low[D], high[D], sizes[D], across = D == 2 ? __builtin_sqrt(f64(boxes)) : cube_root(boxes);
     anew_.bounds(low, high, sizes);
     for (int a = 0; a < D; a++) {
@@ -145,13 +145,13 @@ template <int D> class Incremental {
   }
 
   /// Gives up what is kept, but not the memory.
-  COLD void forget() {
+  SMALL void forget() {
     if (!list_.is_empty()) pause_ = 0;
     list_.forget();
     ended_ = false;
   }
 
-  COLD void give_up() {
+  SMALL void give_up() {
     forget();
     watch_.forget();
     pause_ = pauses_;
@@ -159,7 +159,7 @@ template <int D> class Incremental {
   }
 
   /// What the update has cost, and whether the list is worth going on with.
-  COLD void account(const Scene<D>& scene) {
+  SMALL void account(const Scene<D>& scene) {
     f64 n = scene.count;
     f64 late = list_.late_work() / n;
     f64 looked = scene.listed() ? scene.changes->count() : scene.count;

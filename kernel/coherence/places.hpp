@@ -27,7 +27,7 @@ template <int D> class Places {
 
  public:
   /// Empty grids for so many boxes, whose lower corners have these bounds.
-  COLD void divide(const f64* low, const f64* high, u32 boxes) {
+  SMALL void divide(const f64* low, const f64* high, u32 boxes) {
     f64 cells = f64(boxes) / boxes_a_cell;
     u32 side = u32(larger(1.0, D == 2 ? __builtin_sqrt(cells) : cube_root(cells))), all = 0;
     for (grid_count_ = 0; side > 0; side /= 2) {
@@ -88,7 +88,7 @@ template <int D> class Places {
     }
   }
 
-  COLD void release() {
+  SMALL void release() {
     heads_.release();
     next_.release();
     cells_.release();

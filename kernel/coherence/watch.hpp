@@ -92,7 +92,7 @@ template <int D> class Watch {
   bool is_new() const { return many_ > 0 && age_ == 0; }
   /// The next look is the first one of new samples.
   void forget() { many_ = 0; }
-  COLD void release() {
+  SMALL void release() {
     many_ = known_ = 0;
     samples_.release();
     horizons_.release();
@@ -113,7 +113,7 @@ template <int D> class Watch {
   }
 
   /// Sees where the boxes are in this update. `size`: of a box; what moves by more at once jumps.
-  COLD void look(const Scene<D>& scene, f32 size) {
+  SMALL void look(const Scene<D>& scene, f32 size) {
     bool fits = many_ > 0 && scene.count >= smallest_;
     if (!fits) return begin(scene);
     age_++;
@@ -138,7 +138,7 @@ template <int D> class Watch {
   }
 
   /// The margin of least work.
-  COLD Plan plan(const Prospect<D>& prospect, const Tuning<D>& tuning) const {
+  SMALL Plan plan(const Prospect<D>& prospect, const Tuning<D>& tuning) const {
     Plan best;
     f64 scale = larger(prospect.smallest(), 1e-30), growths[buckets];
     for (u32 m = 0; m < buckets; m++) growths[m] = growth(scale * edge(m), prospect);
@@ -150,7 +150,7 @@ template <int D> class Watch {
 
   /// How many times as many candidates as pairs a margin makes, of boxes that stand anywhere: by some of the sample, two
   /// and two. Sizes on average would not say: boxes that are long along different axes are thick on average.
-  COLD f64 growth(f64 margin, const Prospect<D>& prospect) const {
+  SMALL f64 growth(f64 margin, const Prospect<D>& prospect) const {
     f64 with = 0, without = 0;
     for (u32 k = 0; k + 1 < many_ && k < 2 * voters; k += 2) {
       const Sample &one = samples_[k], &other = samples_[k + 1];
@@ -176,7 +176,7 @@ template <int D> class Watch {
     return bits<f32x4>(bits<u32x4>(v) & u32x4{most, most, D == 2 ? 0 : most, 0});
   }
 
-  COLD void begin(const Scene<D>& scene) {
+  SMALL void begin(const Scene<D>& scene) {
     samples_.reserve(most);
     horizons_.reserve(horizons);
     many_ = smaller(most, larger(scene.count / 16, 32u));
@@ -210,7 +210,7 @@ template <int D> class Watch {
   }
 
   /// Where some of the sample have gone: the median of the lower half along each axis, and that of the upper half.
-  COLD Shift vote(const Scene<D>& scene) const {
+  SMALL Shift vote(const Scene<D>& scene) const {
     Shift found;
     u32 step = larger(1u, many_ / voters);
     for (int a = 0; a < D; a++) {
@@ -242,7 +242,7 @@ template <int D> class Watch {
   }
 
   /// Whether it changes that common motion is taken out.
-  COLD bool judge(const Scene<D>& scene, const Shift& shift, f32 size) {
+  SMALL bool judge(const Scene<D>& scene, const Shift& shift, f32 size) {
     f64 with = 0, without = 0;
     for (u32 k = 0; k < many_; k++) {
       f32x4 at = samples_[k].at[0], now = load<f32x4>(scene.box(samples_[k].slot)), most = splat(4 * size);
@@ -266,8 +266,8 @@ template <int D> class Watch {
   }
 
   /// `lates`: how many were late by half as many updates; `bursts`: how many in one of them at most.
-  COLD void weigh(u32 h, f64 scale, const f64* growths, u32* lates, f64* bursts, const Prospect<D>& prospect,
-                  const Tuning<D>& tuning, Plan& best) const {
+  SMALL void weigh(u32 h, f64 scale, const f64* growths, u32* lates, f64* bursts, const Prospect<D>& prospect,
+                   const Tuning<D>& tuning, Plan& best) const {
     u32 tail[buckets + 1] = {};  // how many reach into a bucket
     f64 jumps = 0, steady = 0, updates = 1u << h;
     f32 unit = f32(1 / scale);

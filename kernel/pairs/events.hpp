@@ -24,7 +24,7 @@ class Events {
   Pairs began, ended;  // in the order of the pairs now, and of the pairs before
 
   /// Room for ids up to this one to be deleted.
-  COLD void make_room(u32 id) {
+  SMALL void make_room(u32 id) {
     u32 words = id / 32 + 1;
     if (words <= gone_words_) return;
     gone_.grow(words, gone_words_);
@@ -41,7 +41,7 @@ class Events {
 
   /// The pairs of the last update, and which of their boxes were deleted since, for a snapshot.
   u64 count() const { return before_.count + ended.count; }
-  COLD void save(u64* to) const {
+  SMALL void save(u64* to) const {
     u64 next = 0;  // of those that began, which are in the same order
     for (u64 p = 0; p < ended.count; p++) to[before_.count + p] = ended.list[p] | has_ended;
     for (u64 p = 0; p < before_.count; p++) {
@@ -54,13 +54,13 @@ class Events {
   }
 
   /// Room to restore so many pairs, whose ids are all below this one.
-  COLD void stage(u64 pairs, u32 ids) {
+  SMALL void stage(u64 pairs, u32 ids) {
     before_.list.grow(larger(pairs, u64(1)), before_.count);
     began.list.grow(larger(pairs, u64(1)), began.count);
     ended.list.grow(larger(pairs, u64(1)), ended.count);
     make_room(ids);
   }
-  COLD void restore(const u64* from, u64 count) {
+  SMALL void restore(const u64* from, u64 count) {
     if (any_gone_) __builtin_memset(gone_.data(), 0, gone_words_ * sizeof(u32));
     any_gone_ = false;
     before_.count = began.count = ended.count = 0;

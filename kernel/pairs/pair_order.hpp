@@ -48,7 +48,7 @@ class PairOrder {
     }
   }
 
-  COLD void release() {
+  SMALL void release() {
     spare_.release();
     counts_.release();
   }

@@ -14,7 +14,7 @@ class Partners {
   u32 bucket(u32 id) const { return (id ^ (id >> log_) * 0x9e3779b1u) & ((1u << log_) - 1); }
 
  public:
-  COLD void build(const Pairs& pairs) {
+  SMALL void build(const Pairs& pairs) {
     log_ = 6;
     while (log_ < 24 && (u64(1) << log_) < 2 * pairs.count) log_++;
     u32 buckets = 1u << log_;
@@ -35,7 +35,7 @@ class Partners {
   }
 
   /// Writes the ids that are in a pair with this one, in the order of the pairs; returns how many.
-  COLD u32 of(u32 id, Buffer<u32>& answers) const {
+  SMALL u32 of(u32 id, Buffer<u32>& answers) const {
     u32 b = bucket(id), count = 0;
     u32 from = b ? ends_[b - 1] : 0, to = ends_[b];
     answers.reserve(to - from);

@@ -35,10 +35,10 @@ template <int D> class Bulk {
   const u32* offsets() const { return offsets_.data(); }
 
   /// Room for the numbers of questions.
-  COLD f64* stage(u32 numbers) { return given_.reserve(numbers); }
+  SMALL f64* stage(u32 numbers) { return given_.reserve(numbers); }
 
   /// The first question whose numbers are bad, or -1.
-  COLD i32 first_bad(Asks kind, u32 count) const {
+  SMALL i32 first_bad(Asks kind, u32 count) const {
     Question<D> asked;
     for (u32 k = 0; k < count; k++) {
       if (!read(kind, k, asked)) return i32(k);
@@ -48,7 +48,7 @@ template <int D> class Bulk {
 
   /// Answers so many questions, which are good, each with at most so many boxes where it asks for an order. What they
   /// have in common stands in `asked`.
-  COLD void answer(const Index<D>& index, Question<D> asked, Asks kind, u32 count, u32 most, Hits& best) {
+  SMALL void answer(const Index<D>& index, Question<D> asked, Asks kind, u32 count, u32 most, Hits& best) {
     offsets_.reserve(u64(count) + 1)[0] = 0;
     looks = 0;
     f64 limit = asked.limit;
@@ -63,7 +63,7 @@ template <int D> class Bulk {
 
   /// Rows of what the last update saw, each of which has a slot: in place of it comes the id, or -1 where the box meets
   /// nobody, and behind it the box's numbers, as far as it reaches, its layer and mask.
-  COLD void fill_rows(const Index<D>& index, u32 count) {
+  SMALL void fill_rows(const Index<D>& index, u32 count) {
     f64* row = given_.data();
     for (u32 k = 0; k < count; k++, row += width + 3) {
       u32 slot = u32(row[0]);
@@ -79,12 +79,12 @@ template <int D> class Bulk {
   }
 
   /// As if so many questions had found nothing.
-  COLD void answer_nothing(u32 count) {
+  SMALL void answer_nothing(u32 count) {
     u32* offsets = offsets_.reserve(u64(count) + 1);
     __builtin_memset(offsets, 0, (u64(count) + 1) * sizeof(u32));
   }
 
-  COLD void release() {
+  SMALL void release() {
     given_.release();
     offsets_.release();
     ids.release();

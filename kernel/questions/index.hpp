@@ -106,8 +106,8 @@ template <int D> class Index {
   }
 
   /// Copies the boxes of a space.
-  COLD void see(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
-                const f64* world) {
+  SMALL void see(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
+                 const f64* world) {
     u32 n = ids.count();
     count_ = 0;
     known_ = smaller(known_, n);
@@ -134,8 +134,8 @@ template <int D> class Index {
   }
 
   /// Takes over the slots that have changed, of which new ones are some: false where all has to be seen anew.
-  COLD bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
-                   const u32* slots, u32 many, const f64* world) {
+  SMALL bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
+                    const u32* slots, u32 many, const f64* world) {
     if (reached_ != (reaches != nullptr) || world_ != world || rounded_ != (exact || world_) || named_ != !ids.same() ||
         filtered_ != (rules != nullptr))
       return false;
@@ -210,7 +210,7 @@ template <int D> class Index {
   }
 
   /// After memory has run out: what was seen stays, what was made of it goes.
-  COLD void forget() {
+  SMALL void forget() {
     slots_.release();
     placed_ids_.release();
     places_.release();
@@ -220,7 +220,7 @@ template <int D> class Index {
     built_ = false;
   }
 
-  COLD void release() {
+  SMALL void release() {
     boxes_.release();
     exact_.release();
     ids_.release();
@@ -298,7 +298,7 @@ template <int D> class Index {
   }
 
   /// Puts a box where it is found: in its place, or behind the others.
-  COLD void move(u32 slot) {
+  SMALL void move(u32 slot) {
     u32 place = places_[slot];
     if (place != nowhere && (place >= sorted_ || within_block(slot, place))) {
       write(slot, place);
@@ -379,7 +379,7 @@ template <int D> class Index {
 
   /// Fills slots_ with those that are in the order, as they stand there, and then with the others. False where boxes
   /// that stand together there no longer do in space.
-  COLD bool keep_order() {
+  SMALL bool keep_order() {
     make_room(used_);
     bool same = known_ == count_ && used_ == count_ && !holes_ && !filtered_;
     if (same) sorted_ = count_;
@@ -387,7 +387,7 @@ template <int D> class Index {
     return group_width() <= most_wider * width_;
   }
 
-  COLD void fill_up() {
+  SMALL void fill_up() {
     u32 kept = 0;
     for (u32 place = 0; place < used_; place++) {
       u32 slot = slots_[place];
@@ -400,7 +400,7 @@ template <int D> class Index {
   }
 
   /// How wide groups of eight are in the order, on average of a sample. What is infinite does not count.
-  COLD f32 group_width() const {
+  SMALL f32 group_width() const {
     u32 groups = sorted_ / 8, step = groups / sampled + 1, seen = 0;
     f32 sum = 0;
     for (u32 g = 0; g < groups; g += step, seen++) {

@@ -43,7 +43,7 @@ template <int D> class PlaneQuery {
   u32 looks() const { return looks_; }
 
   /// Writes the ids of the boxes that are not behind a plane: as Queries::area.
-  COLD u32 search(u32& from, u32 most, Buffer<u32>& answers) {
+  SMALL u32 search(u32& from, u32 most, Buffer<u32>& answers) {
     from_ = from;
     most_ = most;
     from = walk(index_.top(), 0, (1u << planes_.count) - 1, answers) ? index_.places() : from_;
@@ -81,7 +81,7 @@ template <int D> class PlaneQuery {
   }
 
   /// Which of the planes cut a box in the numbers it was given with; or `behind`.
-  COLD u32 exactly(u32 place, u32 planes) const {
+  SMALL u32 exactly(u32 place, u32 planes) const {
     f64 box[2 * D];
     index_.box(place, box);
     u32 cut = 0;

@@ -27,7 +27,7 @@ template <int D> struct Question {
   static constexpr f64 within = -2;  // in place of a radius: boxes are to be within the box, wholly
 
   /// Sets `length`, without overflow. A ray ranks by distance.
-  COLD void measure_way(bool is_ray) {
+  SMALL void measure_way(bool is_ray) {
     f64 most = 0, sum = 0;
     for (int a = 0; a < D; a++) most = larger(most, __builtin_fabs(along[a]));
     for (int a = 0; a < D && most > 0; a++) sum += (along[a] / most) * (along[a] / most);
@@ -36,7 +36,7 @@ template <int D> struct Question {
   }
 
   /// In a world that wraps around, once the way is measured. A ray without a limit ends where it has gone once around.
-  COLD void wrap(const f64* world) {
+  SMALL void wrap(const f64* world) {
     Copies::reach_around(world, D, lo, hi, along);
     f64 once = __builtin_inf();
     for (int a = 0; a < D; a++) once = smaller(once, world[a] / __builtin_fabs(along[a]));
@@ -61,7 +61,7 @@ template <int D> class Wanted {
   }
 
  private:
-  COLD bool meets(const Rule& its) const { return (own_ & its.mask) && (its.layer & mask_); }
+  SMALL bool meets(const Rule& its) const { return (own_ & its.mask) && (its.layer & mask_); }
 };
 
 struct Hit {
@@ -85,7 +85,7 @@ class Hits {
   bool after_ = false;
   Hit last_ = {};
 
-  COLD void sift_down(u32 at, u32 count, Hit hit) {
+  SMALL void sift_down(u32 at, u32 count, Hit hit) {
     for (u32 child; (child = 2 * at + 1) < count; at = child) {
       if (child + 1 < count && list_[child] < list_[child + 1]) child++;
       if (!(hit < list_[child])) break;
@@ -94,7 +94,7 @@ class Hits {
     list_[at] = hit;
   }
 
-  COLD void sift_up(u32 at, Hit hit) {
+  SMALL void sift_up(u32 at, Hit hit) {
     for (u32 above; at > 0 && list_[above = (at - 1) / 2] < hit; at = above) list_[at] = list_[above];
     list_[at] = hit;
   }
@@ -134,7 +134,7 @@ class Hits {
   }
 
   /// Puts them in order, the least first; returns how many.
-  COLD u32 finish() {
+  SMALL u32 finish() {
     for (u32 n = most_ <= few ? 0 : count_; n-- > 1;) {
       Hit least = list_[n];
       list_[n] = list_[0];
@@ -143,7 +143,7 @@ class Hits {
     return count_;
   }
 
-  COLD void release() { list_.release(); }
+  SMALL void release() { list_.release(); }
 };
 
 template <int D> class Queries {
@@ -188,7 +188,7 @@ template <int D> class Queries {
   /// Writes the ids of the boxes that touch the box or the circle, in the order of the index from place `from` on, at
   /// most so many, behind those found before. Returns how many; `from` becomes the place to go on from, or the number of
   /// boxes.
-  COLD u32 area(u32& from, u32 most, Buffer<u32>& answers, u32 found = 0) {
+  SMALL u32 area(u32& from, u32 most, Buffer<u32>& answers, u32 found = 0) {
     most_ = most;
     found_ = found;
     // In a world that wraps around the places of each turn come behind those of the turn before.
@@ -205,7 +205,7 @@ template <int D> class Queries {
   }
 
   /// The first boxes that the moving box meets, by how far it has moved then.
-  COLD void cast(Hits& hits) {
+  SMALL void cast(Hits& hits) {
     scale_ = (1 + 1e-6) / asked_.length;
     for (int a = 0; a < D; a++) {
       // The way to the limit, and some more for the roundings.
@@ -219,7 +219,7 @@ template <int D> class Queries {
   }
 
   /// The nearest boxes to the box, most often a point.
-  COLD void near(Hits& hits) {
+  SMALL void near(Hits& hits) {
     for (u32 turn = 0; turn < turns(); turn++) {
       if (world_ && !copies_.take(turn)) continue;
       for (int a = 0; a < D; a++) {
@@ -237,7 +237,7 @@ template <int D> class Queries {
 
   u32 turns() const { return world_ ? Copies::turns(D) : 1; }
 
-  COLD void cast_once() {
+  SMALL void cast_once() {
     aim_ahead();
     search<true>(index_.top(), 0, *hits_);
   }
@@ -271,7 +271,7 @@ template <int D> class Queries {
   }
 
   /// Whether the area touches a box here, in a world that wraps around, and not elsewhere before.
-  COLD bool touches_around(const f64* box) const {
+  SMALL bool touches_around(const f64* box) const {
     if (!is_circle()) return copies_.touches(box, asked_.radius == Question<D>::within, asked_.touching);
     f64 away[D], squared = 0;
     if (!copies_.away(box, away)) return false;
@@ -332,7 +332,7 @@ template <int D> class Queries {
   }
 
   /// Of eight boxes that touch in float32, those that touch.
-  COLD u32 touching(u32 number, u32 left) const {
+  SMALL u32 touching(u32 number, u32 left) const {
     f64 ranks[8];
     if (world_) {
       u32 touching = 0;
@@ -530,7 +530,7 @@ template <int D> class Queries {
     }
   }
 
-  COLD void offer_near_around(u32 number, Hits& hits) const {
+  SMALL void offer_near_around(u32 number, Hits& hits) const {
     u32 least[8];
     for (u32 left = least_distances(index_.block(0, number), hits.limit, least); left; left &= left - 1) {
       u32 place = number * 8 + u32(__builtin_ctz(left));
@@ -549,7 +549,7 @@ template <int D> class Queries {
   }
 
   /// The same in a world that wraps around; also false where it meets the box at another turn before.
-  COLD bool meets_around(const f64* box, u32 id, Hit& hit, f64 limit) const {
+  SMALL bool meets_around(const f64* box, u32 id, Hit& hit, f64 limit) const {
     f64 copy[2 * D];
     copies_.copy(box, copy);
     if (!meets_box(copy, id, hit) || hit.rank > limit) return false;
@@ -576,7 +576,7 @@ template <int D> class Queries {
   }
 
   /// Offers boxes by how far the moving box moves until it meets them.
-  COLD void offer_ahead(u32 number, u32 left, Hits& hits) const {
+  SMALL void offer_ahead(u32 number, u32 left, Hits& hits) const {
     for (; left; left &= left - 1) {
       u32 place = number * 8 + u32(__builtin_ctz(left));
       if (!wanted(place)) continue;

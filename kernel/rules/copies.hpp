@@ -24,7 +24,7 @@ class Copies {
   static constexpr u32 turns(int axes) { return axes == 2 ? 9 : 27; }
 
   /// What is as long as the world along an axis reaches all around, and moves along it in vain.
-  COLD static void reach_around(const f64* world, int axes, f64* lo, f64* hi, f64* along) {
+  SMALL static void reach_around(const f64* world, int axes, f64* lo, f64* hi, f64* along) {
     for (int a = 0; a < axes; a++) {
       if (!Span::of(lo[a], hi[a], world[a]).full) continue;
       lo[a] = -__builtin_inf();
@@ -34,7 +34,7 @@ class Copies {
   }
 
   /// Where a box is searched, rounded outward.
-  COLD static void place(const f64* world, int axes, const f64* box, f32* to) {
+  SMALL static void place(const f64* world, int axes, const f64* box, f32* to) {
     for (int a = 0; a < axes; a++) {
       f64 lo = box[a], hi = box[axes + a];
       Span span = Span::of(lo, hi, world[a]);
@@ -44,7 +44,7 @@ class Copies {
     }
   }
 
-  COLD void begin(const f64* world, int axes, const f64* lo, const f64* hi) {
+  SMALL void begin(const f64* world, int axes, const f64* lo, const f64* hi) {
     world_ = world;
     axes_ = axes;
     lo_ = lo;
@@ -57,7 +57,7 @@ class Copies {
   }
 
   /// Takes the n-th turn; false where it would be one along an axis along which the question reaches all around.
-  COLD bool take(u32 n) {
+  SMALL bool take(u32 n) {
     for (int a = 0; a < axes_; a++, n /= 3) {
       turn_[a] = number_of(n % 3);
       if (turn_[a] != 0 && span_[a].full) return false;
@@ -66,7 +66,7 @@ class Copies {
   }
 
   /// Takes each turn at which what moves by `way` may meet boxes, and calls `at`.
-  COLD void pass(const f64* way, void (*at)(void*), void* given, int a = 0, f64 from = 0, f64 until = 1) {
+  SMALL void pass(const f64* way, void (*at)(void*), void* given, int a = 0, f64 from = 0, f64 until = 1) {
     if (a == axes_) return at(given);
     if (span_[a].full) return pass(way, at, given, a + 1, from, until);
     constexpr f64 more = 1e-9;
@@ -87,14 +87,14 @@ class Copies {
     }
   }
 
-  COLD bool same_turn(const Copies& other) const {
+  SMALL bool same_turn(const Copies& other) const {
     bool same = true;
     for (int a = 0; a < axes_; a++) same &= turn_[a] == other.turn_[a];
     return same;
   }
 
   /// Where the question is looked for at this turn, rounded outward: its lower or its upper end.
-  COLD f64 end(int a, bool upper) const {
+  SMALL f64 end(int a, bool upper) const {
     if (span_[a].full) return upper ? __builtin_inf() : -__builtin_inf();
     f64 moved = span_[a].low + span_[a].shift + turn_[a] * world_[a];
     f64 more = slack_of(lo_[a], hi_[a], world_[a] * (2 + __builtin_fabs(turn_[a])));
@@ -102,12 +102,12 @@ class Copies {
   }
 
   /// The numbers of a box that is met at this turn, where the question was asked.
-  COLD void copy(const f64* box, f64* to) const {
+  SMALL void copy(const f64* box, f64* to) const {
     for (int a = 0; a < axes_; a++) copy(a, turn_[a], box, to[a], to[axes_ + a]);
   }
 
   /// Whether the question overlaps a box, or holds it, at this turn and at none before. `touching`: touching is enough.
-  COLD bool touches(const f64* box, bool holds, bool touching) const {
+  SMALL bool touches(const f64* box, bool holds, bool touching) const {
     for (int a = 0; a < axes_; a++) {
       Span its = Span::of(box[a], box[axes_ + a], world_[a]);
       u32 n = 0;
@@ -118,7 +118,7 @@ class Copies {
   }
 
   /// Whether the question overlaps a box at any turn.
-  COLD bool meets(const f64* box, bool touching) const {
+  SMALL bool meets(const f64* box, bool touching) const {
     bool all = true;
     for (int a = 0; a < axes_; a++) {
       Span its = Span::of(box[a], box[axes_ + a], world_[a]);
@@ -130,7 +130,7 @@ class Copies {
   }
 
   /// How far a box is away along each axis; false where it is nearer at another turn.
-  COLD bool away(const f64* box, f64* to) const {
+  SMALL bool away(const f64* box, f64* to) const {
     for (int a = 0; a < axes_; a++) {
       u32 best = 0;
       for (u32 n = 0; n < 3; n++) {
@@ -152,19 +152,19 @@ class Copies {
 
   static f64 slack_of(f64 lo, f64 hi, f64 world) { return slack * (world + __builtin_fabs(lo) + __builtin_fabs(hi)); }
 
-  COLD static f64 worlds_of(f64 lo, const Span& span, f64 world) {
+  SMALL static f64 worlds_of(f64 lo, const Span& span, f64 world) {
     if (span.full) return 0;
     return __builtin_floor((lo - span.low) / world + 0.5) - (span.shift > 0 ? 1 : 0);
   }
 
-  COLD void copy(int a, f64 turn, const f64* box, f64& lo, f64& hi) const {
+  SMALL void copy(int a, f64 turn, const f64* box, f64& lo, f64& hi) const {
     Span its = Span::of(box[a], box[axes_ + a], world_[a]);
     f64 world = world_[a], moved = (worlds_[a] - worlds_of(box[a], its, world) - turn) * world;
     lo = its.full ? -__builtin_inf() : box[a] + moved;
     hi = its.full ? __builtin_inf() : box[axes_ + a] + moved;
   }
 
-  COLD bool touches(int a, const Span& its, f64 turn, bool holds, bool touching) const {
+  SMALL bool touches(int a, const Span& its, f64 turn, bool holds, bool touching) const {
     const Span& own = span_[a];
     f64 further = turn * world_[a];
     if (own.full) return true;

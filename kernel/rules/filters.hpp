@@ -63,34 +63,34 @@ class Filters {
   /// Per slot, while active.
   const Rule* rules() const { return rules_.data(); }
 
-  COLD void clear() { active_ = false; }
+  SMALL void clear() { active_ = false; }
 
   /// From now on each box has a rule, room for `capacity` of them.
-  COLD void start(u32 count, u64 capacity) {
+  SMALL void start(u32 count, u64 capacity) {
     rules_.reserve(capacity);
     for (u32 s = 0; s < count; s++) rules_[s] = everybody;
     active_ = changed_ = true;
   }
 
   /// Room for the rules that `replace` will put in the place of all.
-  COLD Rule* stage(u32 count) { return staged_.reserve(larger(count, 1u)); }
-  COLD void replace() {
+  SMALL Rule* stage(u32 count) { return staged_.reserve(larger(count, 1u)); }
+  SMALL void replace() {
     rules_.swap(staged_);
     active_ = changed_ = true;
   }
 
   /// The rule of a slot, to be changed.
-  COLD Rule& change(u32 slot) {
+  SMALL Rule& change(u32 slot) {
     changed_ = true;
     return rules_[slot];
   }
 
   // The slots' doings, as in Space; only while active.
-  COLD void make_room(u64 count, u32 keep) { rules_.grow(count, keep); }
+  SMALL void make_room(u64 count, u32 keep) { rules_.grow(count, keep); }
   u64 room() const { return rules_.capacity(); }
-  COLD void insert(u32 slot) { change(slot) = everybody; }
-  COLD void move(u32 from, u32 to) { change(to) = rules_[from]; }
-  COLD void renumber(const Ids& ids, u32 count) {
+  SMALL void insert(u32 slot) { change(slot) = everybody; }
+  SMALL void move(u32 from, u32 to) { change(to) = rules_[from]; }
+  SMALL void renumber(const Ids& ids, u32 count) {
     u32 had = ids.count();
     if (ids.same()) {
       rules_.grow(count, smaller(had, count));
@@ -112,7 +112,7 @@ class Filters {
   const u32* excluded() const { return excluded_.data(); }
 
   /// The boxes that have to be searched, of `count` boxes of `width` numbers each.
-  COLD const f32* select(const f32* boxes, u32& count, u32 width) {
+  SMALL const f32* select(const f32* boxes, u32& count, u32 width) {
     if (changed_) classify(count);
     changed_ = false;
     if (!some_) return boxes;
@@ -125,7 +125,7 @@ class Filters {
   }
 
   /// What slots have of their own, for those that are searched.
-  COLD const u32* select(const u32* of_slots, u32 count, Buffer<u32>& to) const {
+  SMALL const u32* select(const u32* of_slots, u32 count, Buffer<u32>& to) const {
     if (!active_ || !some_) return of_slots;
     to.reserve(larger(count, 1u));
     for (u32 k = 0; k < count; k++) to[k] = of_slots[slots_[k]];
@@ -136,7 +136,7 @@ class Filters {
   u32 slot(u32 k) const { return active_ && some_ ? slots_[k] : k; }
 
   /// After the search: places in the scene back to slots, and the forbidden pairs out.
-  COLD void finish(Pairs& pairs) const {
+  SMALL void finish(Pairs& pairs) const {
     if (!some_ && !check_) return;
     u64* list = pairs.list.data();
     u64 kept = 0;
@@ -153,7 +153,7 @@ class Filters {
   }
 
  private:
-  COLD void classify(u32 count) {
+  SMALL void classify(u32 count) {
     find_classes(count);
     share_bits();
     searched_ = 0;
@@ -178,7 +178,7 @@ class Filters {
     return (rule.layer * 0x9e3779b1u ^ rule.mask * 0x85ebca6bu ^ rule.excluded) >> 24;
   }
 
-  COLD void find_classes(u32 count) {
+  SMALL void find_classes(u32 count) {
     class_of_.reserve(count);
     __builtin_memset(table_, 0, sizeof(table_));
     // The first class is that of boxes that are off: there is room for it however many others there are.
@@ -212,7 +212,7 @@ class Filters {
 
   /// Finds the classes that meet nobody, and gives exclusion bits to sets of classes that all ignore one another,
   /// themselves included, beginning with the largest.
-  COLD void share_bits() {
+  SMALL void share_bits() {
     bool beyond = classes_[rest].count > 0;
     u32 free = beyond ? 0 : spare_bits;  // nobody knows which bits those beyond have set
     check_ = beyond;

@@ -18,7 +18,7 @@ struct Span {
   f64 shift;  // 0, or the world where low is negative
   bool full;  // it reaches all around
 
-  COLD static Span of(f64 lo, f64 hi, f64 world) {
+  SMALL static Span of(f64 lo, f64 hi, f64 world) {
     f64 size = hi - lo;
     f64 back = size - hi;  // -lo, as far as size holds it
     f64 rest = (hi - (size - back)) - (lo + back);
@@ -30,12 +30,12 @@ struct Span {
 
   /// Whether it ends behind where another one begins that much further on, which is a whole number of worlds, or, where
   /// `touching` counts, just there.
-  COLD bool reaches(const Span& other, f64 further, bool touching) const {
+  SMALL bool reaches(const Span& other, f64 further, bool touching) const {
     return is_below({other.low, -low, -size, -rest, other.shift - shift + further}, touching);
   }
 
   /// Whether it lies within another one that is moved so much further on.
-  COLD bool is_within(const Span& other, f64 further, bool touching) const {
+  SMALL bool is_within(const Span& other, f64 further, bool touching) const {
     f64 shifted = other.shift - shift + further;
     return is_below({other.low, -low, shifted}, touching) &&
            is_below({low, -other.low, size, -other.size, rest, -other.rest, -shifted}, touching);
@@ -47,7 +47,7 @@ struct Span {
   };
 
   /// x modulo world, with the sign of x: exact.
-  COLD static f64 remainder(f64 x, f64 world) {
+  SMALL static f64 remainder(f64 x, f64 world) {
     f64 rest = __builtin_fabs(x), step = world;
     while (step <= rest / 2) step *= 2;
     for (; step >= world; step /= 2) {
@@ -57,7 +57,7 @@ struct Span {
   }
 
   /// Whether a sum is below 0, or just that.
-  COLD static bool is_below(const Sum& all, bool just) {
+  SMALL static bool is_below(const Sum& all, bool just) {
     f64 sum = 0, largest = 0;
     for (f64 term : all.terms) {
       sum += term;
@@ -69,7 +69,7 @@ struct Span {
   }
 
   /// The sign of a sum, by Shewchuk's expansions: doubles that add up to it and do not overlap, the largest last.
-  COLD static f64 sign(const Sum& all) {
+  SMALL static f64 sign(const Sum& all) {
     constexpr int most = sizeof(all.terms) / sizeof(f64);
     f64 parts[most] = {};
     for (int n = 0; n < most; n++) {
@@ -155,7 +155,7 @@ class Wrap {
   }
 
   /// Ghosts to boxes; keeps each pair that overlaps once, and those that only touch where that counts.
-  COLD void fold(Pairs& pairs, bool touching) {
+  SMALL void fold(Pairs& pairs, bool touching) {
     touching_ = touching;
     u64* list = pairs.list.data();
     u64 kept = 0;
@@ -178,7 +178,7 @@ class Wrap {
     pairs.count = kept;
   }
 
-  COLD void release() {
+  SMALL void release() {
     boxes_.release();
     excluded_.release();
     owners_.release();
@@ -197,7 +197,7 @@ class Wrap {
   static f64 slack(f64 world) { return world * 0x1p-50; }
 
   /// Where the box itself is searched, rounded outward; says whether it may reach across the border.
-  COLD static bool place(const Span& span, f64 world, f32& low, f32& high) {
+  SMALL static bool place(const Span& span, f64 world, f32& low, f32& high) {
     if (span.full) {
       low = -__builtin_inff();
       high = __builtin_inff();
@@ -215,7 +215,7 @@ class Wrap {
   }
 
   /// Whether these are the ghosts, or the boxes, by which the pair is to be found.
-  COLD bool is_first(u32 a, u32 ghost_a, u32 b, u32 ghost_b) const {
+  SMALL bool is_first(u32 a, u32 ghost_a, u32 b, u32 ghost_b) const {
     for (u32 axis = 0; axis < dimensions_; axis++) {
       Span first = span(a, axis), second = span(b, axis);
       bool one = ghost_a >> axis & 1, other = ghost_b >> axis & 1;

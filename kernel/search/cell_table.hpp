@@ -18,7 +18,7 @@ template <int D> struct CellTable {
   u32 shift[D];  // of the number of a cell along each axis
 
   /// With so many cells along each axis, or fewer where that would be more than `most`. Returns how many.
-  COLD u32 shape(const f64* wanted, u32 first_cell, u64 most) {
+  SMALL u32 shape(const f64* wanted, u32 first_cell, u64 most) {
     u32 log[D], sum = 0;
     for (int a = 0; a < D; a++) {
       log[a] = 0;
@@ -129,7 +129,7 @@ template <int D> struct CellTable {
   }
 
   /// Writes the cell of each of some items, but not the same one twice in a row. Returns the end.
-  COLD f32* draw(f32* to, ItemsAt<D> items, u32 from, u32 until) const {
+  SMALL f32* draw(f32* to, ItemsAt<D> items, u32 from, u32 until) const {
     for (u32 i = from; i < until; i++) {
       bool another = i == from;
       for (int a = 0; a < D; a++) {

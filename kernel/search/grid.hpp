@@ -108,7 +108,7 @@ template <int D> struct Grid {
   }
 
   /// Writes the box of a cell.
-  COLD void draw(u32 cell, f32* box) const {
+  SMALL void draw(u32 cell, f32* box) const {
     for (int a = D - 1; a >= 0; a--) {
       f64 from = low[a] + cell % cells[a] * size[a];
       cell /= cells[a];

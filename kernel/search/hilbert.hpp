@@ -17,7 +17,7 @@ template <int D> class HilbertCurve {
   // Two digits of the radix sort. Finer cells than about one for each item order nothing that matters.
   static constexpr u32 levels = D == 2 ? 11 : 7, level_bits = 4;
 
-  COLD explicit HilbertCurve(const SceneSample<D>& world) {
+  SMALL explicit HilbertCurve(const SceneSample<D>& world) {
     for (int a = 0; a < D; a++) {
       f64 middle = world.size[a] / 2;
       Axis axis = Axis::make(world.low[a] + middle, world.high[a] + middle, 1 << levels);
@@ -110,7 +110,7 @@ template <int D> class HilbertOrder {
   u32 slot(u32 k) const { return sort_.index(k); }
   u32 key(u32 k) const { return sort_.key(k); }
 
-  COLD void release() {
+  SMALL void release() {
     sort_.release();
     ordered_.release();
   }

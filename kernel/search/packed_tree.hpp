@@ -80,7 +80,7 @@ template <int D> class PackedTree {
 
   /// The slot of the k-th item, as of the last `build`.
   u32 slot(u32 k) const { return order_.slot(k); }
-  COLD u32 nodes() const {
+  SMALL u32 nodes() const {
     u32 sum = 0;
     for (u32 l = 1; l < levels_; l++) sum += sizes_[l];
     return sum;
@@ -94,7 +94,7 @@ template <int D> class PackedTree {
     }
     lanes_.tag()[place] = tag;
   }
-  COLD void clear(u32 place) {
+  SMALL void clear(u32 place) {
     f32 nothing[2 * D];
     for (f32& x : nothing) x = __builtin_nanf("");
     put(place, nothing, 0xffffffff);
@@ -123,7 +123,7 @@ template <int D> class PackedTree {
   }
 
   /// The nodes.
-  COLD void structure(Buffer<f32>& boxes, u32& count) const {
+  SMALL void structure(Buffer<f32>& boxes, u32& count) const {
     count = 0;
     for (u32 l = 1; l < levels_; l++) {
       boxes.grow(u64(count + sizes_[l]) * 2 * D, u64(count) * 2 * D);
@@ -136,7 +136,7 @@ template <int D> class PackedTree {
     }
   }
 
-  COLD void release() {
+  SMALL void release() {
     order_.release();
     lanes_.release();
     lists_.release();

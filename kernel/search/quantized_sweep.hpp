@@ -81,7 +81,7 @@ template <int D> class QuantizedSweep {
     return tests;
   }
 
-  COLD void release() {
+  SMALL void release() {
     cells_.release();
     near_.release();
   }

@@ -73,14 +73,14 @@ template <int D> class SweepList {
   void find(u32 count, Pairs& pairs) const { sweep<D>(lanes_, end_.data(), count, pairs); }
 
   /// The same where items look far and few of those they meet overlap. `world`: where most of them are.
-  COLD void find_few(const SceneSample<D>& world, u32 count, Pairs& pairs)
+  SMALL void find_few(const SceneSample<D>& world, u32 count, Pairs& pairs)
     requires(D == 3)
   {
     quantized_sweep_.template find<false>(lanes_, world, 0, count, pairs, end_.data());
   }
 
   /// Of the tests that the sweep is about to make, which share would hit, by a sample of them.
-  COLD f64 hits(u32 count) const {
+  SMALL f64 hits(u32 count) const {
     LaneView<D> view = lanes_.view();
     u64 hits = 0, tried = 0;
     u32 stride = larger(1u, count / 32);
@@ -95,7 +95,7 @@ template <int D> class SweepList {
     return f64(hits) / larger(f64(tried), 1.0);
   }
 
-  COLD void release() {
+  SMALL void release() {
     ordered_.release();
     lanes_.release();
     cells_.release();
@@ -107,7 +107,7 @@ template <int D> class SweepList {
   }
 
  private:
-  COLD void make_room(u32 count) {
+  SMALL void make_room(u32 count) {
     room_ = 0;
     lanes_.reserve(count);
     ordered_.grow(count, 0);

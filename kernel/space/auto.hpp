@@ -26,7 +26,7 @@ inline Technique auto_choice(Technique asked, u32 boxes, bool ordered) {
 }
 
 /// Says which technique has answered, and why it was chosen; `incremental` has said so itself.
-COLD inline void say_choice(Technique asked, Technique ran, Stats& stats) {
+SMALL inline void say_choice(Technique asked, Technique ran, Stats& stats) {
   stats.technique = f64(u32(ran));
   if (asked != Technique::automatic) stats.reason = f64(u32(Reason::asked_for));
   else if (ran == Technique::brute_force) stats.reason = f64(u32(Reason::handful));

@@ -51,7 +51,7 @@ class Snapshot {
   bool has(u8 parts) const { return head_.parts & parts; }
 
   /// Finds the places of all parts; false where they would end beyond what can be addressed.
-  COLD bool lay_out() {
+  SMALL bool lay_out() {
     u64 count = head_.count, place = sizeof(SnapshotHeader);
     auto take = [&](bool is_there, u64 bytes) {
       u32 from = u32(place);
@@ -72,7 +72,7 @@ class Snapshot {
     return place < u64(1) << 32;
   }
 
-  COLD u64 checksum() const {
+  SMALL u64 checksum() const {
     u64 sum = end_;
     for (u32 place = 0; place < end_; place += sizeof(u64)) {
       u64 word = place == __builtin_offsetof(SnapshotHeader, checksum) ? 0 : load<u64>(at(place));
@@ -91,8 +91,8 @@ class Snapshot {
   u32 box_bytes() const { return ids_ - boxes_; }
 
   /// Writes all but the boxes, for which there is room then. `events`: where there are some.
-  COLD void write(u32 dimensions, u8 technique, bool doubles, const Ids& ids, const Filters& filters, const u32* groups,
-                  const f64* reaches, const Events* events) {
+  SMALL void write(u32 dimensions, u8 technique, bool doubles, const Ids& ids, const Filters& filters,
+                   const u32* groups, const f64* reaches, const Events* events) {
     u32 n = ids.count();
     const Rule* rules = filters.active() ? filters.rules() : nullptr;
     u32 parts = (ids.same() ? 0 : has_ids) | (ids.since() ? has_order : 0) | (doubles ? has_doubles : 0) |
@@ -127,7 +127,7 @@ class Snapshot {
   }
 
   /// When the boxes are written too.
-  COLD void seal() {
+  SMALL void seal() {
     store(at(0), head_);
     head_.checksum = checksum();
     store(at(0), head_);
@@ -135,7 +135,7 @@ class Snapshot {
 
   /// Makes room for bytes to be read, of which this is the header, if it is good as far as it can tell. `built`: the
   /// techniques there are.
-  COLD SnapshotFault stage(const SnapshotHeader& head, u32 size, u32 dimensions, u32 built) {
+  SMALL SnapshotFault stage(const SnapshotHeader& head, u32 size, u32 dimensions, u32 built) {
     if (size < sizeof(SnapshotHeader) || head.magic != SnapshotHeader::right_magic) return SnapshotFault::foreign;
     if (head.version > SnapshotHeader::newest) return SnapshotFault::newer;
     bool good = head.version > 0 && head.count <= max_slots && head.reaches <= 1;
@@ -152,13 +152,13 @@ class Snapshot {
   }
 
   /// Whether the bytes, behind the header that they were staged with, are what once was written.
-  COLD bool is_whole() const {
+  SMALL bool is_whole() const {
     store(at(0), head_);
     return checksum() == head_.checksum;
   }
 
   /// Looks at all but the boxes, and makes room for it; nothing changes. False where it is nothing that was written.
-  COLD bool check(Filters& filters, PerBox<u32>& groups, PerBox<f64>& reaches, Events* events) const {
+  SMALL bool check(Filters& filters, PerBox<u32>& groups, PerBox<f64>& reaches, Events* events) const {
     Rule* rules = has(has_layers | has_masks | has_bits) ? filters.stage(head_.count) : nullptr;
     for (u32 s = 0; rules && s < head_.count; s++) {
       rules[s].layer = has(has_layers) ? load<u32>(at(layers_ + s * sizeof(u32))) : ~0u;
@@ -188,7 +188,7 @@ class Snapshot {
   }
 
   /// Takes over all but the boxes, after `check`; false, and nothing has changed, where the ids are bad.
-  COLD bool take(Ids& ids, Filters& filters, PerBox<u32>& groups, PerBox<f64>& reaches, Events* events) const {
+  SMALL bool take(Ids& ids, Filters& filters, PerBox<u32>& groups, PerBox<f64>& reaches, Events* events) const {
     const u32* order = has(has_order) ? reinterpret_cast<const u32*>(at(order_)) : nullptr;
     if (!has(has_ids)) ids.reset(head_.count);
     else if (!ids.replace(reinterpret_cast<const u32*>(at(ids_)), head_.count, order ? order + 1 : nullptr,

@@ -104,7 +104,7 @@ template <int D> class Space {
   constexpr Space(Ids& ids, const Settings& options) : ids_(ids), options_(options) {}
 
   /// Memory for that many boxes, so that it need not grow while they are added.
-  COLD void reserve(u32 count) {
+  SMALL void reserve(u32 count) {
     if (count > ids_.count()) make_room(count, ids_.count());
   }
 
@@ -148,7 +148,7 @@ template <int D> class Space {
   }
 
   /// Takes a box away; false where there is none.
-  COLD bool remove(u32 id) {
+  SMALL bool remove(u32 id) {
     see_shown();
     if (!holds_) hold();
     u32 slot = ids_.slot(id);
@@ -173,7 +173,7 @@ template <int D> class Space {
   }
 
   /// The numbers a box was given with; false where there is none.
-  COLD bool get(u32 id, f64* box) {
+  SMALL bool get(u32 id, f64* box) {
     see_shown();
     u32 slot = ids_.slot(id);
     if (slot == Ids::none) return false;
@@ -181,7 +181,7 @@ template <int D> class Space {
     return true;
   }
 
-  COLD void clear() {
+  SMALL void clear() {
     if (!holds_) hold();
     room_to_forget();
     forget_from(0);
@@ -198,7 +198,7 @@ template <int D> class Space {
 
   /// Where everything stands, for a recorder and right after an update: the ids (0: slots), the boxes, the doubles they
   /// were given as (0: none), the rules (0: none), the groups and the reaches (0: none).
-  COLD void contents(f64* out) const {
+  SMALL void contents(f64* out) const {
     out[0] = f64(u64(ids_.names()));
     out[1] = f64(u64(boxes_.data()));
     out[2] = rounding_ ? f64(u64(exact_.data())) : 0;
@@ -208,8 +208,8 @@ template <int D> class Space {
   }
 
   /// Memory into which the next `replace` expects its boxes, as float32 or as doubles.
-  COLD f32* stage(u32 count) { return staged_.reserve(u64(count) * width + padding); }
-  COLD f64* stage_exact(u32 count) {
+  SMALL f32* stage(u32 count) { return staged_.reserve(u64(count) * width + padding); }
+  SMALL f64* stage_exact(u32 count) {
     stage(count);
     return staged_exact_.reserve(u64(count) * width);
   }
@@ -231,7 +231,7 @@ template <int D> class Space {
 
   /// The boxes of ids 0 … count - 1, to be written in place. Ids from count on are removed, new ones are points
   /// at the origin.
-  COLD f32* expose(u32 count) {
+  SMALL f32* expose(u32 count) {
     take_written();
     if (!holds_) hold(spared_in_place);
     u32 had = ids_.count();
@@ -264,12 +264,12 @@ template <int D> class Space {
     return boxes_.data();
   }
 
-  COLD Rule rule(u32 slot) const {
+  SMALL Rule rule(u32 slot) const {
     return filters_.active() ? filters_.rules()[slot] : Rule{0xffffffff, 0xffffffff, 0};
   }
 
   /// Sets the layer and the mask of a box.
-  COLD void filter(u32 slot, u32 layer, u32 mask) {
+  SMALL void filter(u32 slot, u32 layer, u32 mask) {
     if (!holds_) hold();
     changes_.note(slot);  // for the index
     Rule& rule = rule_of(slot);
@@ -278,14 +278,14 @@ template <int D> class Space {
   }
 
   /// Sets or clears an exclusion bit of a box, or the mark that it is off.
-  COLD void exclude(u32 slot, u32 bit, bool on) {
+  SMALL void exclude(u32 slot, u32 bit, bool on) {
     if (!on && !filters_.active()) return;
     Rule& rule = rule_of(slot);
     rule.excluded = on ? rule.excluded | bit : rule.excluded & ~bit;
   }
 
   /// Takes a box out of pairs and questions, or back in.
-  COLD void enable(u32 slot, bool on) {
+  SMALL void enable(u32 slot, bool on) {
     if (on != rule(slot).is_off()) return;
     if (!holds_) hold();
     changes_.note(slot);  // for the index
@@ -295,14 +295,14 @@ template <int D> class Space {
   u32 group(u32 slot) const { return groups_.of(slot); }
 
   /// Puts a box into a group, or, with 0, into none.
-  COLD void put_in_group(u32 slot, u32 group) {
+  SMALL void put_in_group(u32 slot, u32 group) {
     if (group != groups_.of(slot)) groups_.set(slot, group, boxes_.capacity() / width);
   }
 
   f64 reach_of(u32 slot) const { return reaches_.of(slot); }
 
   /// Says how far a box reaches.
-  COLD void set_reach(u32 slot, f64 distance) {
+  SMALL void set_reach(u32 slot, f64 distance) {
     if (distance == reaches_.of(slot)) return;
     if (!holds_) hold();
     reaches_.set(slot, distance, boxes_.capacity() / width);
@@ -310,7 +310,7 @@ template <int D> class Space {
   }
 
   /// Writes what stands in the space to `snapshot`. Returns the first bad id among boxes written in place, or -1.
-  COLD i32 save() {
+  SMALL i32 save() {
     see_shown();
     i32 bad = bad_in_place();
     if (bad >= 0) return bad;
@@ -328,7 +328,7 @@ template <int D> class Space {
 
   /// Takes what was staged in `snapshot` in place of all there is, and finds the pairs, as after an update. Where the
   /// bytes are bad, or memory ends before all is taken, nothing changes; where it ends later there are no pairs.
-  COLD SnapshotFault restore() {
+  SMALL SnapshotFault restore() {
     if (!snapshot.is_whole()) return SnapshotFault::damaged;
     const SnapshotHeader& head = snapshot.head();
     bool doubles = snapshot.doubles(), rounded = false;
@@ -351,7 +351,7 @@ template <int D> class Space {
   }
 
   /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
-  COLD i32 update() {
+  SMALL i32 update() {
     see_shown();
     Technique chosen = auto_choice(technique, ids_.count(), ordered_);
     bool follows = chosen == Technique::incremental;
@@ -373,7 +373,7 @@ template <int D> class Space {
 
  private:
   /// Finds the pairs of what has been restored, which has been looked at.
-  COLD void find() {
+  SMALL void find() {
     Technique chosen = auto_choice(technique, ids_.count(), ordered_);
     look_for_map();
     search(chosen);
@@ -454,21 +454,21 @@ template <int D> class Space {
 
  public:
   /// Whether two ids are a pair of the last update.
-  COLD bool is_pair(u32 a, u32 b) {
+  SMALL bool is_pair(u32 a, u32 b) {
     if (pairs.count == 0) return false;
     if (!table_.made) table_.make(pairs);
     return table_.find(pairs, pair_of(a, b)) != PairTable::none;
   }
 
   /// Writes the ids that were in a pair with this one in the last update to `answers`; returns how many.
-  COLD u32 partners(u32 id) {
+  SMALL u32 partners(u32 id) {
     if (!partners_made_) partners_.build(pairs);
     partners_made_ = true;
     return partners_.of(id, answers);
   }
 
   /// Answers the question with the boxes that touch its box or circle: see Queries::area.
-  COLD u32 ask_area(u32& from, u32 most) {
+  SMALL u32 ask_area(u32& from, u32 most) {
     if (lost_) return unknown;
     if (!can_answer()) return 0;
     if (index_.world()) question.wrap(index_.world());
@@ -479,7 +479,7 @@ template <int D> class Space {
   }
 
   /// Answers it with the boxes that are not behind one of the planes: see PlaneQuery::search.
-  COLD u32 ask_planes(u32& from, u32 most) {
+  SMALL u32 ask_planes(u32& from, u32 most) {
     if (lost_) return unknown;
     if (!can_answer()) return 0;
     PlaneQuery<D> query(index_, question, planes);
@@ -490,7 +490,7 @@ template <int D> class Space {
 
   /// Answers it with what the moving box meets first, or with what is nearest, at most so many and behind `after`:
   /// the answers are in `hits`, in order. Returns how many.
-  COLD u32 ask_order(bool moving, u32 most, const Hit* after) {
+  SMALL u32 ask_order(bool moving, u32 most, const Hit* after) {
     if (lost_) return unknown;
     if (!can_answer()) return 0;
     if (index_.world()) question.wrap(index_.world());
@@ -504,7 +504,7 @@ template <int D> class Space {
 
   /// Answers many questions, those that are staged or those of all boxes, into `bulk`; `question` says what they have in
   /// common. Returns how many there are, or `unknown`.
-  COLD u32 ask_many(Asks kind, u32 count, u32 most) {
+  SMALL u32 ask_many(Asks kind, u32 count, u32 most) {
     if (lost_) return unknown;
     bool can = can_answer();
     if (kind == Asks::others) count = index_.count();
@@ -519,7 +519,7 @@ template <int D> class Space {
   }
 
   /// From now on the ids are kept that have changed, and what the last update saw. Returns their epoch, or `unknown`.
-  COLD u32 keep_changes() {
+  SMALL u32 keep_changes() {
     if (lost_) return unknown;
     asked_ = true;
     if (!holds_) see();
@@ -528,7 +528,7 @@ template <int D> class Space {
   /// What the last update saw.
   const Index<D>& seen() const { return index_; }
   /// Whether two boxes overlap, one behind the other, where the world wraps around.
-  COLD bool meet_around(const f64* boxes) const {
+  SMALL bool meet_around(const f64* boxes) const {
     Copies copies;
     copies.begin(options_.wrap, D, boxes, boxes + D);
     return copies.meets(boxes + width, options_.touching);
@@ -536,7 +536,7 @@ template <int D> class Space {
 
   /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
   /// all finite boxes.
-  COLD void structure() {
+  SMALL void structure() {
     see_shown();
     techniques_.with(ran_, [&](auto& used) { used.structure(cells, cell_count, stats); });
     f32 least[D], most[D];
@@ -562,7 +562,7 @@ template <int D> class Space {
   }
 
   /// After memory has run out: all that an update needs is built anew. In the middle of one: and there are no pairs.
-  COLD void recover() {
+  SMALL void recover() {
     release_techniques();
     changes_.note_all();
     changed.note_all();
@@ -584,7 +584,7 @@ template <int D> class Space {
   }
 
   /// Gives the techniques' memory back: on a switch, and after memory has run out in the middle of one.
-  COLD void release_techniques() {
+  SMALL void release_techniques() {
     techniques_.with(ran_, [](auto& used) { used.release(); });
     cells.release();
     cell_count = 0;
@@ -592,7 +592,7 @@ template <int D> class Space {
   }
 
   /// The number of the first invariant that does not hold (see src/broad-phase.ts), or 0; `detail`: where.
-  COLD u32 validate(u32& detail) {
+  SMALL u32 validate(u32& detail) {
     see_shown();
     detail = 0;
     if (!ids_.valid()) return 1;
@@ -619,7 +619,7 @@ template <int D> class Space {
 
  private:
   /// Takes memory for the updates to come of so many boxes, and so many bytes.
-  COLD static void reach(u64 count, u64 more) {
+  SMALL static void reach(u64 count, u64 more) {
     u64 usual = count * usual_bytes, all = usual + count * kept_bytes;
     heap::reach(larger(usual, all - smaller(all, u64(heap::used))) + more);
   }
@@ -664,7 +664,7 @@ template <int D> class Space {
   }
 
   /// A box of which some numbers may have been written in place since it was given: those that are not what was shown.
-  COLD void as_written(u32 slot, f64* to) const {
+  SMALL void as_written(u32 slot, f64* to) const {
     const f64* given = exact_.data() + u64(slot) * width;
     const f32* now = boxes_.data() + u64(slot) * width;
     f32 shown[width];
@@ -679,7 +679,7 @@ template <int D> class Space {
   }
 
   /// Takes over what was written in place, none of it bad, over boxes that were given as doubles.
-  COLD void take_written() {
+  SMALL void take_written() {
     see_shown();
     for (u32 s = 0; exposed_ && rounding_ && s < ids_.count(); s++) {
       f64 box[width];
@@ -691,13 +691,13 @@ template <int D> class Space {
   }
 
   /// Before a change: what the last update saw is kept, once.
-  COLD void hold(u32 most = spared) {
+  SMALL void hold(u32 most = spared) {
     if (asked_ || ids_.count() <= most) see();
     else lost_ = holds_ = true;  // holds_: so that it is not asked for again
   }
 
   /// After an update, while its changes are known.
-  COLD void follow_with_index() {
+  SMALL void follow_with_index() {
     changed.note(changes_.all(), changes_.list(), changes_.count(), ids_.count(),
                  [&](u32 slot) { return ids_.id(slot); });
     const f64* exact = rounding_ ? exact_.data() : nullptr;
@@ -714,7 +714,7 @@ template <int D> class Space {
   const f64* world() const { return options_.wrap[0] > 0 ? options_.wrap : nullptr; }
 
   /// The index takes over what stands in the space.
-  COLD void see() {
+  SMALL void see() {
     see_shown();
     const Rule* rules = filters_.active() ? filters_.rules() : nullptr;
     index_.see(boxes_.data(), rounding_ ? exact_.data() : nullptr, ids_, rules, reaches_.data(), world());
@@ -722,7 +722,7 @@ template <int D> class Space {
   }
 
   /// Whether there is anything to ask about; if so, the index is made.
-  COLD bool can_answer() {
+  SMALL bool can_answer() {
     asked_ = true;
     if (!holds_) see();
     if (index_.count() == 0) return false;
@@ -731,7 +731,7 @@ template <int D> class Space {
   }
 
   /// Room for `count` boxes in every array that has one entry a box.
-  COLD void make_room(u64 count, u32 keep) {
+  SMALL void make_room(u64 count, u32 keep) {
     if (count > max_slots) fail(Fault::out_of_memory, f64(count) * width * sizeof(f32));
     if (exposed_ && shown_count_ == 0 && count * width + padding > boxes_.capacity()) {
       f32* moved = shown_.reserve(larger(count * width + padding, boxes_.capacity() + boxes_.capacity() / 2));
@@ -838,13 +838,13 @@ template <int D> class Space {
     if (many) __builtin_memcpy(boxes_.data(), shown_.data(), u64(many) * width * sizeof(f32));
   }
   /// What changed in another way is seen by who writes in place.
-  COLD void show(u32 slot) {
+  SMALL void show(u32 slot) {
     if (slot < shown_count_)
       __builtin_memcpy(shown_.data() + u64(slot) * width, boxes_.data() + u64(slot) * width, width * sizeof(f32));
   }
 
   /// From now on the doubles are kept too.
-  COLD void start_rounding() {
+  SMALL void start_rounding() {
     see_shown();
     u32 n = ids_.count();
     exact_.reserve(larger(boxes_.capacity(), u64(width)));
@@ -854,14 +854,14 @@ template <int D> class Space {
   }
 
   /// From now on the boxes are float32.
-  COLD void hold_floats() {
+  SMALL void hold_floats() {
     rounding_ = false;
     map_.reset();
     collapsed_ = look_in_ = 0;
     bearable_ = usual_collapsed;
   }
 
-  COLD void round_all() {
+  SMALL void round_all() {
     for (u32 s = 0; s < ids_.count(); s++) {
       round(exact_.data() + u64(s) * width, boxes_.data() + u64(s) * width);
       show(s);
@@ -891,7 +891,7 @@ template <int D> class Space {
   }
 
   /// Looks whether another map serves better, now and then, and at once where many boxes have become points.
-  COLD void look_for_map() {
+  SMALL void look_for_map() {
     if (!rounding_ || exposed_ || options_.wrap[0] > 0) return;
     u32 n = ids_.count(), collapsed = collapsed_;
     collapsed_ = 0;
@@ -920,27 +920,27 @@ template <int D> class Space {
   }
 
   /// The rule of a box, to be changed.
-  COLD Rule& rule_of(u32 slot) {
+  SMALL Rule& rule_of(u32 slot) {
     if (!filters_.active()) filters_.start(ids_.count(), boxes_.capacity() / width);
     return filters_.change(slot);
   }
 
   /// Room for all ids to be deleted, where events have to know of it.
-  COLD void room_to_forget() {
+  SMALL void room_to_forget() {
     u32 last = 0;
     for (u32 s = 0; s < ids_.count(); s++) last = larger(last, ids_.id(s));
     if (keeps_events) events.make_room(last);
   }
 
   /// The boxes of ids from this one on are about to go; there is room.
-  COLD void forget_from(u32 first) {
+  SMALL void forget_from(u32 first) {
     for (u32 s = 0; keeps_events && s < ids_.count(); s++) {
       if (ids_.id(s) >= first) events.forget(ids_.id(s));
     }
   }
 
   /// The ids become 0 … count - 1; those that were there keep their filters.
-  COLD void renumber(u32 count) {
+  SMALL void renumber(u32 count) {
     changes_.note_all();
     renamed_ = true;
     room_to_forget();
@@ -999,7 +999,7 @@ template <int D> class Space {
 
   /// Whether some box is nowhere along an axis: the difference of its bounds is no number, or, where they were rounded,
   /// infinite, so that doubts go unnoticed.
-  template <class T> COLD bool some_nowhere(const T* boxes) const {
+  template <class T> SMALL bool some_nowhere(const T* boxes) const {
     bool some = false;
     for (u64 k = 0; k < u64(ids_.count()) * width; k += width) {
       for (u32 a = 0; a < D; a++) some |= boxes[k + a] == __builtin_inff() || boxes[k + D + a] == -__builtin_inff();
@@ -1008,7 +1008,7 @@ template <int D> class Space {
   }
 
   /// Makes the boxes that are searched where some reach beyond themselves.
-  COLD void grow() {
+  SMALL void grow() {
     u32 n = ids_.count();
     f32* to = grown_.reserve(u64(n) * width + padding);
     f64* exact = grown_exact_.reserve(larger(u64(n) * width, u64(1)));
@@ -1023,7 +1023,7 @@ template <int D> class Space {
   }
 
   /// Keeps, of the pairs in doubt, those that overlap in the numbers given, or grown from these.
-  COLD void retest(const f64* doubles) {
+  SMALL void retest(const f64* doubles) {
     u64* list = pairs.list.data();
     u64 at = 0, kept = 0;
     auto keep = [&](u64 until) {
@@ -1064,7 +1064,7 @@ template <int D> class Space {
   }
 
   /// Takes pairs within a group out.
-  COLD void part() {
+  SMALL void part() {
     u64* list = pairs.list.data();
     const u32* groups = groups_.data();
     u64 kept = 0;

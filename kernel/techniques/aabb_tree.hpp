@@ -123,9 +123,9 @@ template <int D> class AabbTree {
     stats.cells = tree_.nodes();
   }
 
-  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats&) const { tree_.structure(boxes, count); }
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats&) const { tree_.structure(boxes, count); }
 
-  COLD void release() {
+  SMALL void release() {
     tree_.release();
     candidates_.list.release();
     candidates_.count = 0;
@@ -191,7 +191,7 @@ template <int D> class AabbTree {
   }
 
   /// Orders the tree anew.
-  COLD void plant(u32 n) {
+  SMALL void plant(u32 n) {
     u32 spare = n / spare_share;
     tree_.build(Scene<D>{fat_.data(), n, tags_.data()}, spare);
     free_.reserve(spare);
@@ -202,7 +202,7 @@ template <int D> class AabbTree {
   }
 
   /// Drops the candidates of slots that are gone: their boxes are no longer there to be tested.
-  COLD void drop_candidates_from(u32 slot) {
+  SMALL void drop_candidates_from(u32 slot) {
     u64* list = candidates_.list.data();
     u64 left = 0;
     for (u64 k = 0; k < candidates_.count; k++) {

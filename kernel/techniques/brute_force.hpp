@@ -35,13 +35,13 @@ template <int D> class BruteForce {
   }
 
   /// One cell, which is everything.
-  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     count = u32(stats.cells);
     boxes.reserve(2 * D);
     for (int k = 0; k < 2 * D; k++) boxes[k] = k < D ? -__builtin_inff() : __builtin_inff();
   }
 
-  COLD void release() {
+  SMALL void release() {
     items_.release();
     lanes_.release();
     end_.release();

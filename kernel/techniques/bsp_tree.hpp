@@ -52,13 +52,13 @@ template <int D> class BspTree {
   }
 
   /// The leaves of the last update; unbounded sides are infinite.
-  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     count = u32(stats.cells);
     boxes.reserve(u64(count) * 2 * D);
     if (count) __builtin_memcpy(boxes.data(), leaves_.data(), count * sizeof(Region));
   }
 
-  COLD void release() {
+  SMALL void release() {
     for (auto& stack : stacks_) stack.release();
     swept_.release();
     leaves_.release();
@@ -116,7 +116,7 @@ template <int D> class BspTree {
   }
 
   /// Where to cut, by a sample of the items.
-  COLD static Cut choose(const ItemsAt<D>& items, u32 count, f32 spare) {
+  SMALL static Cut choose(const ItemsAt<D>& items, u32 count, f32 spare) {
     static f32 starts[D][samples];
     static f32 sizes[D][samples];
     detail::Sampling sampling(count, samples);

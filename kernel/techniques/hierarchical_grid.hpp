@@ -97,7 +97,7 @@ template <int D> class HierarchicalGrid {
   }
 
   /// The cell of each box, but not the same one twice in a row.
-  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     count = 0;
     boxes.reserve(u64(stats.entries) * 2 * D);
     if (stats.entries == 0) return;
@@ -110,7 +110,7 @@ template <int D> class HierarchicalGrid {
     count = u32(to - boxes.data()) / (2 * D);
   }
 
-  COLD void release() {
+  SMALL void release() {
     levels_.release();
     runs_.release();
     cells_.release();
@@ -141,7 +141,7 @@ template <int D> class HierarchicalGrid {
   static u32x4 magnitude(f32x4 v) { return bits<u32x4>(v) & splat(0x7fffffffu); }
 
   /// Makes the levels for boxes of these classes; returns the number of cells.
-  COLD u32 choose(const SceneSample<D>& world, const u32* sizes, u32 rest) {
+  SMALL u32 choose(const SceneSample<D>& world, const u32* sizes, u32 rest) {
     level_count_ = 0;
     u32 cells = 0, waiting = 0;
     for (u32 c = 0; c < classes; c++) {

@@ -99,7 +99,7 @@ template <int D> class HomeCellGrid {
   }
 
   /// The cells with boxes in them.
-  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     count = 0;
     boxes.reserve(u64(stats.entries) * 2 * D);
     if (stats.entries == 0) return;
@@ -107,7 +107,7 @@ template <int D> class HomeCellGrid {
     count = u32(end - boxes.data()) / (2 * D);
   }
 
-  COLD void release() {
+  SMALL void release() {
     cells_.release();
     starts_.release();
     large_.release();
@@ -131,7 +131,7 @@ template <int D> class HomeCellGrid {
   }
 
   /// Sets the cells; returns their number.
-  COLD u32 choose(const SceneSample<D>& world, u32 count, const Settings& options) {
+  SMALL u32 choose(const SceneSample<D>& world, u32 count, const Settings& options) {
     f64 size[D], extent[D];
     f64 share = world.crowding * count;  // boxes in a cell
     for (int a = 0; a < D; a++) {

@@ -59,7 +59,7 @@ template <int D> class Quadtree {
     stats.entries = n;
   }
 
-  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats&) const {
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats&) const {
     count = count_;
     boxes.reserve(u64(count) * 2 * D);
     for (u32 k = 0; k < count; k++) {
@@ -68,7 +68,7 @@ template <int D> class Quadtree {
     }
   }
 
-  COLD void release() {
+  SMALL void release() {
     order_.release();
     lanes_.release();
     nodes_.release();

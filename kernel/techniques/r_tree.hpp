@@ -24,7 +24,7 @@ template <int D> class RTree {
     stats.entries = scene.count;
   }
 
-  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats&) const { tree_.structure(boxes, count); }
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats&) const { tree_.structure(boxes, count); }
 
-  COLD void release() { tree_.release(); }
+  SMALL void release() { tree_.release(); }
 };

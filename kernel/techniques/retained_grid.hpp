@@ -58,7 +58,7 @@ template <int D> class RetainedGrid {
   }
 
   /// The cells with boxes in them.
-  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     count = 0;
     boxes.reserve(u64(stats.cells) * 2 * D);
     if (stats.cells == 0) return;
@@ -67,7 +67,7 @@ template <int D> class RetainedGrid {
     }
   }
 
-  COLD void release() {
+  SMALL void release() {
     cells_.release();
     entries_.release();
     boxes_.release();
@@ -93,7 +93,7 @@ template <int D> class RetainedGrid {
   }
 
   /// Puts all boxes into new cells, with room for more.
-  COLD void build(const SceneItems<D>& items, const Settings& options) {
+  SMALL void build(const SceneItems<D>& items, const Settings& options) {
     u32 n = items.scene.count;
     u64 total = grid_.choose(items, n, options, smaller(n, max_slots / 4) * 4);
     u32 cells = grid_.total();
@@ -197,7 +197,7 @@ template <int D> class RetainedGrid {
   }
 
   /// Gives a cell that is full twice the room, behind all others.
-  COLD void move(Cell& cell) {
+  SMALL void move(Cell& cell) {
     u32 room = cell.room * 2;
     entries_.grow(u64(entries_end_) + room, entries_end_);
     __builtin_memcpy(entries_.data() + entries_end_, entries_.data() + cell.at, cell.size * sizeof(u32));

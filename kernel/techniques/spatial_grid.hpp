@@ -70,7 +70,7 @@ template <int D> class SpatialGrid {
   }
 
   /// The cells with boxes in them.
-  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     count = 0;
     boxes.reserve(u64(stats.cells) * 2 * D);
     if (stats.cells == 0) return;
@@ -83,7 +83,7 @@ template <int D> class SpatialGrid {
     }
   }
 
-  COLD void release() {
+  SMALL void release() {
     ordered_.release();
     lanes_.release();
     starts_.release();

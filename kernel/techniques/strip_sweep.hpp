@@ -86,7 +86,7 @@ template <int D> class StripSweep {
   Stats* stats_ = nullptr;
 
  public:
-  COLD void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
+  SMALL void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     stats_ = &stats;
     boxes_ = entered_ = scene.count;
     if (scene.count < 2) return;
@@ -102,7 +102,7 @@ template <int D> class StripSweep {
   }
 
   /// Calls `what` with the slot of each box that is as it was in the last update.
-  template <class What> COLD void each_same(const Scene<D>& scene, What what) const {
+  template <class What> SMALL void each_same(const Scene<D>& scene, What what) const {
     SceneItems<D> items{scene, order_};
     ItemsAt<D> entries(entries_, 0);
     for (u32 k = 0; k < entered_; k++) {
@@ -112,7 +112,7 @@ template <int D> class StripSweep {
   }
 
   /// The bounds of the lower corners of the last update's boxes, and their sizes on average, along the world's axes.
-  COLD void bounds(f64* low, f64* high, f64* sizes) const {
+  SMALL void bounds(f64* low, f64* high, f64* sizes) const {
     for (int a = 0; a < D; a++) {
       low[order_.axis[a]] = cut_.world.low[a];
       high[order_.axis[a]] = cut_.world.high[a];
@@ -121,7 +121,7 @@ template <int D> class StripSweep {
   }
 
   /// The strips of the last update, as boxes in the world's axes; unbounded sides are infinite.
-  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     count = u32(stats.cells);
     boxes.reserve(u64(count) * 2 * D);
     for (u32 k = 0; k < count; k++) {
@@ -132,7 +132,7 @@ template <int D> class StripSweep {
     }
   }
 
-  COLD void release() {
+  SMALL void release() {
     entries_.release();
     swept_.release();
     ranges_.release();
@@ -143,7 +143,7 @@ template <int D> class StripSweep {
  private:
   /// Strip widths that balance entries against candidates: a strip w boxes wide makes 1 / w more entries and
   /// tests w times the neighbours along the sweep axis.
-  COLD static Cut choose(const SceneSample<D>& world, u32 count) {
+  SMALL static Cut choose(const SceneSample<D>& world, u32 count) {
     f64 relative[D];  // mean size as a share of the extent
     for (int a = 0; a < D; a++) {
       f64 extent = world.high[a] - world.low[a];
@@ -185,7 +185,7 @@ template <int D> class StripSweep {
     return cut;
   }
 
-  COLD static Region everywhere() {
+  SMALL static Region everywhere() {
     Region region;
     for (int a = 0; a < D; a++) {
       region.low[a] = -__builtin_inf();
@@ -195,7 +195,7 @@ template <int D> class StripSweep {
   }
 
   /// Chooses the sweep axis and the outermost cut; false where it would leave all in one strip.
-  COLD bool cut_up(const Scene<D>& scene) {
+  SMALL bool cut_up(const Scene<D>& scene) {
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     SceneSample<D> world;
     bool one_strip = scene.count < few;
@@ -216,7 +216,7 @@ template <int D> class StripSweep {
   }
 
   /// All in one strip.
-  COLD void leave_whole() {
+  SMALL void leave_whole() {
     for (int a = 0; a < D; a++) {
       cut_.strips[a] = 1;
       cut_.along[a] = Axis::make(0, 0, 1);
@@ -243,7 +243,7 @@ template <int D> class StripSweep {
     return true;
   }
 
-  COLD void clear(const Cut& cut, u32 depth) {
+  SMALL void clear(const Cut& cut, u32 depth) {
     __builtin_memset(offsets_[depth].reserve(cut.rows()), 0, cut.rows() * sizeof(u32));
   }
 
@@ -271,7 +271,7 @@ template <int D> class StripSweep {
   }
 
   /// Where each strip's entries begin, and how many there will be in all; whether that pays.
-  COLD bool add_up(u32 size, const Cut& cut, u32 depth, u64& total) const {
+  SMALL bool add_up(u32 size, const Cut& cut, u32 depth, u64& total) const {
     u32 across = cut.across(), lists = cut.rows();
     u32* offsets = offsets_[depth].data();
     if constexpr (D == 3) {
@@ -324,7 +324,7 @@ template <int D> class StripSweep {
   }
 
   /// Sweeps the strips of a cut, whose entries stand from `begin` to `total`, where deeper cuts stack theirs.
-  COLD void sweep(const Cut& cut, const Region& region, u32 depth, u32 total, u32 begin, Pairs& pairs) {
+  SMALL void sweep(const Cut& cut, const Region& region, u32 depth, u32 total, u32 begin, Pairs& pairs) {
     u32 across = cut.across();
     for (u32 l = 0; begin < total; l++) {
       u32 end = offsets_[depth][l];  // it has moved on from where the strip begins to where it ends
@@ -351,7 +351,7 @@ template <int D> class StripSweep {
   void move(ItemsAt<D>& items, size_t first) const { items = ItemsAt<D>(entries_, first); }
 
   /// Cuts a region down to one strip along an axis; the border strips keep the region's own border.
-  COLD static void narrow(Region& region, int axis, const Cut& cut, u32 strip) {
+  SMALL static void narrow(Region& region, int axis, const Cut& cut, u32 strip) {
     u32 last = cut.strips[axis] - 1;
     if (last == 0) return;
     // Strips are centred on whole steps: Axis rounds to the nearest.
@@ -384,7 +384,7 @@ template <int D> class StripSweep {
     swept_.find(count, pairs);
   }
 
-  COLD void note(const Region& region) {
+  SMALL void note(const Region& region) {
     u64 leaf = u64(stats_->cells) - 1;
     leaves_.grow(leaf + 1, leaf);
     leaves_[leaf] = region;

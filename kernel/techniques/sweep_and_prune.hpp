@@ -56,7 +56,7 @@ template <int D> class SweepAndPrune {
   }
 
   /// What each box takes of the axis.
-  COLD void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     count = u32(stats.cells);
     boxes.reserve(u64(count) * 2 * D);
     for (u64 k = 0; k < u64(count) * 2 * D; k++) boxes[k] = k % (2 * D) < D ? -__builtin_inff() : __builtin_inff();
@@ -66,7 +66,7 @@ template <int D> class SweepAndPrune {
     }
   }
 
-  COLD void release() {
+  SMALL void release() {
     order_.release();
     keys_.release();
     cells_.release();
