@@ -103,8 +103,8 @@ describe('the house', () => {
     expect(dead).toEqual([]);
   });
 
-  test('has no package that nothing uses', () => {
-    const { scripts, devDependencies } = JSON.parse(texts.get('package.json')!);
+  test.each(['package.json', 'site/package.json'])('has no package in %s that nothing uses', (manifest) => {
+    const { scripts = {}, devDependencies } = JSON.parse(texts.get(manifest)!);
     const all = [...texts].filter(([file]) => !file.endsWith('package.json')).map(([, text]) => text);
     // Called by another name, or by the one that they are a part of.
     const calls: Record<string, string> = { '@arethetypeswrong/cli': 'attw ', '@size-limit/esbuild': 'size-limit' };
