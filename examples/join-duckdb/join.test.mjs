@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { bundle } from '../../scripts/bundle.mjs';
-import { keysOf, referencePairs } from '../../test/reference.ts';
+import { keysOf, referencePairs } from '../../test/support/reference.ts';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
 const installed = Boolean(process.env.CI) || existsSync(`${here}node_modules/@duckdb/node-api`);

@@ -3,7 +3,7 @@
 import { createServer } from 'node:http';
 import { afterEach, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
-import { seed } from '../../test/runs.ts';
+import { seed } from '../../test/support/runs.ts';
 import { Link } from './link.mjs';
 import { Simulation } from './simulation.mjs';
 import { beginnings, cutInto, zoneOf } from './world.mjs';
