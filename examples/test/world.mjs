@@ -3,21 +3,24 @@
 // report nobody is missing and nobody there twice. Then the same in memory.
 // What is waited for is told by the world itself, and limits are numbers of its reports, so a slow machine only takes longer.
 //
-//   node examples/world-colyseus/test.mjs      (npm run test:world)
+//   npm run test:world
 import { equal, ok } from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
 import { once } from 'node:events';
+import { existsSync } from 'node:fs';
 import { createServer } from 'node:net';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
-import { findNode } from './newer-node.mjs';
+import { findNode } from '../apart/world-colyseus/newer-node.mjs';
 
 const [zones, entities, clients] = [3, 1500, 24];
 const { node, missing } = findNode();
+const modules = fileURLToPath(new URL('../apart/node_modules/@colyseus/core', import.meta.url));
 const skip = (why) => {
   console.log(`skipped: ${why}`);
   process.exit(process.env.CI ? 1 : 0);
 };
+if (!existsSync(modules)) skip('npm ci --prefix examples/apart brings what it needs');
 if (missing) skip(missing);
 if (spawnSync('redis-server', ['--version']).error) skip('redis-server is not installed: apt-get install redis-server');
 
@@ -44,7 +47,7 @@ class World {
   #heard = performance.now();
 
   constructor(...options) {
-    const file = fileURLToPath(new URL('index.mjs', import.meta.url));
+    const file = fileURLToPath(new URL('../apart/world-colyseus/index.mjs', import.meta.url));
     const args = ['--entities', String(entities), '--clients', String(clients), '--seconds', '900', ...options];
     this.child = spawn(node, [file, '--json', ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
     this.child.stderr.on('data', (data) => {

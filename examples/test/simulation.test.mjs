@@ -1,7 +1,7 @@
 // Who was handed to a zone is known until that zone, lost meanwhile, has had time for a snapshot.
 import { expect, test } from 'vitest';
-import { Simulation } from './simulation.mjs';
-import { cutInto, sight, world } from './world.mjs';
+import { Simulation } from '../apart/world-colyseus/simulation.mjs';
+import { cutInto, sight, world } from '../apart/world-colyseus/world.mjs';
 
 test('who was handed to a zone that was long away is known for a while after it is back', () => {
   const simulation = new Simulation(cutInto(2), 0);

@@ -2,7 +2,7 @@
 // ghost costs on the way, how many clients there may be before ticks are late, and the same where every client is sent
 // all of its room.
 //
-//   node examples/world-colyseus/measure.mjs [--seconds 20]
+//   node measure.mjs [--seconds 20]
 import { spawn } from 'node:child_process';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';

@@ -1,17 +1,18 @@
 // Every overlapping pair of a Parquet file of boxes, by `broadphase join`:
 //
-//   npm ci --prefix examples/join-duckdb
-//   node examples/join-duckdb/index.mjs --boxes 10000000 --memory 1GB
+//   npm i && npm start
+//   npm start -- --boxes 10000000 --memory 1GB
 //
 // With --spatial <file>, DuckDB's own spatial join runs on the same file, with the same memory, and has to find the same
 // pairs. The file is the spatial extension for the DuckDB that is installed; the wheel of duckdb-extension-spatial on
 // PyPI holds it. With --no-spill it may not write to disk what does not fit, and with --limit <seconds> it is ended then.
 import { spawnSync } from 'node:child_process';
-import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import { ask, writeBoxes } from './boxes.mjs';
 
 const { values } = parseArgs({
   options: {
@@ -24,17 +25,7 @@ const { values } = parseArgs({
   },
 });
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
-const command = path('../../dist/cli.js');
-if (!existsSync(path('node_modules/@duckdb/node-api'))) {
-  console.error('DuckDB is not installed: npm ci --prefix examples/join-duckdb');
-  process.exit(1);
-}
-if (!existsSync(command)) {
-  console.error('the library is not built: npm ci && npm run build');
-  process.exit(1);
-}
-
-const { ask, writeBoxes } = await import('./boxes.mjs');
+const command = fileURLToPath(new URL('dist/cli.js', import.meta.resolve('broadphase/package.json')));
 const folder = mkdtempSync(join(tmpdir(), 'broadphase-join-'));
 const [boxes, ours, theirs] = ['boxes', 'ours', 'theirs'].map((name) => join(folder, `${name}.parquet`));
 const seconds = (since) => `${((performance.now() - since) / 1000).toFixed(1)} s`;

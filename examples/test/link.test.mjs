@@ -4,9 +4,9 @@ import { createServer } from 'node:http';
 import { afterEach, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
 import { seed } from '../../test/support/runs.ts';
-import { Link } from './link.mjs';
-import { Simulation } from './simulation.mjs';
-import { beginnings, cutInto, zoneOf } from './world.mjs';
+import { Link } from '../apart/world-colyseus/link.mjs';
+import { Simulation } from '../apart/world-colyseus/simulation.mjs';
+import { beginnings, cutInto, zoneOf } from '../apart/world-colyseus/world.mjs';
 
 const count = 3;
 const entities = 6000;

@@ -1,8 +1,8 @@
 // Both ECS, through spawning, moving and despawning, against a look at every two entities.
 import { describe, expect, test } from 'vitest';
-import { installed, pairName } from '../check.mjs';
+import { installed, pairName } from './check.mjs';
 
-const each = { bitecs: () => import('./bitecs.mjs'), koota: () => import('./koota.mjs') };
+const each = { bitecs: () => import('../ecs/bitecs.mjs'), koota: () => import('../ecs/koota.mjs') };
 
 describe.skipIf(!installed).each(['bitecs', 'koota'])('%s', (name) => {
   test('finds the pairs of the entities there are', async () => {

@@ -1,12 +1,12 @@
 // The boxes of the recording are those that three.js itself gives for the meshes, and it replays as it was.
 import { describe, expect, test } from 'vitest';
-import { checkRecording, installed } from '../check.mjs';
+import { checkRecording, installed } from './check.mjs';
 
 describe.skipIf(!installed)('recording three.js', () => {
   test('has the box of every mesh, also within groups that move', async () => {
     const { Box3, Mesh } = await import('three');
-    const { recordThree } = await import('./record-three.mjs');
-    const { createScene } = await import('./scene.mjs');
+    const { recordThree } = await import('../record-three/record-three.mjs');
+    const { createScene } = await import('../record-three/scene.mjs');
     const { scene, belt, step } = createScene(80);
     const recorded = recordThree(scene);
     const expected = [];

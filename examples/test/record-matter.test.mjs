@@ -1,12 +1,12 @@
 // Every collision that Matter.js finds is among the pairs of the recording, and the recording replays as it was.
 import { describe, expect, test } from 'vitest';
-import { checkRecording, installed, pairName, pairsOf } from '../check.mjs';
+import { checkRecording, installed, pairName, pairsOf } from './check.mjs';
 
 describe.skipIf(!installed)('recording Matter.js', () => {
   test('has the boxes of all bodies, and every collision among its pairs', async () => {
     const { default: Matter } = await import('matter-js');
-    const { recordMatter } = await import('./record-matter.mjs');
-    const { createScene } = await import('./scene.mjs');
+    const { recordMatter } = await import('../record-matter/record-matter.mjs');
+    const { createScene } = await import('../record-matter/scene.mjs');
     const engine = createScene(120);
     const recorded = recordMatter(engine);
     let collisions = 0;

@@ -2,10 +2,10 @@
 // what a look at every one finds; all while stones move.
 import { Box3, BoxGeometry, Frustum, Matrix4, PerspectiveCamera, Ray, Vector3 } from 'three';
 import { describe, expect, test } from 'vitest';
-import { Belt, seeded } from './belt.mjs';
-import { Culler } from './culler.mjs';
-import { missing } from './missing.mjs';
-import { EachByThree, FlatSpheres, InstancedMeshTree, tell } from './rivals.mjs';
+import { Belt, seeded } from '../culling-three/belt.mjs';
+import { Culler } from '../culling-three/culler.mjs';
+import { missing } from '../culling-three/missing.mjs';
+import { EachByThree, FlatSpheres, InstancedMeshTree, tell } from '../culling-three/rivals.mjs';
 
 const count = 1000;
 /** Not about its own middle, so that this is seen to. */

@@ -1,7 +1,7 @@
 // Nodes end up apart, as by a look at every two, and what is not to move does not.
 import { describe, expect, test } from 'vitest';
-import { makeNodes } from './datasets.mjs';
-import { separate } from './separate.mjs';
+import { makeNodes } from '../nodes-xyflow/datasets.mjs';
+import { separate } from '../nodes-xyflow/separate.mjs';
 
 /** How many pairs of nodes overlap by more than `threshold` along both axes: a look at every two. */
 function overlapping(nodes, threshold, padding = 0) {

@@ -1,10 +1,10 @@
 // What is handed over is exact: each way against a plain look at everything, and that no hit is outside of the pairs.
 import { describe, expect, test } from 'vitest';
-import { installed } from '../check.mjs';
+import { installed } from './check.mjs';
 
 describe.skipIf(!installed)('the narrow phase', () => {
   test('separating axes know what overlaps, how deep, and which way is out', async () => {
-    const { boundsOf, circle, contactOf, polygon } = await import('./separating-axes.mjs');
+    const { boundsOf, circle, contactOf, polygon } = await import('../narrow-phase/separating-axes.mjs');
     const square = polygon([
       [-1, -1],
       [1, -1],
@@ -24,7 +24,7 @@ describe.skipIf(!installed)('the narrow phase', () => {
   });
 
   test('pixel masks touch where both have a pixel', async () => {
-    const { maskOf, maskOfImage, masksTouch } = await import('./pixel-masks.mjs');
+    const { maskOf, maskOfImage, masksTouch } = await import('../narrow-phase/pixel-masks.mjs');
     const corner = maskOf(['##', '# ']);
     expect(masksTouch(corner, 0, 0, corner, 1, 1)).toBe(false);
     expect(masksTouch(corner, 0, 0, corner, 0, 1)).toBe(true);
@@ -34,7 +34,7 @@ describe.skipIf(!installed)('the narrow phase', () => {
   });
 
   test('swept boxes meet when small steps say so', async () => {
-    const { meeting } = await import('./swept-boxes.mjs');
+    const { meeting } = await import('../narrow-phase/swept-boxes.mjs');
     const steps = 2000;
     let state = 1;
     const random = () => {
@@ -68,10 +68,10 @@ describe.skipIf(!installed)('the narrow phase', () => {
   test.each(['shapes', 'masks', 'fastBoxes'])(
     'the world of %s finds every hit that a look at all finds',
     async (name) => {
-      const scenes = await import('./scenes.mjs');
-      const { masksTouch } = await import('./pixel-masks.mjs');
-      const { contactOf } = await import('./separating-axes.mjs');
-      const { meeting } = await import('./swept-boxes.mjs');
+      const scenes = await import('../narrow-phase/scenes.mjs');
+      const { masksTouch } = await import('../narrow-phase/pixel-masks.mjs');
+      const { contactOf } = await import('../narrow-phase/separating-axes.mjs');
+      const { meeting } = await import('../narrow-phase/swept-boxes.mjs');
       const exact = {
         shapes: (a, b) => contactOf(a.shape, b.shape) !== undefined,
         masks: (a, b) => masksTouch(a.mask, a.left, a.top, b.mask, b.left, b.top),

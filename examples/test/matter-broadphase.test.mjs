@@ -1,12 +1,12 @@
 // In every step of a heap of bodies it finds the collisions that Matter's own detector finds.
 import { describe, expect, test } from 'vitest';
-import { installed, pairName } from '../check.mjs';
+import { installed, pairName } from './check.mjs';
 
 describe.skipIf(!installed)('a broad phase for Matter.js', () => {
   test.each(['createHeap', 'createSwarm'])('finds the same collisions, step after step, in %s', async (name) => {
     const { default: Matter } = await import('matter-js');
-    const { useBroadPhase } = await import('./matter-broadphase.mjs');
-    const { [name]: createScene } = await import('./scene.mjs');
+    const { useBroadPhase } = await import('../matter-broadphase/matter-broadphase.mjs');
+    const { [name]: createScene } = await import('../matter-broadphase/scene.mjs');
     const engine = createScene(300);
     const names = (collisions) => collisions.map(({ bodyA, bodyB }) => pairName(bodyA.id, bodyB.id)).sort();
     const original = Matter.Detector.collisions;

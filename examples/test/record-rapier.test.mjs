@@ -1,11 +1,11 @@
 // Every contact of Rapier is among the pairs of the recording, its boxes hold its shapes, and it replays as it was.
 import { describe, expect, test } from 'vitest';
-import { checkRecording, installed, pairName, pairsOf } from '../check.mjs';
+import { checkRecording, installed, pairName, pairsOf } from './check.mjs';
 
 describe.skipIf(!installed)('recording Rapier', () => {
   test('has the boxes of all colliders, and every contact among its pairs', async () => {
-    const { recordRapier } = await import('./record-rapier.mjs');
-    const { createScene } = await import('./scene.mjs');
+    const { recordRapier } = await import('../record-rapier/record-rapier.mjs');
+    const { createScene } = await import('../record-rapier/scene.mjs');
     const world = await createScene(100);
     const recorded = recordRapier(world);
     let contacts = 0;
@@ -34,7 +34,7 @@ describe.skipIf(!installed)('recording Rapier', () => {
   });
 
   test('the box of each shape is the smallest that holds it', async () => {
-    const { boxOf } = await import('./record-rapier.mjs');
+    const { boxOf } = await import('../record-rapier/record-rapier.mjs');
     const RAPIER = await import('@dimforge/rapier3d-compat');
     await RAPIER.init();
     const world = new RAPIER.World({ x: 0, y: 0, z: 0 });

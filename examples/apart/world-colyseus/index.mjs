@@ -1,10 +1,10 @@
 // A seamless world on Colyseus: zones are rooms, in as many processes, and a page shows them.
 //
-//   npm run build && npm ci --prefix examples/world-colyseus
-//   node examples/world-colyseus/index.mjs --clients 300
+//   npm i && npm start
+//   npm start -- --clients 300
 //
 // --zones 3, --entities 10000, --port 2567: as many, and from that port on, a process each
-// --clients 300: simulated clients, in a process of their own
+// --clients 60: simulated clients, in a process of their own
 // --memory: one process, without Redis; so it is where Redis (redis-server) is not installed
 // --everything: no interest management, every client is sent all of its room: for comparison
 // --seconds 60: ends after so long; --json: reports and events as lines of JSON
@@ -20,7 +20,7 @@ const { values } = parseArgs({
     zones: { type: 'string', default: '3' },
     entities: { type: 'string', default: '10000' },
     port: { type: 'string', default: '2567' },
-    clients: { type: 'string', default: '0' },
+    clients: { type: 'string', default: '60' },
     memory: { type: 'boolean', default: false },
     everything: { type: 'boolean', default: false },
     seconds: { type: 'string' },

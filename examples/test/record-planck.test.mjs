@@ -1,11 +1,11 @@
 // Every contact that touches in Planck is among the pairs of the recording, and the recording replays as it was.
 import { describe, expect, test } from 'vitest';
-import { checkRecording, installed, pairName, pairsOf } from '../check.mjs';
+import { checkRecording, installed, pairName, pairsOf } from './check.mjs';
 
 describe.skipIf(!installed)('recording Planck', () => {
   test('has the boxes of all fixtures, and every contact among its pairs', async () => {
-    const { recordPlanck } = await import('./record-planck.mjs');
-    const { createScene } = await import('./scene.mjs');
+    const { recordPlanck } = await import('../record-planck/record-planck.mjs');
+    const { createScene } = await import('../record-planck/scene.mjs');
     const world = createScene(100);
     world.setContinuousPhysics(false); // else contacts are made within a step, where bodies never stood
     const recorded = recordPlanck(world);

@@ -1,9 +1,9 @@
 // Rectangles end up apart, and pairs are pushed as by a look at every two; labels are shown as one by one.
 import { describe, expect, test } from 'vitest';
-import { installed } from '../check.mjs';
-import { firstScales } from './first-scales.mjs';
-import { forceCollideRect } from './force-collide-rect.mjs';
-import { placesOf, seeded } from './words.mjs';
+import { firstScales } from '../force-d3/first-scales.mjs';
+import { forceCollideRect } from '../force-d3/force-collide-rect.mjs';
+import { placesOf, seeded } from '../force-d3/words.mjs';
+import { installed } from './check.mjs';
 
 const overlap = (a, b, padding = 0) =>
   Math.min(
@@ -130,7 +130,7 @@ describe('firstScales', () => {
 
 describe.skipIf(!installed)('with the packages of the examples', () => {
   test('the others find the same pushes and the same labels', async () => {
-    const { labels, rectangles } = await import('./rivals.mjs');
+    const { labels, rectangles } = await import('../force-d3/rivals.mjs');
     const labelled = placesOf(6000).map((place) => ({ ...place, width: 6 * place.name.length, height: 14 }));
     const scales = [1, 2, 4, 8];
     const expected = firstScales(labelled, scales);

@@ -6,7 +6,7 @@ import { expect } from 'vitest';
 
 /** Whether the packages of the examples are installed (npm ci --prefix examples). In CI they have to be. */
 export const installed =
-  Boolean(process.env.CI) || existsSync(fileURLToPath(new URL('./node_modules/matter-js/', import.meta.url)));
+  Boolean(process.env.CI) || existsSync(fileURLToPath(new URL('../node_modules/matter-js/', import.meta.url)));
 
 /** Opens the recording, plays it with the exact check on, and gives its frames, copied. */
 export function checkRecording(bytes) {

@@ -8,8 +8,8 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { bundle } from '../../scripts/bundle.mjs';
 import { keysOf, referencePairs } from '../../test/support/reference.ts';
 
-const here = fileURLToPath(new URL('.', import.meta.url));
-const installed = Boolean(process.env.CI) || existsSync(`${here}node_modules/@duckdb/node-api`);
+const here = fileURLToPath(new URL('../apart/join-duckdb', import.meta.url)); // where the command finds DuckDB
+const installed = Boolean(process.env.CI) || existsSync(join(here, '../node_modules/@duckdb/node-api'));
 const folder = mkdtempSync(join(tmpdir(), 'broadphase-join-'));
 const file = (name) => join(folder, name);
 let command;
@@ -41,7 +41,7 @@ afterAll(() => rmSync(folder, { recursive: true }));
 describe.skipIf(!installed)('broadphase join', () => {
   beforeAll(async () => {
     command = await bundle('src/cli/index.ts', 'build/cli/join.mjs');
-    duck = await import('./boxes.mjs');
+    duck = await import('../apart/join-duckdb/boxes.mjs');
     await duck.writeBoxes(file('boxes.parquet'), 40_000);
   }, 60_000);
 

@@ -1,12 +1,12 @@
 // What players hear is exactly what comes into sight and goes out of it, through joining, leaving and coming back.
 import { describe, expect, test } from 'vitest';
-import { installed } from '../check.mjs';
+import { installed } from './check.mjs';
 
 const sorted = (set) => [...set].sort();
 
 describe.skipIf(!installed)('interest management', () => {
   test('tells of every change, once, and of nothing else', async () => {
-    const { Interest } = await import('./interest.mjs');
+    const { Interest } = await import('../server-interest/interest.mjs');
     let state = 5;
     const random = () => {
       state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
@@ -54,7 +54,7 @@ describe.skipIf(!installed)('interest management', () => {
   });
 
   test('works over WebSockets', async () => {
-    const { startServer } = await import('./server.mjs');
+    const { startServer } = await import('../server-interest/server.mjs');
     const { WebSocket } = await import('ws');
     const server = startServer({ reach: 10 });
     const url = `ws://localhost:${server.server.address().port}`;

@@ -33,7 +33,6 @@ const server = new Server({
   selectProcessIdToCreateRoom: async (_, { process }) => process ?? matchMaker.processId,
   express(app) {
     app.use('/', express.static(path('page')));
-    app.use('/page.css', express.static(path('../page/page.css')));
     app.get('/reports', (_, response) => {
       response.writeHead(200, { 'Content-Type': 'text/event-stream', 'Cache-Control': 'no-store' });
       response.write(`data: ${JSON.stringify({ world, zones })}\n\n`);

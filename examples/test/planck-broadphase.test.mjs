@@ -1,13 +1,13 @@
 // Two worlds alike, one with each broad phase: all that touches in the one touches in the other, rays and boxes that are
 // asked for meet the same, and bodies that go or jump leave nothing behind.
 import { describe, expect, test } from 'vitest';
-import { installed } from '../check.mjs';
+import { installed } from './check.mjs';
 
 describe.skipIf(!installed)('a broad phase for Planck', () => {
   test('worlds go on as they do with their own', async () => {
     const { AABB, Box, Vec2, World } = await import('planck');
-    const { useBroadPhase } = await import('./planck-broadphase.mjs');
-    const { fillHeap } = await import('./scene.mjs');
+    const { useBroadPhase } = await import('../planck-broadphase/planck-broadphase.mjs');
+    const { fillHeap } = await import('../planck-broadphase/scene.mjs');
     const [own, ours] = [new World(), new World()];
     useBroadPhase(ours);
     for (const world of [own, ours]) fillHeap(world, 150);
