@@ -36,14 +36,6 @@ template <int D> class MapChoice {
   void count_more(u32 collapsed) { collapsed_ += collapsed; }
   void count(u32 collapsed) { collapsed_ = collapsed; }
 
-  /// Whether rounding has made a point of it along an axis.
-  static bool collapses(const f64* box, f32x4 first, f32x4 last) {
-    u32 axes = points(first, last);
-    bool is = false;
-    for (u32 a = 0; axes != 0 && a < D; a++) is |= (axes >> a & 1) && box[a] < box[D + a];
-    return is;
-  }
-
   /// Looks whether another map serves better, now and then, and at once where many boxes have become points; true where
   /// all are to be rounded anew. `ordered`: what stands in the space alone decides.
   SMALL bool look(const f32* boxes, const f64* exact, u32 n, bool ordered) {
@@ -63,7 +55,7 @@ template <int D> class MapChoice {
       u32 step = collapsed / usual_collapsed + 1, seen = 0;
       for (u32 s = 0; s < n && many < usual_collapsed; s++) {
         const f32* box = boxes + u64(s) * width;
-        if (!collapses(exact + u64(s) * width, load<f32x4>(box), load<f32x4>(box + width - 4))) continue;
+        if (!map_.collapses(exact + u64(s) * width, load<f32x4>(box), load<f32x4>(box + width - 4))) continue;
         if (seen++ % step == 0) some[many++] = s;
       }
     }
@@ -71,12 +63,5 @@ template <int D> class MapChoice {
     if (better) bearable_ = usual_collapsed;
     else if (collapsed > bearable_) bearable_ = 2 * collapsed;
     return better;
-  }
-
- private:
-  /// Along which axes a rounded box is a point: a bit each.
-  static u32 points(f32x4 first, f32x4 last) {
-    if constexpr (D == 2) return bitmask(first == __builtin_shufflevector(first, first, 2, 3, 2, 3)) & 3;
-    else return bitmask(first == __builtin_shufflevector(last, last, 1, 2, 3, 3)) & 7;
   }
 };

@@ -178,28 +178,29 @@ template <int D> class Numbers {
  private:
   template <u32 step, bool rounding> NOINLINE void put(const f64* box, const u32* slots, u32 count) {
     f32* boxes = boxes_.data();
+    f64* exact = exact_.data();
     Changes& changes = written.changes;
-    bool notes = !changes.all();
+    const GapMap<D>& map = choice_.map();
+    const bool notes = !changes.all(), plain = map.plain();
     u32 shown = written.shown(), collapsed = 0;
     Changes::Notes changed = changes.begin();
     for (u32 k = 0; k < count; k++, box += step) {
       u32 slot = slots[k];
       f32* to = boxes + u64(slot) * width;
-      f32x4 first, last;
-      if constexpr (rounding) choice_.map().round(box, first, last);
-      else GapMap<D>::narrowed(box, first, last);
       if constexpr (rounding) {
-        f64* its = exact_.data() + u64(slot) * width;
+        collapsed += map.round(plain, box, to);
+        f64* its = exact + u64(slot) * width;
         if (notes && differ<width * sizeof(f64)>(its, box)) changed.note(slot);
         __builtin_memcpy(its, box, width * sizeof(f64));
-        collapsed += MapChoice<D>::collapses(box, first, last);
-      } else if (notes) {
+      } else {
+        f32x4 first, last;
+        GapMap<D>::narrowed(box, first, last);
         i32x4 other = bits<i32x4>(first) ^ load<i32x4>(to);
         if constexpr (D == 3) other |= bits<i32x4>(last) ^ load<i32x4>(to + width - 4);
-        if (any(other)) changed.note(slot);
+        if (notes && any(other)) changed.note(slot);
+        store(to, first);
+        if constexpr (D == 3) store(to + width - 4, last);
       }
-      store(to, first);
-      if constexpr (D == 3) store(to + width - 4, last);
       if (slot < shown) written.show(boxes, slot);
     }
     choice_.count_more(collapsed);
@@ -249,27 +250,10 @@ template <int D> class Numbers {
   /// Rounds the staged doubles into the staged float32; says whether float32 cannot hold all of them. Returns the first
   /// bad box, or -1.
   i32 round_staged(u32 count, bool& rounded) {
-    const f64* from = staged_exact_.data();
-    f32* to = staged_.data();
-    bool inexact = false;
-    u32 collapsed = 0;
-    for (u32 s = 0; s < count; s++) {
-      const f64* box = from + u64(s) * width;
-      bool good = at_most(load<f64x2>(box), load<f64x2>(box + D)) == 3;
-      if constexpr (D == 3) good &= box[2] <= box[5];
-      if (!good) return i32(s);
-      inexact = inexact || !are_floats(box, 1, width);
-      f32x4 first, last;
-      choice_.map().round(box, first, last);
-      store(to + u64(s) * width, first);
-      if constexpr (D == 3) store(to + u64(s) * width + width - 4, last);
-      collapsed += MapChoice<D>::collapses(box, first, last);
-    }
-    rounded = inexact;
-    if (!rounded) {
-      for (u64 k = 0; k < u64(count) * width; k++) to[k] = f32(from[k]);
-    }
-    choice_.count(rounded ? collapsed : 0);
+    auto all = choice_.map().round_all(staged_exact_.data(), count, staged_.data());
+    if (all.bad >= 0) return all.bad;
+    rounded = all.inexact;
+    choice_.count(all.collapsed);
     return -1;
   }
 };
