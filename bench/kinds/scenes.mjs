@@ -1,7 +1,7 @@
 // Scenes: all boxes are given at once, and all pairs found; against packages, and in doubles. With few boxes, and with
 // --full everywhere, every technique takes part.
 import { BroadPhase } from '../../build/bench/library.mjs';
-import { loadCases } from '../cases.mjs';
+import { loadCases } from '../cases/index.mjs';
 import { techniques } from '../contenders/techniques.mjs';
 import { framesFor } from '../harness/frames.mjs';
 import { packagesOf } from './objects.mjs';

@@ -6,7 +6,7 @@ import { readdirSync, readFileSync } from 'node:fs';
 import { basename, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-const folder = fileURLToPath(new URL('./cases/', import.meta.url));
+const folder = fileURLToPath(new URL('./', import.meta.url));
 const recordings = /\.(bin|trace)(\.gz)?$/;
 
 /** All cases, by name. What everybody asks for first comes first. */
@@ -15,7 +15,7 @@ export function loadCases(traces) {
     .filter((file) => file.endsWith('.json'))
     .map((file) => {
       const item = JSON.parse(readFileSync(folder + file, 'utf8'));
-      if (item.recording) item.recording = resolve(folder, '..', item.recording);
+      if (item.recording) item.recording = resolve(folder, '../..', item.recording);
       return { name: basename(file, '.json'), ...item };
     });
   if (traces) {
