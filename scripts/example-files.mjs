@@ -1,7 +1,7 @@
 // Each folder of examples can be taken as it is, so what several have in common stands in each: the files of their
 // pages, which are written once in examples/page, and the version of the library.
 //
-//   npm run examples    writes both into the folders; test/examples.test.ts tells where that was forgotten
+//   npm run examples    writes both into the folders; test/house/example-folders.test.ts tells where that was forgotten
 import { existsSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 

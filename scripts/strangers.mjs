@@ -6,8 +6,8 @@
 //   npm run test:examples -- react starter   those with these words in their names
 //
 // Most share what examples/node_modules has, beside the tarball, and those of examples/apart what that has;
-// test/examples.test.ts says that each folder names all that it imports. The starter and the hooks for React are
-// installed by npm itself.
+// test/house/example-folders.test.ts says that each folder names all that it imports. The starter and the hooks for
+// React are installed by npm itself.
 import { equal, match, ok } from 'node:assert/strict';
 import { execFile, spawn } from 'node:child_process';
 import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, symlinkSync } from 'node:fs';

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { bundle } from '../../scripts/bundle.mjs';
-import { keysOf, referencePairs } from '../../test/reference.ts';
+import { keysOf, referencePairs } from '../../test/support/reference.ts';
 
 const here = fileURLToPath(new URL('../apart/join-duckdb', import.meta.url)); // where the command finds DuckDB
 const installed = Boolean(process.env.CI) || existsSync(join(here, '../node_modules/@duckdb/node-api'));

@@ -3,7 +3,7 @@
 import { createServer } from 'node:http';
 import { afterEach, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
-import { seed } from '../../test/runs.ts';
+import { seed } from '../../test/support/runs.ts';
 import { Link } from '../apart/world-colyseus/link.mjs';
 import { Simulation } from '../apart/world-colyseus/simulation.mjs';
 import { beginnings, cutInto, zoneOf } from '../apart/world-colyseus/world.mjs';
