@@ -243,6 +243,21 @@ describe('init', () => {
     expect(result).toEqual({ folder: file('other'), broadphase: 'file:../broadphase.tgz' });
   });
 
+  test('takes the tarball that the project around it has', async () => {
+    const around = process.cwd();
+    process.chdir(folder);
+    try {
+      writeFileSync('package.json', JSON.stringify({ dependencies: { broadphase: 'file:broadphase.tgz' } }, null, 2));
+      const { result } = await json('init', 'inside');
+      expect(result).toMatchObject({ broadphase: 'file:../broadphase.tgz' });
+      writeFileSync('package.json', JSON.stringify({ dependencies: { broadphase: 'file:absent.tgz' } }, null, 2));
+      expect((await json('init', 'beside')).result).toMatchObject({ broadphase: `^${version}` });
+    } finally {
+      process.chdir(around);
+      rmSync(file('package.json'));
+    }
+  });
+
   test('leaves a folder alone that has files in it, or where the tarball is not there', async () => {
     expect(await run('init', folder)).toMatchObject({
       code: 2,
