@@ -1,6 +1,6 @@
-// Same calls, same answers, in the same order, everywhere: plays the same tapes (test/determinism/tape.ts) with every
+// Same calls, same answers, in the same order, everywhere: plays the same tapes (test/promises/determinism/tape.ts) with every
 // technique in Node, in Chromium, in Firefox, and natively as g++ and clang compile the kernel, and compares the hash of
-// all answers with those kept in test/determinism/golden.json.
+// all answers with those kept in test/promises/determinism/golden.json.
 //
 //   npm run determinism                 all that is here; what is not is named
 //   npm run determinism -- --write      rewrites the hashes, if all agree: after a change of what an order is
@@ -15,10 +15,10 @@ import { build, clangs, findCompiler, root, run } from './native.mjs';
 
 const write = process.argv.includes('--write');
 const folder = join(root, 'build/determinism');
-const golden = join(root, 'test/determinism/golden.json');
+const golden = join(root, 'test/promises/determinism/golden.json');
 const script = 'build/determinism/player.mjs';
 const { play, techniqueNames, randomTape, framesTape, readRecording } = await import(
-  await bundle('test/determinism/index.ts', script)
+  await bundle('test/promises/determinism/index.ts', script)
 );
 mkdirSync(folder, { recursive: true });
 

@@ -53,9 +53,10 @@ const pages = new Map([
 
 /** The folders of examples, each a page with its source. */
 const folders = new Map(
-  readdirSync(`${repository}examples`, { withFileTypes: true })
-    .filter((entry) => entry.isDirectory() && entry.name !== 'node_modules')
-    .map(({ name }) => [`examples/${name}`, `examples/${name}/index.html`]),
+  ['examples', 'examples/apart']
+    .flatMap((at) => readdirSync(repository + at, { withFileTypes: true }).map((entry) => ({ at, entry })))
+    .filter(({ entry }) => entry.isDirectory() && !['apart', 'node_modules', 'test'].includes(entry.name))
+    .map(({ at, entry: { name } }) => [`${at}/${name}`, `examples/${name}/index.html`]),
 );
 
 const read = (file: string) => readFileSync(repository + file, 'utf8');

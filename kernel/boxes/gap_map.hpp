@@ -53,6 +53,57 @@ template <int D> class GapMap {
     last = load<f32x4>(to + width - 4);
   }
 
+  /// Rounds a box; gives whether it collapses. `plain`: of this map, in a register of the caller.
+  bool round(bool plain, const f64* box, f32* to) const {
+    f32x4 first, last;
+    narrowed(box, first, last);
+    // What has a size in float32, and an end, needs no second look.
+    if (!plain || !is_sized(first, last)) return round_slowly(box, to);
+    store(to, first);
+    if constexpr (D == 3) store(to + width - 4, last);
+    return false;
+  }
+
+  /// What came of rounding many boxes.
+  struct Rounded {
+    i32 bad = -1;  // the first that is none: what follows it is not rounded
+    bool inexact = false;  // float32 does not hold all numbers
+    u32 collapsed = 0;  // boxes that are points then, along an axis, but were none
+  };
+
+  /// Boxes as float32, one after the other: as they are if float32 holds all of them, otherwise as `round` has them.
+  NOINLINE Rounded round_all(const f64* from, u32 count, f32* to) const {
+    const bool plain = plain_;
+    bool mapped = !plain, inexact = false;
+    u32 collapsed = 0;
+    for (u32 s = 0; s < count; s++, from += width, to += width) {
+      f32x4 pairs[D], first, last;
+      for (u32 k = 0; k < D; k++) pairs[k] = narrow(load<f64x2>(from + 2 * k));
+      join(pairs, first, last);
+      inexact = inexact || !are_floats(from, pairs);
+      // What has a size in float32, and an end, is a box, and needs no second look.
+      if (plain && is_sized(first, last)) {
+        store(to, first);
+        if constexpr (D == 3) store(to + width - 4, last);
+        continue;
+      }
+      if (!is_box(from)) return {i32(s), inexact, collapsed};
+      collapsed += round_slowly(from, to);
+      mapped = true;
+    }
+    if (inexact) return {-1, true, collapsed};
+    for (u64 k = u64(count) * width; mapped && k > 0; k--) *--to = f32(*--from);
+    return {};
+  }
+
+  /// Whether rounding has made a point of a box along an axis.
+  static bool collapses(const f64* box, f32x4 first, f32x4 last) {
+    u32 axes = bitmask(i32x4(first == upper(first, last))) & ((1 << D) - 1);
+    bool is = false;
+    for (u32 a = 0; axes != 0 && a < D; a++) is |= (axes >> a & 1) && box[a] < box[D + a];
+    return is;
+  }
+
   /// The number that is searched where this one was given, before it is rounded.
   f64 map(f64 x, u32 axis) const {
     if (plain_) return x;
@@ -104,6 +155,40 @@ template <int D> class GapMap {
   static void join(const f32x4 (&pairs)[D], f32x4& first, f32x4& last) {
     first = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 4, 5);
     last = __builtin_shufflevector(pairs[D - 2], pairs[D - 1], 0, 1, 4, 5);
+  }
+
+  /// The maxima of a box in the lanes of its minima.
+  static f32x4 upper(f32x4 first, f32x4 last) {
+    if constexpr (D == 2) return __builtin_shufflevector(first, first, 2, 3, 2, 3);
+    else return __builtin_shufflevector(last, last, 1, 2, 3, 3);
+  }
+
+  NOINLINE bool round_slowly(const f64* box, f32* to) const {
+    f32x4 first, last;
+    round(box, first, last);
+    store(to, first);
+    if constexpr (D == 3) store(to + width - 4, last);
+    return collapses(box, first, last);
+  }
+
+  /// Whether the box has a size along each axis that is neither 0 nor endless.
+  static bool is_sized(f32x4 first, f32x4 last) {
+    constexpr u32 axes = (1 << D) - 1;
+    f32x4 size = upper(first, last) - first;
+    return (bitmask((size > splat(0.0f)) & (size <= splat(largest))) & axes) == axes;
+  }
+
+  /// Whether these pairs are still the numbers that they were rounded from.
+  static bool are_floats(const f64* numbers, const f32x4 (&pairs)[D]) {
+    i32x4 rounded = {};
+    for (u32 k = 0; k < D; k++) rounded |= bits<i32x4>(widen(pairs[k]) != load<f64x2>(numbers + 2 * k));
+    return !any(rounded);
+  }
+
+  static bool is_box(const f64* box) {
+    bool good = at_most(load<f64x2>(box), load<f64x2>(box + D)) == 3;
+    if constexpr (D == 3) good &= box[2] <= box[5];
+    return good;
   }
 
   NOINLINE f64x2 shifted(f64x2 x, u32 number) const {

@@ -2,7 +2,7 @@
 // Idea: the questions stand one behind the other, as doubles, and are asked in that order. The answers of all stand in
 // one list, and beside it where those of each question end.
 // Cost: that of the questions asked alone, less the calls. To ask them in the order of the Hilbert curve was slower in all
-// but a few cases: see docs/decisions/many-questions.md.
+// but a few cases: see docs/decisions/0011-many-questions.md.
 #pragma once
 #include "questions/queries.hpp"
 

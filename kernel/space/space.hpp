@@ -804,28 +804,28 @@ template <int D> class Space {
   /// Puts boxes of the ring in their slots, and notes which are not what stood there.
   template <bool rounding> NOINLINE void put(const f64* entry, const u32* slots, u32 count) {
     f32* boxes = boxes_.data();
-    bool notes = !changes_.all();
+    f64* exact = exact_.data();
+    const bool notes = !changes_.all(), plain = map_.plain();
     u32 shown = shown_count_, collapsed = 0;
     Changes::Notes changed = changes_.begin();
     for (u32 k = 0; k < count; k++, entry += Ring<D>::step) {
       const f64* box = entry + 1;
       u32 slot = slots[k];
       f32* to = boxes + u64(slot) * width;
-      f32x4 first, last;
-      if constexpr (rounding) map_.round(box, first, last);
-      else GapMap<D>::narrowed(box, first, last);
       if constexpr (rounding) {
-        f64* its = exact_.data() + u64(slot) * width;
+        collapsed += map_.round(plain, box, to);
+        f64* its = exact + u64(slot) * width;
         if (notes && differ<width * sizeof(f64)>(its, box)) changed.note(slot);
         __builtin_memcpy(its, box, width * sizeof(f64));
-        collapsed += collapses(box, first, last);
-      } else if (notes) {
+      } else {
+        f32x4 first, last;
+        GapMap<D>::narrowed(box, first, last);
         i32x4 other = bits<i32x4>(first) ^ load<i32x4>(to);
         if constexpr (D == 3) other |= bits<i32x4>(last) ^ load<i32x4>(to + width - 4);
-        if (any(other)) changed.note(slot);
+        if (notes && any(other)) changed.note(slot);
+        store(to, first);
+        if constexpr (D == 3) store(to + width - 4, last);
       }
-      store(to, first);
-      if constexpr (D == 3) store(to + width - 4, last);
       if (slot < shown) show(slot);
     }
     collapsed_ += collapsed;
@@ -876,20 +876,6 @@ template <int D> class Space {
     if constexpr (D == 3) store(to + width - 4, last);
   }
 
-  /// Along which axes a rounded box is a point: a bit each.
-  static u32 points(f32x4 first, f32x4 last) {
-    if constexpr (D == 2) return bitmask(first == __builtin_shufflevector(first, first, 2, 3, 2, 3)) & 3;
-    else return bitmask(first == __builtin_shufflevector(last, last, 1, 2, 3, 3)) & 7;
-  }
-
-  /// Whether rounding has made a point of it along an axis.
-  static bool collapses(const f64* box, f32x4 first, f32x4 last) {
-    u32 axes = points(first, last);
-    bool is = false;
-    for (u32 a = 0; axes != 0 && a < D; a++) is |= (axes >> a & 1) && box[a] < box[D + a];
-    return is;
-  }
-
   /// Looks whether another map serves better, now and then, and at once where many boxes have become points.
   SMALL void look_for_map() {
     if (!rounding_ || exposed_ || options_.wrap[0] > 0) return;
@@ -909,7 +895,7 @@ template <int D> class Space {
       u32 step = collapsed / usual_collapsed + 1, seen = 0;
       for (u32 s = 0; s < n && many < usual_collapsed; s++) {
         const f32* box = boxes_.data() + u64(s) * width;
-        if (!collapses(exact_.data() + u64(s) * width, load<f32x4>(box), load<f32x4>(box + width - 4))) continue;
+        if (!map_.collapses(exact_.data() + u64(s) * width, load<f32x4>(box), load<f32x4>(box + width - 4))) continue;
         if (seen++ % step == 0) some[many++] = s;
       }
     }
@@ -973,27 +959,10 @@ template <int D> class Space {
   /// Rounds the staged doubles into the staged float32; says whether float32 cannot hold all of them. Returns the first
   /// bad box, or -1.
   i32 round_staged(u32 count, bool& rounded) {
-    const f64* from = staged_exact_.data();
-    f32* to = staged_.data();
-    bool inexact = false;
-    u32 collapsed = 0;
-    for (u32 s = 0; s < count; s++) {
-      const f64* box = from + u64(s) * width;
-      bool good = at_most(load<f64x2>(box), load<f64x2>(box + D)) == 3;
-      if constexpr (D == 3) good &= box[2] <= box[5];
-      if (!good) return i32(s);
-      inexact = inexact || !are_floats(box, 1, width);
-      f32x4 first, last;
-      map_.round(box, first, last);
-      store(to + u64(s) * width, first);
-      if constexpr (D == 3) store(to + u64(s) * width + width - 4, last);
-      collapsed += collapses(box, first, last);
-    }
-    rounded = inexact;
-    if (!rounded) {
-      for (u64 k = 0; k < u64(count) * width; k++) to[k] = f32(from[k]);
-    }
-    collapsed_ = rounded ? collapsed : 0;
+    auto all = map_.round_all(staged_exact_.data(), count, staged_.data());
+    if (all.bad >= 0) return all.bad;
+    rounded = all.inexact;
+    collapsed_ = all.collapsed;
     return -1;
   }
 

@@ -17,6 +17,9 @@ import { complain, counted } from './terminal.ts';
 export class FileError extends Error {}
 
 /** The options by which each command that reads a trace lets choose what of it. */
+/** The operand that {@link openSource} takes. */
+export const sourceOperand = { trace: 'what record(space) wrote, or a raw recording; either may be gzipped' };
+
 export const sourceOptions: Record<string, Option> = {
   frames: { value: 'a..b', help: 'only these frames, both included, counted from 0' },
   salvage: { help: 'take the whole frames of a trace that was cut off, instead of refusing it' },

@@ -30,7 +30,7 @@ const manifestOf = (folder: string, spec: string) => ({
 
 export const initCommand: Command = {
   summary: 'a small game to begin from: a folder with Vite and TypeScript',
-  operands: ['folder'],
+  operands: { folder: 'a new or empty one' },
   options: {
     package: { value: 'file', help: 'a tarball of broadphase to install, instead of the version on npm' },
   },

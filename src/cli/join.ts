@@ -43,7 +43,7 @@ function readColumns(input: Input): string[] | undefined {
 
 export const joinCommand: Command = {
   summary: 'every overlapping pair of a Parquet or CSV file of boxes',
-  operands: ['boxes', 'pairs'],
+  operands: { boxes: 'a Parquet or CSV file', pairs: 'the Parquet file to write' },
   options: {
     blue: {
       value: 'file',

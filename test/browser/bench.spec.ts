@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { expect, type Page, test } from '@playwright/test';
 
-const file = fileURLToPath(new URL('../fixtures/bench-results.json', import.meta.url));
+const file = fileURLToPath(new URL('../bench/bench-results.json', import.meta.url));
 const { rows } = JSON.parse(readFileSync(file, 'utf8'));
 const scenes = rows.filter(({ kind }: { kind: string }) => kind === 'scenes');
 

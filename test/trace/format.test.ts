@@ -5,8 +5,8 @@ import { openAny, openTrace, readTrace, TraceError, TraceWriter } from 'broadpha
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { crc32 } from '../../src/trace/crc32.ts';
-import { runs, seed } from '../runs.ts';
-import { concat, factsOf, type GivenFrame, someFrames, write } from './arbitrary.ts';
+import { concat, factsOf, type GivenFrame, someFrames, write } from '../support/random-frames.ts';
+import { runs, seed } from '../support/runs.ts';
 
 const numRuns = runs(200);
 

@@ -11,8 +11,8 @@ import {
   TraceWriter,
 } from 'broadphase/trace';
 import { expect, test } from 'vitest';
-import { readTrace, traceFile, traceNames } from '../traces.ts';
-import { concat } from './arbitrary.ts';
+import { concat } from '../support/random-frames.ts';
+import { readTrace, traceFile, traceNames } from '../support/recordings.ts';
 
 test.each(traceNames)(
   '%s goes through a trace unchanged, and gets no larger than the packed recording',

@@ -1,4 +1,4 @@
-// Makes the calls of tapes (test/determinism/tape.ts) on a space, as test/determinism/play.ts does, and prints the hash
+// Makes the calls of tapes (test/promises/determinism/tape.ts) on a space, as test/promises/determinism/play.ts does, and prints the hash
 // of all that it answers: `play TECHNIQUE TAPE`, repeated. The kernel alone must answer as the package does.
 #include <cstdio>
 #include <cstdlib>
