@@ -4,11 +4,11 @@
 import { BroadPhase } from 'broadphase';
 import fc from 'fast-check';
 import { describe, test } from 'vitest';
+import { runs, seed } from '../support/runs.ts';
 import { badChanges, badQuestions } from './random-calls/bad-calls.ts';
 import { changes, rules, saves } from './random-calls/changes.ts';
 import type { Model } from './random-calls/model.ts';
 import { manyQuestions, questions } from './random-calls/questions.ts';
-import { runs, seed } from '../support/runs.ts';
 
 const numRuns = runs(150);
 const sources = [changes, rules, questions, manyQuestions, saves, badChanges, badQuestions];
