@@ -16,6 +16,8 @@
 
 template <int D> class CandidateList {
   static constexpr u32 width = 2 * D;
+  static constexpr u32 room_step = 4096;  // candidates between two looks whether there is room for their pairs
+  static constexpr u32 doubt_step = 32;  // candidates whose pairs are in doubt together
   static constexpr u32 padding = 4;  // vector loads may read this many floats past the last box
   static constexpr Tuning<D> tuning = {};
   // In a tag, below the exclusion bits:
@@ -392,10 +394,10 @@ template <int D> class CandidateList {
     const f32* boxes = scene.boxes;
     u64* out = pairs.list.data() + pairs.count;
     for (u64 k = 0; k < candidates.count;) {
-      u64 until = smaller(candidates.count, k + 4096);
+      u64 until = smaller(candidates.count, k + room_step);
       out = pairs.room(out, until - k);
       while (k < until) {
-        u64 few = watch ? smaller(until, k + 32) : until;
+        u64 few = watch ? smaller(until, k + doubt_step) : until;
         const u64* begin = out;
         i32x4 touching = {};
         for (; k < few; k++) {
