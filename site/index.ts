@@ -1,6 +1,7 @@
 // The first page: boxes that move, their pairs found every frame, and what that costs.
 // What is chosen stands in the address, so that a view can be sent to someone.
 import { BroadPhase, type TechniqueName } from 'broadphase';
+import rain from '../recordings/rain.trace.gz?url';
 import type { SceneName } from '../src/scenes/index.ts';
 import { find, showPlaying } from './shared/elements.ts';
 import { Figure } from './shared/figure.ts';
@@ -87,7 +88,7 @@ async function show(): Promise<void> {
   let scene: LiveScene;
   if (recorded) {
     note.textContent = 'Loading the recording.';
-    recording ??= fetchRecording('./traces/rain.bin.gz').then(recordedScene);
+    recording ??= fetchRecording(rain).then(recordedScene);
     scene = await recording;
     if (turn !== shown) return;
   } else {

@@ -4,7 +4,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'no
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { afterAll, beforeAll, describe, expect, test, vi } from 'vitest';
 import { bundle } from '../../scripts/bundle.mjs';
 import { keysOf, referencePairs } from '../../test/support/reference.ts';
 
@@ -12,6 +12,7 @@ const here = fileURLToPath(new URL('../apart/join-duckdb', import.meta.url)); //
 const installed = Boolean(process.env.CI) || existsSync(join(here, '../node_modules/@duckdb/node-api'));
 const folder = mkdtempSync(join(tmpdir(), 'broadphase-join-'));
 const file = (name) => join(folder, name);
+vi.setConfig({ testTimeout: 120_000 }); // most start DuckDB and worker threads several times
 let command;
 let duck;
 
@@ -43,7 +44,7 @@ describe.skipIf(!installed)('broadphase join', () => {
     command = await bundle('src/cli/index.ts', 'build/cli/join.mjs');
     duck = await import('../apart/join-duckdb/boxes.mjs');
     await duck.writeBoxes(file('boxes.parquet'), 40_000);
-  }, 60_000);
+  });
 
   test('finds the pairs of the reference, in one tile and in many', async () => {
     const expected = referencePairs(await boxesIn(file('boxes.parquet')), 2);
@@ -105,7 +106,7 @@ describe.skipIf(!installed)('broadphase join', () => {
     expect([kills > 0, resumed > 0]).toEqual([true, true]);
     expect(await pairsIn(file('killed.parquet'))).toEqual(referencePairs(await boxesIn(file('boxes.parquet')), 2));
     expect(existsSync(file('killed.parquet.join'))).toBe(false);
-  }, 120_000);
+  });
 
   test('names what is wrong', async () => {
     const bad = async (change, name = 'bad.parquet') => {
@@ -154,7 +155,7 @@ describe.skipIf(!installed)('broadphase join', () => {
       2,
       expect.stringContaining('is to be read'),
     ]);
-  }, 60_000);
+  });
 });
 
 test('asks for DuckDB by its name where that is missing', async () => {

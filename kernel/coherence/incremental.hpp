@@ -25,6 +25,9 @@ template <int D> class Incremental {
   u32 pause_ = 0, pauses_ = tuning.watched;
 
  public:
+  static constexpr bool notes_doubts = true;
+  static constexpr bool follows_changes = true;
+
   constexpr explicit Incremental(StripSweep<D>& anew) : anew_(anew), list_(anew) {}
 #if !defined(__wasm__)
   ~Incremental() { release(); }

@@ -15,6 +15,8 @@ template <int D> class BruteForce {
   Buffer<u32> end_;
 
  public:
+  static constexpr bool notes_doubts = true;
+
   void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     if (n < 2) return;

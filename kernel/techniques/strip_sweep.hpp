@@ -86,6 +86,8 @@ template <int D> class StripSweep {
   Stats* stats_ = nullptr;
 
  public:
+  static constexpr bool notes_doubts = true;
+
   SMALL void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     stats_ = &stats;
     boxes_ = entered_ = scene.count;

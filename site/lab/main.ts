@@ -157,7 +157,7 @@ const boxesWanted = () => {
 function sourceOf(): Source {
   if (ownFile) return { kind: 'file', file: ownFile };
   if (isTrace(state.scene)) {
-    return { kind: 'trace', url: new URL(`../traces/${traces[state.scene].file}`, location.href).href };
+    return { kind: 'trace', url: new URL(traces[state.scene].url, location.href).href };
   }
   return { kind: 'scene', name: state.scene, boxes: boxesWanted() };
 }

@@ -119,7 +119,7 @@ test('info tells what is in a trace', async () => {
   expect(code).toBe(0);
   expect(result).toMatchObject({
     dimensions: 2,
-    frames: 8,
+    frames: 21,
     ids: false,
     doubles: false,
     boxes: { min: 2029, max: 2029 },
@@ -194,11 +194,14 @@ test('tune recommends options, as code, and writes a report that asks for nothin
 test('convert goes from raw to trace and back without loss', async () => {
   const trace = file('spinner.trace.gz');
   const raw = file('spinner.bin');
-  expect((await json('convert', traceFile('spinner'), trace)).result).toMatchObject({ dimensions: 2 });
+  const given = file('given.bin.gz');
+  expect((await run('convert', traceFile('spinner'), given)).code).toBe(0);
+  expect((await json('convert', given, trace)).result).toMatchObject({ dimensions: 2 });
   expect(openTrace(gunzipSync(readFileSync(trace))).frames).toBeGreaterThan(1);
   expect((await run('convert', trace, raw)).code).toBe(0);
   expect((await run('convert', raw, `${raw}.gz`)).code).toBe(0);
   expect(Buffer.compare(gunzipSync(readFileSync(`${raw}.gz`)), readFileSync(raw))).toBe(0);
+  expect(Buffer.compare(gunzipSync(readFileSync(given)), readFileSync(raw))).toBe(0);
   const first = new Float32Array(readFileSync(raw).buffer.slice(16, 32));
   const [frame] = openTrace(gunzipSync(readFileSync(trace)));
   expect([...frame.boxes.subarray(0, 4)]).toEqual([...first]);
@@ -238,6 +241,21 @@ describe('init', () => {
     writeFileSync(file('broadphase.tgz'), '');
     const { result } = await json('init', file('other'), '--package', file('broadphase.tgz'));
     expect(result).toEqual({ folder: file('other'), broadphase: 'file:../broadphase.tgz' });
+  });
+
+  test('takes the tarball that the project around it has', async () => {
+    const around = process.cwd();
+    process.chdir(folder);
+    try {
+      writeFileSync('package.json', JSON.stringify({ dependencies: { broadphase: 'file:broadphase.tgz' } }, null, 2));
+      const { result } = await json('init', 'inside');
+      expect(result).toMatchObject({ broadphase: 'file:../broadphase.tgz' });
+      writeFileSync('package.json', JSON.stringify({ dependencies: { broadphase: 'file:absent.tgz' } }, null, 2));
+      expect((await json('init', 'beside')).result).toMatchObject({ broadphase: `^${version}` });
+    } finally {
+      process.chdir(around);
+      rmSync(file('package.json'));
+    }
   });
 
   test('leaves a folder alone that has files in it, or where the tarball is not there', async () => {

@@ -10,7 +10,7 @@ const read = (file: string) => readFileSync(join(root, file), 'utf8');
 
 /** What is installed, built or left behind by tests, in whatever folder. */
 const made = ['node_modules', 'build', 'dist', 'generated', 'coverage', 'test-results'];
-const folders = ['kernel', 'src', 'site', 'bench', 'docs', 'examples', 'consumers', 'scripts', 'test'];
+const folders = ['kernel', 'src', 'site', 'bench', 'docs', 'examples', 'consumers', 'recordings', 'scripts', 'test'];
 
 /** All files in a folder, by their paths from the root. */
 function filesIn(folder: string): string[] {

@@ -9,7 +9,7 @@ import { fileURLToPath } from 'node:url';
 import { BroadPhase, type Stats } from 'broadphase';
 import { afterAll, describe, expect, test } from 'vitest';
 import { createScene, gameNames, sceneNames } from '../../src/scenes/index.ts';
-import type { Recording } from '../../src/scenes/recorded.ts';
+import type { RecordedFrames } from '../../src/scenes/recorded.ts';
 import { readTrace, type TraceName } from '../support/recordings.ts';
 
 const tolerance = 0.02;
@@ -87,7 +87,7 @@ function compare(name: string, work: Work): void {
   }
 }
 
-function play(recording: Recording) {
+function play(recording: RecordedFrames) {
   let at = -1;
   return {
     dimensions: recording.dimensions,

@@ -128,7 +128,7 @@ describe('errors say where', () => {
   });
 
   test('version 1 is read, and knows of no rules', () => {
-    const old = new Uint8Array(gunzipSync(readFileSync('site/public/traces/smash.trace.gz')));
+    const old = new Uint8Array(gunzipSync(readFileSync('recordings/smash.trace.gz')));
     expect(old[8]).toBe(1);
     expect(openTrace(old).frames).toBe(20);
     const writer = new TraceWriter(2);

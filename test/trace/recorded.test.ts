@@ -1,6 +1,9 @@
-// Recordings: both layouts give the same numbers, and what is not a recording is told apart clearly.
+// Recordings: the raw layout and traces give the same numbers, and what is not a recording is told apart clearly.
+
+import { openTrace, TraceWriter } from 'broadphase/trace';
 import { expect, test } from 'vitest';
-import { packedMagic, rawMagic, readRecording } from '../../src/scenes/recorded.ts';
+import { framesOf } from '../../src/scenes/recorded.ts';
+import { rawMagic, readRecording } from '../../src/trace/raw.ts';
 import { readTrace, traceNames } from '../support/recordings.ts';
 import { referencePairs } from '../support/reference.ts';
 
@@ -21,24 +24,27 @@ function encode(magic: number, body: Uint8Array, header: number[] = [2, 2, 2]): 
 
 const raw = new Uint8Array(Float32Array.from(frames.flatMap((frame) => [...frame])).buffer);
 
-function packed(): Uint8Array {
-  const bits = new Uint32Array(raw.buffer);
-  const body = new Uint8Array(raw.length);
-  bits.forEach((value, i) => {
-    const change = i < 8 ? value : value ^ bits[i - 8];
-    for (let byte = 0; byte < 4; byte++) body[byte * bits.length + i] = change >>> (8 * byte);
-  });
-  return body;
-}
-
-test.each([
-  ['raw', rawMagic, raw],
-  ['packed', packedMagic, packed()],
-])('a %s recording gives its frames, minima then maxima', (_, magic, body) => {
-  const recording = readRecording(encode(magic, body));
+test('a recording gives its frames, minima then maxima', () => {
+  const recording = readRecording(encode(rawMagic, raw));
   expect(recording).toMatchObject({ dimensions: 2, count: 2, frames: 2 });
   expect(recording.frame(0)).toEqual(frames[0]);
   expect(recording.frame(1)).toEqual(frames[1]);
+});
+
+test('the frames of a trace, or a part of them, are at hand', () => {
+  const writer = new TraceWriter(2);
+  const pieces = [writer.header(), ...frames.map((frame) => writer.frame(frame))];
+  const trace = openTrace(Buffer.concat([...pieces, writer.end()]));
+  expect(framesOf(trace)).toMatchObject({ dimensions: 2, count: 2, frames: 2 });
+  expect(framesOf(trace).frame(0)).toEqual(frames[0]);
+  expect(framesOf(trace).frame(1)).toEqual(frames[1]);
+  expect(framesOf(trace, 1).frame(0)).toEqual(frames[1]);
+  expect(framesOf(trace, 0, 1)).toMatchObject({ frames: 1 });
+  expect(() => framesOf(trace, 2)).toThrow('No frame from 2 to 2 among 2');
+  for (const k of [-1, 2, 0.5, Number.NaN]) expect(() => framesOf(trace).frame(k)).toThrow(`Frame ${k}`);
+  const more = new TraceWriter(2);
+  const grown = [more.header(), more.frame(frames[0]), more.frame(Float32Array.of(0, 0, 1, 1)), more.end()];
+  expect(() => framesOf(openTrace(Buffer.concat(grown)))).toThrow('Frame 1 has 1 boxes, expected 2');
 });
 
 test('bytes that start anywhere in a buffer are read', () => {

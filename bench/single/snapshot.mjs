@@ -1,8 +1,8 @@
 // What a snapshot costs: its bytes, and the time to take one and to restore one. The boxes move in between, so that
 // nothing is the same bytes twice.
 //   npm run bench:snapshot
-import { bundle } from '../scripts/bundle.mjs';
-import { median } from './harness/statistics.mjs';
+import { bundle } from '../../scripts/bundle.mjs';
+import { median } from '../harness/statistics.mjs';
 
 const { BroadPhase, createScene } = await import(await bundle('bench/library.ts', 'build/bench/library.mjs'));
 

@@ -1,11 +1,11 @@
 // Questions asked many at a time, and the pairs of two spaces, in turns and in one run: many in a call against one by one,
 // `nearests` against kdbush and flatbush, `pairsWith` against one space with a level that is static.
-//   node bench/many.mjs [--count 100000]
+//   node bench/single/many.mjs [--count 100000]
 // Milliseconds are medians; read the ratios. What a camera sees is in examples/culling-three/bench.mjs.
 import { parseArgs } from 'node:util';
 import Flatbush from 'flatbush';
 import KDBush from 'kdbush';
-import { bundle } from '../scripts/bundle.mjs';
+import { bundle } from '../../scripts/bundle.mjs';
 
 const { values } = parseArgs({ options: { count: { type: 'string' } } });
 const counts = values.count ? values.count.split(',').map(Number) : [10_000, 100_000];

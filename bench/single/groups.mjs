@@ -1,8 +1,8 @@
 // Ragdolls in a pile: 1,000 of 20 boxes each, of which the boxes of one are never to be a pair. Each ragdoll a group,
 // against the same space without groups whose pairs are looked through in JavaScript; in one process, in turns:
 //   npm run bench:groups -- [ragdolls]
-import { bundle } from '../scripts/bundle.mjs';
-import { median } from './harness/statistics.mjs';
+import { bundle } from '../../scripts/bundle.mjs';
+import { median } from '../harness/statistics.mjs';
 
 const { BroadPhase } = await import(await bundle('bench/library.ts', 'build/bench/library.mjs'));
 const ragdolls = Number(process.argv[2] ?? 1000);

@@ -1,12 +1,13 @@
 // The cases: one JSON file each under cases/, and the recordings of a folder that is given. A case names a scene of
-// src/scenes and how many boxes it is run with, or a recording. `engineMs` and `bestNativeMs` are what its own engine and
+// src/scenes and how many boxes it is run with, or a recording and which part
+// of it: the first frame, and that before which to stop. `engineMs` and `bestNativeMs` are what its own engine and
 // the fastest native library took for it.
 import { readdirSync, readFileSync } from 'node:fs';
 import { basename, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-const folder = fileURLToPath(new URL('./cases/', import.meta.url));
-const recordings = /\.bin(\.gz)?$/;
+const folder = fileURLToPath(new URL('./', import.meta.url));
+const recordings = /\.(bin|trace)(\.gz)?$/;
 
 /** All cases, by name. What everybody asks for first comes first. */
 export function loadCases(traces) {
@@ -14,7 +15,7 @@ export function loadCases(traces) {
     .filter((file) => file.endsWith('.json'))
     .map((file) => {
       const item = JSON.parse(readFileSync(folder + file, 'utf8'));
-      if (item.recording) item.recording = resolve(folder, '..', item.recording);
+      if (item.recording) item.recording = resolve(folder, '../..', item.recording);
       return { name: basename(file, '.json'), ...item };
     });
   if (traces) {

@@ -1,7 +1,7 @@
 // Questions asked between frames: seeded ones about a scene, and the exact answers.
 // In a frame 1,000 questions are asked. Answers are written as pairs are, [id, count + number of the question, …], so
 // that all that compares pairs compares answers. Questions are of float32 numbers, as the boxes are.
-import { createRandom } from '../build/bench/library.mjs';
+import { createRandom } from '../../build/bench/library.mjs';
 
 const asked = 1000;
 /** How wide a queried box is, among boxes 10 wide that fill a quarter of the world: about 20 answers. */

@@ -3,13 +3,13 @@ import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
 import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { race } from './harness/race.mjs';
+import { figuresPage, headlineOf, putFigures, worthOf } from '../report/documents.mjs';
+import { headOf, textOf } from '../report/text.mjs';
 import { machine, machineName } from './machine.mjs';
-import { figuresPage, headlineOf, putFigures, worthOf } from './report/documents.mjs';
-import { headOf, textOf } from './report/text.mjs';
+import { race } from './race.mjs';
 
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
-const resultsFile = path(`results/${machineName}.json`);
+const resultsFile = path(`../results/${machineName}.json`);
 const read = (file) => JSON.parse(readFileSync(file, 'utf8'));
 /** A run of everything begins no row after so many minutes. */
 const mostMinutes = 29;
@@ -28,7 +28,7 @@ export async function run({ kinds, everything, json, selection }) {
   const end = everything && !selection.full ? performance.now() + mostMinutes * 60_000 : Infinity;
   console.log(`${machine.cpu}, ${machine.cores} cores, ${machine.system}, Node ${machine.node}; milliseconds.`);
   for (const kind of kinds) {
-    const { title, rows, play = race, prepare } = await import(`./kinds/${kind}.mjs`);
+    const { title, rows, play = race, prepare } = await import(`../kinds/${kind}.mjs`);
     const unable = await prepare?.();
     if (unable) console.log(`\n${title}: ${unable}`);
     const chosen = unable ? [] : shortened(await rows(selection), selection.frames);
@@ -84,8 +84,8 @@ const rounded = (_key, value) =>
 /** docs/figures.md and the tables of README.md and of worth-it.md, out of the results of this machine. */
 export function writeDocuments() {
   const record = read(resultsFile);
-  writeFileSync(path('../docs/figures.md'), `${figuresPage(record)}\n`);
-  const texts = { '../README.md': headlineOf, '../docs/guides/worth-it.md': worthOf };
+  writeFileSync(path('../../docs/figures.md'), `${figuresPage(record)}\n`);
+  const texts = { '../../README.md': headlineOf, '../../docs/guides/worth-it.md': worthOf };
   for (const [file, figuresOf] of Object.entries(texts)) {
     writeFileSync(path(file), putFigures(readFileSync(path(file), 'utf8'), figuresOf(record)));
   }
@@ -94,7 +94,7 @@ export function writeDocuments() {
 
 function commit() {
   try {
-    return execFileSync('git', ['rev-parse', '--short', 'HEAD'], { cwd: path('.'), encoding: 'utf8' }).trim();
+    return execFileSync('git', ['rev-parse', '--short', 'HEAD'], { cwd: path('..'), encoding: 'utf8' }).trim();
   } catch {
     return undefined;
   }
@@ -102,6 +102,6 @@ function commit() {
 
 /** Of the packages, as they are installed. */
 function versions() {
-  const { dependencies } = read(path('package.json'));
-  return { broadphase: read(path('../package.json')).version, ...dependencies };
+  const { dependencies } = read(path('../package.json'));
+  return { broadphase: read(path('../../package.json')).version, ...dependencies };
 }

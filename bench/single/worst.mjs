@@ -1,8 +1,8 @@
 // The worst cases known for techniques that cut the world up, each against a uniform scene of as many boxes and
 // about as many pairs, in one process and in turns:
 //   npm run bench:worst -- [boxes] [technique]
-import { bundle } from '../scripts/bundle.mjs';
-import { median } from './harness/statistics.mjs';
+import { bundle } from '../../scripts/bundle.mjs';
+import { median } from '../harness/statistics.mjs';
 
 const { BroadPhase } = await import(await bundle('bench/library.ts', 'build/bench/library.mjs'));
 const count = Number(process.argv[2] ?? 100_000);
