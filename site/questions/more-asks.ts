@@ -34,7 +34,7 @@ const viewOptions = {
 export const view: Ask = {
   name: 'view',
   label: 'View',
-  hint: 'Drag from the camera to where it looks. Boxes wholly in view are blue, those that its sides cut are red.',
+  hint: 'Drag from the camera to where it looks. Boxes wholly in view are blue, those cut by its sides are red.',
   counts: 'Boxes in view',
   options: ['mask'],
   ask({ space, aim, mask, slots }) {
@@ -72,7 +72,7 @@ export const fan: Ask = {
   name: 'fan',
   label: 'Many rays',
   hint: 'Move the point: 90 rays are cast from it, in one call. What a robot sees, or where light falls.',
-  counts: 'Rays that meet a box',
+  counts: 'Rays that hit a box',
   options: ['mask'],
   ask({ space, aim, mask, slots, world }) {
     for (let k = 0; k < rayCount; k++) {
@@ -118,7 +118,7 @@ let pairs: Uint32Array = new Uint32Array();
 export const spaces: Ask = {
   name: 'spaces',
   label: 'Two spaces',
-  hint: 'The ring is a space of its own. Move it: its pairs with the boxes are kept, at the cost of what moves.',
+  hint: 'The ring is a space of its own. Move it: its pairs with the boxes are retained, so only what moves costs time.',
   counts: 'Pairs of the two',
   options: ['radius'],
   ask({ space, aim, radius, slots, world }) {

@@ -92,7 +92,7 @@ test('a ray meets the first box, and all of them in order', async ({ page }) => 
   const [, id, distance, , down] = one.exec((await call(page).textContent())!)!;
   expect(Number(distance)).toBeGreaterThan(0);
   expect(Number(down)).toBe(-1);
-  await page.getByRole('checkbox', { name: 'All that it meets' }).check();
+  await page.getByRole('checkbox', { name: 'All hits' }).check();
   await expectFound(page).toBeGreaterThan(2);
   await expect(call(page)).toContainText('space.rayCastAll(');
   expect(one.exec((await call(page).textContent())!)![1]).toBe(id);
