@@ -73,7 +73,7 @@ async function writeReference(folder: string): Promise<void> {
       app.logger.validationWarning(`${name} has no example` as TranslatedString);
   }
   if (!project || app.logger.hasErrors() || app.logger.hasWarnings()) {
-    throw new Error('the reference of the API is not complete: see the warnings above');
+    throw new Error('the API reference is not complete: see the warnings above');
   }
   await mkdir(folder, { recursive: true });
   await writeTexts(project, folder);

@@ -12,19 +12,15 @@ import { fetchRecording, type LiveScene, recordedScene, seededScene } from './sh
 
 /** The scenes of the menu: name, label, and a word about them. */
 const scenes: readonly (readonly [SceneName | 'rain', string, string])[] = [
-  ['uniform2d', 'Uniform', 'All of one size, evenly strewn.'],
+  ['uniform2d', 'Uniform', 'All of one size, evenly spread.'],
   ['mixed2d', 'Mixed sizes', 'From 2 to 2,000 wide: no cell size of a plain grid suits them all.'],
   ['clustered2d', 'Clusters', 'Twenty crowds in an empty world.'],
-  ['giants2d', 'A few giants', 'One in a thousand is a hundred times as wide as the rest.'],
+  ['giants2d', 'A few giants', 'One in a thousand is a hundred times as wide as the others.'],
   ['dense2d', 'Dense', 'Everything touches many others.'],
   ['sparse2d', 'Sparse', 'Hardly anything touches.'],
   ['static2d', 'Mostly still', 'One in twenty moves.'],
   ['skewed2d', 'Long and thin', '200 by 1, along either axis.'],
-  [
-    'rain',
-    'Rain (Box2D)',
-    'Real input: every shape of a running Box2D world, recorded; in slow motion, forth and back.',
-  ],
+  ['rain', 'Rain (Box2D)', 'Real input: every shape of a Box2D world, recorded; in slow motion, back and forth.'],
 ];
 
 const fewest = 100;
@@ -99,7 +95,7 @@ async function show(): Promise<void> {
   slider.setAttribute('aria-valuetext', `${formatCount(scene.count)} boxes`);
   const fewer = !recorded && scene.count < boxesAt(slider.valueAsNumber / Number(slider.max));
   note.textContent = fewer
-    ? `Brute force stops here at ${formatCount(scene.count)} boxes: that is ${formatCount(possible(scene.count))} tests a frame.`
+    ? `Brute force stops here at ${formatCount(scene.count)} boxes: that is ${formatCount(possible(scene.count))} tests per frame.`
     : greeting && scene.count < greetings[0]
       ? `${formatCount(scene.count)} boxes, as many as this device moves smoothly; the slider goes to ${formatCount(most)}.`
       : scenes[sceneMenu.selectedIndex][2];

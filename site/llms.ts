@@ -55,7 +55,7 @@ function member(each: DeclarationReflection): string {
 }
 
 function reference(project: ProjectReflection): string {
-  const parts = ['## Reference of the API'];
+  const parts = ['## API reference'];
   for (const entry of project.children ?? []) {
     parts.push(`## import from '${entry.name}'`, told(entry.comment));
     for (const each of entry.children ?? []) {
@@ -77,7 +77,7 @@ export async function writeTexts(project: ProjectReflection, folder: string): Pr
   });
   const list = [
     start,
-    'All of it in one file: [llms-full.txt](llms-full.txt).\n',
+    'Everything in one file: [llms-full.txt](llms-full.txt).\n',
     '## Reference\n',
     '- [API](api/): every public name, with an example for each\n',
     '## Guides and documents\n',

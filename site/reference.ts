@@ -102,8 +102,8 @@ export function groupMembers(project: ProjectReflection): string[] {
 }
 
 const entries: Record<string, string> = {
-  'broadphase/draw': 'What a space holds, on a canvas or as lines.',
-  'broadphase/trace': 'Records games, reads, replays and tunes on recordings.',
+  'broadphase/draw': 'Draws a space on a canvas or as lines.',
+  'broadphase/trace': 'Records games; reads, replays and tunes on recordings.',
   'broadphase/shard': 'One world cut into zones, for several processes.',
   'broadphase/ro': 'The small engine of the article.',
 };
@@ -114,7 +114,7 @@ export function writeLanding(project: ProjectReflection): void {
   const [make] = space.children!.filter((each) => each.kindOf(ReflectionKind.Constructor));
   // As a link of the Markdown it would be taken for a file to be copied.
   const parts = [
-    text(' How things are done [the guides](../guides/) say.\n\n## '),
+    text(' [The guides](../guides/) show how to use them.\n\n## '),
     link(space, 'BroadPhase'),
     text('\n\n'),
     ...firstParagraph(space.comment),
@@ -125,7 +125,7 @@ export function writeLanding(project: ProjectReflection): void {
   });
   const [document] = project.documents!;
   parts.push(
-    text('\n\n## Other entries\n\n### '),
+    text('\n\n## Other entry points\n\n###  '),
     link(document, document.name),
     text('\n\nThe same API with every technique; and broadphase/2d and /3d, of one dimension.\n'),
   );

@@ -102,7 +102,7 @@ export function createCellSize(
     const step = slider.valueAsNumber;
     const known = costs.get(step);
     text.textContent = byLibrary.checked
-      ? `Usual box: ${digits.format(typical)} wide`
+      ? `Typical box: ${digits.format(typical)} wide`
       : `${sizeAt(step)}${known ? `: ${digits.format(known.ms)} ms` : ''}`;
     slider.style.setProperty('--filled', `${(100 * (step - first)) / (last - first)}%`);
     slider.setAttribute('aria-valuetext', `${sizeAt(step)}`);
@@ -111,8 +111,8 @@ export function createCellSize(
     place.setAttribute(
       'aria-label',
       best
-        ? `Milliseconds over the cell size: ${costs.size} sizes measured, the best is ${best.cellSize}.`
-        : 'Milliseconds over the cell size: nothing measured yet.',
+        ? `Milliseconds by cell size: ${costs.size} sizes measured, the best is ${best.cellSize}.`
+        : 'Milliseconds by cell size: nothing measured yet.',
     );
   };
 

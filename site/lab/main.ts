@@ -98,7 +98,7 @@ async function revive({ message }: TooSlow): Promise<void> {
   techniqueMenu.value = 'auto';
   try {
     await open(0);
-    say(`${what} was stopped: ${message}. Here are the same boxes with auto.`, true);
+    say(`${what} was stopped: ${message}. The same boxes now run with auto.`, true);
   } finally {
     reviving = false;
   }
@@ -267,7 +267,7 @@ function explain(): void {
   slider.show(opened!.boxes, asked > 0);
   write('boxes', formatCount(opened!.boxes));
   if (fewer && state.race)
-    say(`A race stops at ${formatCount(opened!.boxes)} boxes: every racer has all of them in its memory.`);
+    say(`A race stops at ${formatCount(opened!.boxes)} boxes: every racer keeps its own copy of them.`);
   else if (fewer) say(`Brute force stops here at ${formatCount(opened!.boxes)} boxes.`);
   else if (opened!.frames)
     say(`${ownFile?.name ?? traces[state.scene].label}: ${formatCount(opened!.frames)} frames, again and again.`);
@@ -384,7 +384,7 @@ async function toggleRecording(): Promise<void> {
     } else {
       recording = false;
       save(await ask('recording'), `${ownFile ? 'recording' : state.scene}.trace`);
-      find('recording').textContent = 'Saved. Now: npx broadphase tune on that file.';
+      find('recording').textContent = 'Saved. Next: npx broadphase tune on that file.';
     }
   } catch (error) {
     recording = false;
@@ -399,7 +399,7 @@ async function share(): Promise<void> {
     await navigator.clipboard.writeText(location.href);
     say(`Link copied.${held}`);
   } catch {
-    say(`The address of this page is the link: copy it from there.${held}`);
+    say(`The address of this page is the link: copy it from the address bar.${held}`);
   }
 }
 

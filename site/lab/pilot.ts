@@ -76,7 +76,7 @@ export class Pilot {
       this.#watch();
     });
     worker.addEventListener('error', ({ message }) => {
-      if (worker === this.#worker) this.#stop(new TooSlow(message || 'its worker could not be loaded, or broke down'));
+      if (worker === this.#worker) this.#stop(new TooSlow(message || 'its worker could not be loaded, or crashed'));
     });
     return worker;
   }

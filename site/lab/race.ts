@@ -176,8 +176,8 @@ export async function createRace(
     const pairs = running[0]?.picture?.stats.pairs ?? 0;
     note.textContent =
       digests.size > 1
-        ? 'They do not agree on the pairs: that is a fault of the library. Please report it.'
-        : `Median of ${kept} frames, logarithmic. They take turns, and all find the same ${formatCount(pairs)} pairs.`;
+        ? 'They disagree on the pairs: that is a bug in the library. Please report it.'
+        : `Median of ${kept} frames, on a logarithmic scale. They take turns, and all find the same ${formatCount(pairs)} pairs.`;
   };
 
   return {

@@ -81,7 +81,7 @@ export function mount(root: HTMLElement): void {
     const members = grids.entities.filter((entity) => grids.cellSizeOf(entity) === shown).length;
     say(
       shown === 0
-        ? `${grids.lookUps + grids.collisionTests} look-ups and tests, with nothing tuned. The best single cell size for ` +
+        ? `${grids.lookUps + grids.collisionTests} lookups and tests, with nothing tuned. The best single cell size for ` +
             `these boxes, ${flat.pxCellSize.x}, takes ${best}; cells of ${finest} ` +
             `take ${worst.toLocaleString('en')}.`
         : `${members} of ${boxes.length} boxes are in the grid with cells of ${shown}.`,

@@ -207,8 +207,8 @@ export function mount(root: HTMLElement): () => void {
     say(
       tellsHeap
         ? `${worlds[0].world.entities.length} squares. Large cells make few arrays, but many keys for the table of tested ` +
-            'pairs. What little there is with the library is the demo’s and the chart’s own.'
-        : 'This browser does not tell the size of its memory, so the chart counts the arrays that the grids make.',
+            'pairs. The little garbage with the library comes from the demo and the chart.'
+        : 'This browser does not report the size of its memory, so the chart counts the arrays that the grids make.',
     );
     view.describe(
       `A chart of ${tellsHeap ? 'the JavaScript heap' : 'the arrays made'} over time. ` +

@@ -28,8 +28,8 @@ export function mount(root: HTMLElement): () => void {
       rebuilt: grid.entries,
     }),
     inWords: ({ world, work }) =>
-      `${world.entities.length} boxes on a grid that is kept. In a frame, ${work.moved.toFixed(1)} of them change cells ` +
-      `on average, which moves ${work.changed.toFixed(1)} entries; a grid built anew would write ${grid.entries}.`,
+      `${world.entities.length} boxes on a retained grid. In a frame, ${work.moved.toFixed(1)} of them change cells ` +
+      `on average, which moves ${work.changed.toFixed(1)} entries; a full rebuild would write ${grid.entries}.`,
   });
   slider(stage.controls, {
     label: 'Boxes that move',
