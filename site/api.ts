@@ -28,14 +28,17 @@ const kinds: Record<string, string> = {
   '.txt': 'text/plain; charset=utf-8',
 };
 
-/** What can be called or made, and does not show how. What comes from elsewhere need not. */
+/** What can be called or made, and does not show how. What is documented elsewhere need not. */
 const withoutExample = (project: ProjectReflection): string[] =>
   project
     .getReflectionsByKind(ReflectionKind.Class | ReflectionKind.Function | ReflectionKind.Method)
     .filter(
       (each): each is DeclarationReflection => each.isDeclaration() && !each.parent?.kindOf(ReflectionKind.Interface),
     )
-    .filter((each) => !each.inheritedFrom && !each.overwrites && !each.implementationOf && !each.name.startsWith('['))
+    .filter(
+      (each) =>
+        !each.inheritedFrom && !each.overwrites && !each.implementationOf?.reflection && !each.name.startsWith('['),
+    )
     .filter((each) => !(each.signatures ?? [each]).some(({ comment }) => comment?.getTag('@example')))
     .map((each) => each.getFullName());
 

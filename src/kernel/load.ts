@@ -2,8 +2,8 @@
 // The module is inlined as text and compiled on first use, synchronously, so that `new BroadPhase()` works everywhere
 // without waiting; `init` is for hosts that forbid that or want to load the bytes themselves. Builds of the library
 // with all techniques take the other text (scripts/every-technique.mjs).
-import * as kernel from './generated/kernel-lean.ts';
-import { bytesOf, isModule } from './values.ts';
+import * as kernel from '../generated/kernel-lean.ts';
+import { bytesOf, isModule } from '../values.ts';
 
 /** The exported functions of kernel/abi.cpp. Addresses come as signed numbers: `>>> 0` those that can be beyond 2 GiB. */
 export interface KernelExports {
