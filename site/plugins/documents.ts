@@ -14,8 +14,8 @@ import { addressOf } from './names.ts';
 
 /** The text of an example, which not all have. */
 const readme = 'README.md';
-const repository = fileURLToPath(new URL('..', import.meta.url));
-const site = fileURLToPath(new URL('.', import.meta.url));
+const repository = fileURLToPath(new URL('../..', import.meta.url));
+const site = fileURLToPath(new URL('..', import.meta.url));
 
 const guides = [
   'getting-started',
