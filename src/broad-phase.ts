@@ -687,8 +687,8 @@ export class BroadPhase<D extends Dimensions = 2> extends Pairing<D> {
     if (this.#view?.byteOffset === 0) {
       // Only views that were cut off stand there.
       throw new Error(
-        'update: the array that boxes() gave was cut off when memory grew, so what was written to it since is lost: ' +
-          'call boxes(count) before each time it is written',
+        'update: the array of boxes() was detached when memory grew, so what was written to it since is lost: ' +
+          'call boxes(count) again before you write',
       );
     }
     let bad = -1;
@@ -1118,7 +1118,7 @@ const areNumbers = (a: unknown, b: unknown, c: unknown = 0, d: unknown = 0, e: u
   typeof f === 'number';
 
 function noEvents(what: string): never {
-  throw new Error(`${what}: this space keeps no events, expected one made with new BroadPhase({ events: true })`);
+  throw new Error(`${what}: this space records no events, expected one made with new BroadPhase({ events: true })`);
 }
 
 const isBuilt = (technique: number): boolean => (builtTechniques() & (1 << technique)) !== 0;
@@ -1141,7 +1141,7 @@ function checkHeeded(options: Record<string, unknown>): void {
   if (isBuilt(techniques.indexOf('spatial-grid'))) return;
   for (const [name, value] of Object.entries(options)) {
     if (value === undefined) continue;
-    badValue(name, value, "that it is left out: the techniques that heed it are in 'broadphase/all'");
+    badValue(name, value, "it to be left out: the techniques that use it are in 'broadphase/all'");
   }
 }
 

@@ -60,7 +60,7 @@ export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> 
       throw new TypeError(`${where}: got the space itself, expected another: the pairs within it are in its pairs`);
     }
     this.kernel.size(); // throws where this one was disposed of
-    if (other.disposed) throw new Error(`${where}: the other BroadPhase was disposed: it cannot be used any more`);
+    if (other.disposed) throw new Error(`${where}: the other BroadPhase was disposed and can no longer be used`);
     if (other.dimensions !== this.dimensions) {
       badValue(`${where}: dimensions of the other`, other.dimensions, `${this.dimensions} as here`);
     }

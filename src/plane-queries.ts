@@ -41,7 +41,9 @@ export abstract class PlaneQueries<D extends Dimensions> extends PlaceQueries<D>
   queryPlanes(planes: Float32Array | Float64Array | readonly number[], options?: PlanesOptions): number[] {
     const where = 'queryPlanes';
     if (this.farthest < Number.POSITIVE_INFINITY) {
-      throw new Error(`${where}: this world wraps around, expected a space without wrap: planes have no end in it`);
+      throw new Error(
+        `${where}: this world wraps around, expected a space without wrap, since planes would have no end in it`,
+      );
     }
     checkNumberArray(where, planes);
     const width = this.dimensions + 1;
