@@ -7,7 +7,9 @@ import { fileURLToPath } from 'node:url';
 import highlight from 'highlight.js';
 import MarkdownIt from 'markdown-it';
 import type { Plugin } from 'vite';
+import manifest from '../package.json' with { type: 'json' };
 import { rootFrom } from './frame.ts';
+import { names as live, waysTo } from './live.ts';
 import { addressOf } from './names.ts';
 
 /** The text of an example, which not all have. */
@@ -59,6 +61,7 @@ const folders = new Map(
     .map(({ at, entry: { name } }) => [`${at}/${name}`, `examples/${name}/index.html`]),
 );
 
+const paragraph = new MarkdownIt();
 const read = (file: string) => readFileSync(repository + file, 'utf8');
 const titleOf = (markdown: string) => /^# (.*)$/m.exec(markdown)![1].replaceAll('`', '');
 const slugOf = (heading: string) =>
@@ -126,20 +129,27 @@ function render(file: string, page: string): string {
   return markdown.render(read(file));
 }
 
-/** What an example says of itself, where it does, and its source, file by file. */
+const isIndex = (name: string) => name.startsWith('index.');
+
+/** What an example says of itself, and its source, file by file: the first is the one to begin with. */
 function source(folder: string, page: string): string {
   const files = readdirSync(repository + folder)
     .filter((name) => name !== readme && name !== 'package-lock.json')
-    .sort();
+    .sort((a, b) => Number(isIndex(b)) - Number(isIndex(a)) || (a < b ? -1 : 1));
   const listings = files.flatMap((name) => {
     const language = name.split('.').pop()!.replace('mjs', 'js').replace('vue', 'xml');
     if (!highlight.getLanguage(language)) return [];
     return `<h2 id="${slugOf(name)}">${name}</h2>
       <pre tabindex="0"><code>${paint(read(`${folder}/${name}`), language)}</code></pre>`;
   });
-  const text = `${folder}/${readme}`;
-  const start = existsSync(repository + text) ? render(text, page) : `<h1>${basename(folder)}</h1>`;
-  return `${start}<p><a href="../">All examples</a></p>${listings.join('')}`;
+  const has = (name: string) => existsSync(`${repository}${folder}/${name}`);
+  const { description = '' } = has('package.json') ? JSON.parse(read(`${folder}/package.json`)) : {};
+  const start = has(readme)
+    ? render(`${folder}/${readme}`, page)
+    : `<h1>${basename(folder)}</h1><p>${paragraph.renderInline(description)}</p>`;
+  // Of one that runs on its page it is said there.
+  const ways = has('package.json') && !live.includes(basename(folder)) ? `${waysTo(folder, manifest)} ` : '';
+  return `${start}<p>${ways}<a href="../">All examples</a></p>${listings.join('')}`;
 }
 
 /** The documents under guides/: their files, and from a page of them where each is and what it is called. */

@@ -13,16 +13,15 @@ const configFile = `${examples}vite.config.mjs`;
 
 /** Has a server of its own, since a policy is what it is about. */
 const apart = ['csp'];
-const names = existsSync(`${examples}node_modules/vite`)
+export const names = existsSync(`${examples}node_modules/vite`)
   ? readdirSync(examples).filter((name) => !apart.includes(name) && existsSync(`${examples}${name}/index.html`))
   : [];
 
 /** How to get an example: its folder, and an editor that opens it, where the repository has an address. */
 export function waysTo(
-  name: string,
+  folder: string,
   { repository, version }: { repository: { url: string }; version: string },
 ): string {
-  const folder = `examples/${name}`;
   const address = repository.url.replace(/^git\+/, '').replace(/\.git$/, '');
   if (new URL(address).hostname.endsWith('.invalid')) return `Take the folder <code>${folder}</code>.`;
   const [, project] = /^https:\/\/github\.com\/(.*)$/.exec(address) ?? [];
@@ -36,7 +35,7 @@ export function waysTo(
 const frameOf = (name: string, page: string) => `
   <figure class="live">
     <iframe src="${rootFrom(page)}live/${name}/" title="The example ${name}, running"></iframe>
-    <figcaption><a href="${rootFrom(page)}live/${name}/">Alone in the window</a>. ${waysTo(name, manifest)}</figcaption>
+    <figcaption><a href="${rootFrom(page)}live/${name}/">Alone in the window</a>. ${waysTo(`examples/${name}`, manifest)}</figcaption>
   </figure>`;
 
 let served: Promise<ViteDevServer> | undefined;
@@ -58,7 +57,9 @@ export const live: Plugin = {
     handler(html, { path }) {
       const page = path.replace(/^\//, '');
       const name = /^examples\/([^/]+)\/index\.html$/.exec(page)?.[1];
-      if (name && names.includes(name)) return html.replace('</h1>', `</h1>${frameOf(name, page)}`);
+      if (!name || !names.includes(name)) return;
+      // Below the name, and what package.json says of it.
+      return html.replace(/<\/h1>(<p>.*?<\/p>)?/, (above) => above + frameOf(name, page));
     },
   },
   configureServer({ middlewares, httpServer }) {

@@ -1,5 +1,5 @@
 // The class BroadPhase: a Map from id to box that knows which of its boxes overlap.
-// All state lives in the kernel's memory (kernel/space/space.hpp); this file checks what comes in, passes it on, and
+// All state lives in the kernel's memory (kernel/space/); this file checks what comes in, passes it on, and
 // gives views of what comes out. Nothing here runs once per box or per pair of an update.
 import type { BoxOfId, Dimensions, MovingBoxOfId } from './dimensions.ts';
 import {

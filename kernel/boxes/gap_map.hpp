@@ -13,7 +13,11 @@
 
 template <int D> class GapMap {
   static constexpr u32 width = 2 * D, most_cuts = 7;
-  static constexpr u32 regular = 64, most_samples = 512;
+  static constexpr u32 regular = 64, most_others = 512;
+  // Float32's steps have to get so many times as fine for another map, or another gap, to be worth it.
+  static constexpr f64 worth = 16;
+  // A gap that is taken out stays as wide as so many boxes of ordinary size, or a share of what is left.
+  static constexpr f64 gap_boxes = 4, gap_share = 4;
   static constexpr f32 largest = 3.40282347e38f;
 
   // Piece p of an axis begins at from[p]; less[p] is subtracted in it, and what comes out ends where the next begins.
@@ -125,7 +129,7 @@ template <int D> class GapMap {
     GapMap other;
     bool better = false;
     for (u32 a = 0; a < D; a++) {
-      f64 low[most_samples + regular], size[most_samples + regular];
+      f64 low[most_others + regular], size[most_others + regular];
       u32 n = 0;
       auto look_at = [&](u32 slot) {
         f64 lo = boxes[u64(slot) * width + a], hi = boxes[u64(slot) * width + D + a];
@@ -135,11 +139,11 @@ template <int D> class GapMap {
       };
       detail::Sampling sampling(count, smaller(count, regular));
       for (u32 k = 0; k < smaller(count, regular); k++) look_at(sampling.next());
-      for (u32 k = 0; k < smaller(more_count, most_samples); k++) look_at(more[k]);
+      for (u32 k = 0; k < smaller(more_count, most_others); k++) look_at(more[k]);
       sort(low, n);
       sort(size, n);
       f64 now = n ? larger(__builtin_fabs(map(low[0], a)), __builtin_fabs(map(low[n - 1], a))) : 0;
-      if (n && now > 16 * other.cut(low, n, size[n / 2], a)) better = true;
+      if (n && now > worth * other.cut(low, n, size[n / 2], a)) better = true;
       else other.take(*this, a);
     }
     if (better) *this = other;
@@ -247,8 +251,8 @@ template <int D> class GapMap {
       cuts[found] = widest;
       left[found + 1] = larger(0.0, left[found] - (low[widest] - low[widest - 1]));
     }
-    f64 room = 4 * size;
-    while (best < found && left[best] > 16 * (left[found] + room)) best++;
+    f64 room = gap_boxes * size;
+    while (best < found && left[best] > worth * (left[found] + room)) best++;
     for (u32 c = 1; c < best; c++) {  // in ascending order
       for (u32 k = c; k > 0 && cuts[k - 1] > cuts[k]; k--) {
         u32 other = cuts[k];
@@ -256,7 +260,7 @@ template <int D> class GapMap {
         cuts[k - 1] = other;
       }
     }
-    f64 gap = larger(left[best] / 4, room), all = left[best] + 2 * f64(best) * gap, half = all / 2;
+    f64 gap = larger(left[best] / gap_share, room), all = left[best] + 2 * f64(best) * gap, half = all / 2;
     // A multiple of a power of two: what stands on a grid stays on it.
     f64 grid = bits<f64>(bits<u64>(larger(half, 1e-290)) >> 52 << 52) / 16;
     f64 at = -half;  // where the piece begins that comes next

@@ -35,7 +35,7 @@ template <class T> class PerBox {
     some_ = changed_ = true;
   }
 
-  // The slots' doings, as in Space.
+  // The slots' doings, as in Store.
   SMALL void make_room(u64 count, u32 keep) {
     if (some_) values_.grow(count, keep);
   }

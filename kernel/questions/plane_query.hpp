@@ -11,10 +11,10 @@
 #include "questions/queries.hpp"
 
 template <int D> struct Planes {
-  static constexpr u32 most = 8;
+  static constexpr u32 most_planes = 8;
 
-  f64 normal[most][D] = {};
-  f64 offset[most] = {};  // a point is in front where normal · point + offset is at least 0
+  f64 normal[most_planes][D] = {};
+  f64 offset[most_planes] = {};  // a point is in front where normal · point + offset is at least 0
   u32 count = 0;
 };
 
@@ -53,7 +53,7 @@ template <int D> class PlaneQuery {
  private:
   /// Looks on which side of some planes, a bit each, the eight boxes of a block are. Returns a bit for each box that is
   /// behind none; `front` has, for each of the planes, a bit for each box that is in front of it.
-  SHARED u32 look(const Block& block, u32 planes, u32 (&front)[Planes<D>::most]) const {
+  SHARED u32 look(const Block& block, u32 planes, u32 (&front)[Planes<D>::most_planes]) const {
     u32 left = 0;
     for (u32 half = 0; half < 8; half += 4) {
       f32x4 lo = load<f32x4>(block.lo[0] + half);
@@ -104,7 +104,7 @@ template <int D> class PlaneQuery {
 
   /// Adds the answers from place `from_` on; false where there are more than are wanted: `from_` is then the next.
   bool walk(u32 level, u32 number, u32 planes, Buffer<u32>& answers) {
-    u32 front[Planes<D>::most];
+    u32 front[Planes<D>::most_planes];
     looks_++;
     u32 left = look(index_.block(level, number), planes, front);
     if (level == 0) {

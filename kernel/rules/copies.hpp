@@ -11,7 +11,7 @@
 #include "rules/wrap.hpp"
 
 class Copies {
-  static constexpr f64 slack = 0x1p-48;  // of all numbers: what roundings may amount to
+  static constexpr f64 rounding_share = 0x1p-48;  // of all numbers: what roundings may amount to
 
   const f64 *world_, *lo_, *hi_;
   int axes_ = 0;
@@ -150,7 +150,9 @@ class Copies {
   /// By how many worlds the n-th turn of an axis is.
   static f64 number_of(u32 n) { return n == 2 ? -1.0 : f64(n); }
 
-  static f64 slack_of(f64 lo, f64 hi, f64 world) { return slack * (world + __builtin_fabs(lo) + __builtin_fabs(hi)); }
+  static f64 slack_of(f64 lo, f64 hi, f64 world) {
+    return rounding_share * (world + __builtin_fabs(lo) + __builtin_fabs(hi));
+  }
 
   SMALL static f64 worlds_of(f64 lo, const Span& span, f64 world) {
     if (span.full) return 0;

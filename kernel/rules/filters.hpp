@@ -85,7 +85,7 @@ class Filters {
     return rules_[slot];
   }
 
-  // The slots' doings, as in Space; only while active.
+  // The slots' doings, as in Store; only while active.
   SMALL void make_room(u64 count, u32 keep) { rules_.grow(count, keep); }
   u64 room() const { return rules_.capacity(); }
   SMALL void insert(u32 slot) { change(slot) = everybody; }

@@ -10,7 +10,7 @@
 
 template <int D> class QuantizedSweep {
   static constexpr u32 block = 16, cells = 1 << 16;
-  static_assert(Lanes<D>::padding >= block);
+  static_assert(Lanes<D>::spare_lanes >= block);
   // Blocks are looked at closer when there are this many.
   static constexpr u32 enough = 512;
 

@@ -12,7 +12,7 @@
 /// What a space is made with.
 inline constexpr Technique by_default = Technique::automatic;
 
-/// Boxes up to which all are tested against all: `npm run bench -- --count 24` shows it beside strip sweep.
+/// Boxes up to which all are tested against all: docs/decisions/0008-small-counts.md has the figures.
 inline constexpr u32 handful = 24;
 
 static_assert(!is_built(Technique::automatic) || (is_built(Technique::brute_force) &&

@@ -1,6 +1,6 @@
 // How much memory is taken before it is needed: growing it later would cut off the views that JavaScript holds.
-// Memory that is not touched costs nothing. `npm run bench -- --count 10000` prints the bytes that an update takes: the
-// numbers below are what ordinary scenes take, and a little more.
+// Memory that is not touched costs nothing. The numbers are `stats.bytes` for each box of ordinary scenes, and a little
+// more.
 #pragma once
 #include "base/heap.hpp"
 
@@ -8,7 +8,7 @@ template <int D> struct RoomAhead {
   // Bytes a box, pairs included, that an update takes in ordinary scenes; and that stand once all is kept.
   static constexpr u32 usual = D == 2 ? 448 : 640, kept = D == 2 ? 352 : 640;
   // Bytes that a few more boxes take, or the first filter, double, gap or question.
-  static constexpr u32 few = 1 << 17;
+  static constexpr u32 spare = 1 << 17;
   // Bytes that the pairs of boxes that are written in place may take, of which nobody knows yet where they stand.
   static constexpr u32 in_place = 1 << 18;
   // Bytes a pair that the tables take in which pairs are looked up.

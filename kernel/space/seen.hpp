@@ -16,6 +16,9 @@ template <int D> struct Standing {
 };
 
 template <int D> class Seen {
+  // The index follows one changed box in so many, or as few boxes; more cost more than a new index.
+  static constexpr u32 follow_share = 32, follow_least = 8;
+
   bool asked_ = false;  // ever
   bool holds_ = true;  // the index has what the last update saw: at first, nothing
   bool lost_ = false;  // nobody has
@@ -31,13 +34,13 @@ template <int D> class Seen {
   bool lost() const { return lost_; }
 
   /// The index takes over what stands in the space.
-  SMALL void see(const Standing<D>& now) {
+  void see(const Standing<D>& now) {
     index.see(now.boxes, now.exact, now.ids, now.rules, now.reaches, now.world);
     holds_ = true;
   }
 
   /// Before a change: what the last update saw is kept, once. `most`: boxes of which a copy is made unasked.
-  SMALL void hold(const Standing<D>& now, u32 most) {
+  void hold(const Standing<D>& now, u32 most) {
     if (asked_ || now.ids.count() <= most) see(now);
     else lost_ = holds_ = true;  // holds_: so that it is not asked for again
   }
@@ -47,15 +50,18 @@ template <int D> class Seen {
     if (lost_) holds_ = lost_ = false;
   }
 
-  /// After an update, while its changes are known.
-  SMALL void follow(const Standing<D>& now, const Changes& changes, bool in_place) {
-    // More are dearer to follow than the index is to make: `npm run bench -- --questions` shows both.
-    u32 few = larger(now.ids.count() / 32, 8u);
-    holds_ = holds_ && !changes.all() && changes.count() <= few &&
-             index.follow(now.boxes, now.exact, now.ids, now.rules, now.reaches, changes.list(), changes.count(),
+  /// Whether it can follow an update of so many boxes with these changes; if not, it holds nothing any more.
+  bool can_follow(const Changes& changes, u32 boxes) {
+    holds_ = holds_ && !changes.all() && changes.count() <= larger(boxes / follow_share, follow_least);
+    return holds_;
+  }
+  SMALL void follow(const Standing<D>& now, const Changes& changes) {
+    holds_ = index.follow(now.boxes, now.exact, now.ids, now.rules, now.reaches, changes.list(), changes.count(),
                           now.world);
-    // Who writes in place does not say when.
-    if (in_place && !holds_ && (asked_ || now.ids.count() <= spared_in_place)) see(now);
+  }
+  /// After an update of boxes that are written in place: whoever does so does not say when.
+  void see_in_place(const Standing<D>& now) {
+    if (!holds_ && (asked_ || now.ids.count() <= spared_in_place)) see(now);
   }
 
   /// Somebody asks; false where what stands in the space has to be seen first.

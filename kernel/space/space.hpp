@@ -203,7 +203,8 @@ template <int D> class Space {
     Changes& changes = store.changes();
     u32 n = store.ids.count();
     store.changed.note(changes.all(), changes.list(), changes.count(), n, [&](u32 slot) { return store.ids.id(slot); });
-    store.seen.follow(store.standing(), changes, store.numbers.written.in_place());
+    if (store.seen.can_follow(changes, n)) store.seen.follow(store.standing(), changes);
+    if (store.numbers.written.in_place()) store.seen.see_in_place(store.standing());
     if (finder.follows_changes(finder.ran())) changes.clear(n);
     else changes.note_all();
     seen_ = n;
@@ -226,7 +227,7 @@ template <int D> class Space {
     updates++;
     stats.pairs = f64(pairs.count);
     // Growing later would cut the views of the pairs off, in the midst of a loop over them.
-    RoomAhead<D>::take(store.ids.count(), pairs.count * RoomAhead<D>::lookup + RoomAhead<D>::few);
+    RoomAhead<D>::take(store.ids.count(), pairs.count * RoomAhead<D>::lookup + RoomAhead<D>::spare);
     stats.bytes = f64(heap::used);
     say_choice(technique, finder.ran(), stats);
   }

@@ -34,7 +34,7 @@ template <int D> class Store {
   /// The size of the world, where it wraps around.
   const f64* world() const { return options_.wrap[0] > 0 ? options_.wrap : nullptr; }
   /// For the index to copy.
-  SMALL Standing<D> standing() {
+  Standing<D> standing() {
     see_written();
     return {numbers.boxes(), numbers.exact(), ids, own.rules(), own.reaches.data(), world()};
   }
@@ -67,8 +67,8 @@ template <int D> class Store {
   NOINLINE void tell(Ring<D>& ring) {
     ring.dense = ring.room = ring.pages = 0;
     if (numbers.written.in_place()) return;
-    if (!ids.same() && room() < ids.count() + Ring<D>::most) {
-      u64 more = u64(ids.count()) + Ring<D>::most;
+    if (!ids.same() && room() < ids.count() + Ring<D>::most_entries) {
+      u64 more = u64(ids.count()) + Ring<D>::most_entries;
       tight_ = !heap::reach(more * RoomAhead<D>::most);
       if (!tight_ && more <= max_slots) make_room(more, ids.count());
     }
@@ -76,7 +76,7 @@ template <int D> class Store {
     if (ids.same()) {
       ring.dense = ids.count();
       ring.room = room() - ids.count();
-    } else if (room() >= ids.count() + Ring<D>::most) {
+    } else if (room() >= ids.count() + Ring<D>::most_entries) {
       ring.pages = f64(reinterpret_cast<size_t>(ids.pages()));
     }
   }
@@ -217,7 +217,7 @@ template <int D> class Store {
     if (!seen.holds()) hold(most);
   }
 
-  SMALL void hold(u32 most) { seen.hold(standing(), most); }
+  NOINLINE void hold(u32 most) { seen.hold(standing(), most); }
 
   /// Room for `count` boxes in every array that has one entry a box.
   SMALL void make_room(u64 count, u32 keep) {

@@ -22,7 +22,7 @@ template <int D> class AabbTree {
   static constexpr u32 rests = continues_1;  // the exclusion bit of all that did not move
   static constexpr f32 horizon = 8;      // updates that a fat box reaches ahead, at most: fewer in a crowd
   static constexpr u32 crowd_size = 64;
-  static constexpr f32 slack = 0.5f;     // and to all sides, in motions of one update
+  static constexpr f32 aside_share = 0.5f; // and to all sides, in motions of one update
   static constexpr u32 bulk_share = 2;   // all is built anew when one box in so many moved
   // The order is, when each box has moved so many times; a little earlier where an update has little else to do.
   static constexpr u32 worn = 4, worn_early = 2, little_share = 8;
@@ -60,52 +60,18 @@ template <int D> class AabbTree {
     stats.entries = n;
     if (pause_ > 0) {
       pause_--;
-      tree_.build(scene, 0);
-      tree_.join(pairs, stats);
-      pair_order_.sort(pairs.list.data(), pairs.count, n);
-      stats.cells = tree_.nodes();
-      return;
+      return keep_nothing(scene, pairs, stats);
     }
-    u32 most = larger(n, had);
-    fat_.grow(u64(most) * width + padding, u64(had) * width);
-    origin_.grow(u64(most) * (D + 1), u64(had) * (D + 1));
-    tags_.grow(most, had);
-    place_.grow(most, had);
-    moved_.reserve(n);
+    make_room(n, had);
     now_++;
     u32 moved = look(scene, had, f32(options.margin));
-    bool order = had == 0 || n > had + free_count_, all = u64(moved) * bulk_share > n;
-    if (n < had) {
-      free_.grow(free_count_ + had - n, free_count_);
-      for (u32 slot = n; slot < had; slot++) {
-        tags_[slot] = 0;
-        tree_.clear(place_[slot]);
-        free_[free_count_++] = place_[slot];
-      }
-      drop_candidates_from(n);
-    }
+    bool order = had == 0 || n > had + free_count_;
+    if (n < had) remove_from(n, had);
     u64 kept = candidates_.count;
     f64 cost = look_cost * n;
     if (moved > 0 || n != had) {
-      wear_ += moved;
-      cost += fit_cost * n + move_cost * moved;
-      if (all) {
-        for (u32 slot = 0; slot < n; slot++) tags_[slot] &= ~u32(rests);
-        candidates_.count = kept = 0;
-      }
-      u32 limit = moved * little_share > n ? worn : worn_early;
-      if (order || all || wear_ > u64(n) * limit) {
-        plant(n);
-        cost += build_cost * n;
-      } else {
-        tree_.mark(rests);
-        for (u32 slot = had; slot < n; slot++) place_[slot] = free_[--free_count_];
-        for (u32 k = 0; k < moved; k++) {
-          u32 slot = moved_[k];
-          tree_.put(place_[slot], fat_.data() + u64(slot) * width, slot | tags_[slot]);
-        }
-        tree_.refit();
-      }
+      cost += follow(n, had, moved, order);
+      kept = smaller(kept, candidates_.count);
       count_ = n;
       tree_.join(candidates_, stats);
     }
@@ -142,6 +108,58 @@ template <int D> class AabbTree {
   }
 
  private:
+  /// An update by a new tree.
+  void keep_nothing(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
+    tree_.build(scene, 0);
+    tree_.join(pairs, stats);
+    pair_order_.sort(pairs.list.data(), pairs.count, scene.count);
+    stats.cells = tree_.nodes();
+  }
+
+  void make_room(u32 n, u32 had) {
+    u32 most = larger(n, had);
+    fat_.grow(u64(most) * width + padding, u64(had) * width);
+    origin_.grow(u64(most) * (D + 1), u64(had) * (D + 1));
+    tags_.grow(most, had);
+    place_.grow(most, had);
+    moved_.reserve(n);
+  }
+
+  /// Takes the boxes of slots n … had - 1 out of the tree.
+  void remove_from(u32 n, u32 had) {
+    free_.grow(free_count_ + had - n, free_count_);
+    for (u32 slot = n; slot < had; slot++) {
+      tags_[slot] = 0;
+      tree_.clear(place_[slot]);
+      free_[free_count_++] = place_[slot];
+    }
+    drop_candidates_from(n);
+  }
+
+  /// Has the tree hold what moved and what is new; `order`: its order is to be made anew. Gives what that costs.
+  f64 follow(u32 n, u32 had, u32 moved, bool order) {
+    bool all = u64(moved) * bulk_share > n;
+    wear_ += moved;
+    f64 cost = fit_cost * n + move_cost * moved;
+    if (all) {
+      for (u32 slot = 0; slot < n; slot++) tags_[slot] &= ~u32(rests);
+      candidates_.count = 0;
+    }
+    u32 limit = moved * little_share > n ? worn : worn_early;
+    if (order || all || wear_ > u64(n) * limit) {
+      plant(n);
+      return cost + build_cost * n;
+    }
+    tree_.mark(rests);
+    for (u32 slot = had; slot < n; slot++) place_[slot] = free_[--free_count_];
+    for (u32 k = 0; k < moved; k++) {
+      u32 slot = moved_[k];
+      tree_.put(place_[slot], fat_.data() + u64(slot) * width, slot | tags_[slot]);
+    }
+    tree_.refit();
+    return cost;
+  }
+
   /// Where keeping things costs more than it saves, update after update, it is left for a while.
   void reckon(f64 cost) {
     loss_ = larger(0.0, loss_ + cost - fresh_);
@@ -181,7 +199,7 @@ template <int D> class AabbTree {
       f32 motion = is_new ? 0 : (box[a] - origin[a]) / updates;
       f32 size = box[D + a] - box[a];
       if (!(motion <= size && -motion <= size)) motion = 0;  // a jump
-      f32 aside = margin > 0 ? margin : slack * larger(motion, -motion);
+      f32 aside = margin > 0 ? margin : aside_share * larger(motion, -motion);
       f32 ahead = margin > 0 ? 0 : reach * motion;
       fat[a] = smaller(box[a], box[a] + smaller(ahead, 0.0f) - aside);
       fat[D + a] = larger(box[D + a], box[D + a] + larger(ahead, 0.0f) + aside);

@@ -22,8 +22,8 @@ template <int D> class BspTree {
   static constexpr f32 copy_cost = D == 2 ? 32 : 80, pass_cost = 12;
   static constexpr u32 fewest = 32;  // items of a node that is cut
   // A crowd of copies is cut off: a node may make this many for each of its items, all its cuts together.
-  static constexpr f32 most_copies = 3;
-  static constexpr u32 deepest = 40;
+  static constexpr f32 copies_each = 3;
+  static constexpr u32 deepest_cut = 40;
   static constexpr u32 samples = 15;
 
   struct Region {
@@ -48,7 +48,7 @@ template <int D> class BspTree {
       everywhere.low[a] = -__builtin_inff();
       everywhere.high[a] = __builtin_inff();
     }
-    node(0, 0, 0, scene.count, most_copies * f32(scene.count), everywhere, 0, pairs);
+    node(0, 0, 0, scene.count, copies_each * f32(scene.count), everywhere, 0, pairs);
   }
 
   /// The leaves of the last update; unbounded sides are infinite.
@@ -73,7 +73,7 @@ template <int D> class BspTree {
   /// Works off the top `count` items of a stack, which begin at `first`; on the other one `free` is.
   void node(u32 stack, u32 first, u32 free, u32 count, f32 spare, const Region& region, u32 depth, Pairs& pairs) {
     ItemsAt<D> items(stacks_[stack], first);
-    Cut cut = depth < deepest && count > fewest ? choose(items, count, spare) : Cut{-1, 0};
+    Cut cut = depth < deepest_cut && count > fewest ? choose(items, count, spare) : Cut{-1, 0};
     u32 left = 0, right = 0;
     if (cut.axis >= 0) {
       stacks_[1 - stack].grow(u64(free) + count, free);

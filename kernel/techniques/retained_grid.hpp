@@ -17,7 +17,7 @@
 
 template <int D> class RetainedGrid {
   // Entries that may be looked at for each box before building anew is the better way.
-  static constexpr u32 patience = 8;
+  static constexpr u32 most_effort = 8;
 
   struct Cell {
     u32 at, size, room;  // its entries
@@ -162,7 +162,7 @@ template <int D> class RetainedGrid {
         put(grid_.range(axes, item), k);
       }
       keep(scene, k);
-      if (effort_ > patience * n || entries_end_ > larger(2 * built_placed_, f64(n)) * 4) return false;
+      if (effort_ > most_effort * n || entries_end_ > larger(2 * built_placed_, f64(n)) * 4) return false;
     }
     count_ = n;
     return placed_ <= 2 * built_placed_ + 64 && tests_ <= 2 * built_tests_ + n;

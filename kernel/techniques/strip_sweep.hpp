@@ -22,7 +22,8 @@ template <int D> class StripSweep {
   // Strips longer than this leave the cache near the core.
   static constexpr f64 cached_items = 8192;
   static constexpr f64 least_items = 100;  // in a strip, on average: shorter ones cost more than they save
-  static constexpr u32 few = 2000;  // boxes that are one strip where they have no more candidates than a strip may have
+  static constexpr u32
+      one_strip_below = 2000;  // boxes that are one strip where they have no more candidates than a strip may have
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
   static constexpr u32 deepest = 6;
   // A strip is cut again where it has this many candidates an item, and this many in all.
@@ -200,7 +201,7 @@ template <int D> class StripSweep {
   SMALL bool cut_up(const Scene<D>& scene) {
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     SceneSample<D> world;
-    bool one_strip = scene.count < few;
+    bool one_strip = scene.count < one_strip_below;
     if (one_strip) {
       world = glance<D>(plain, scene.count);
       int a = world.longest();

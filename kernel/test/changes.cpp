@@ -24,7 +24,7 @@ template <int D> void check_ring() {
   auto ring = std::make_unique<Ring<D>>();
   std::vector<Box<D>> expected;
   for (u32 round = 1; round < rounds; round++) {
-    u32 count = smaller(round, Ring<D>::most);
+    u32 count = smaller(round, Ring<D>::most_entries);
     for (u32 k = 0; k < count; k++) {
       f64* entry = ring->entries + k * Ring<D>::step;
       u32 id = k * 7 % slots;

@@ -4,7 +4,7 @@
 import type { BroadPhase, RayHit, SweepHit } from 'broadphase';
 import { shades } from '../shared/groups.ts';
 import { type Ask, first, flash, found, fresh, gone, hueSlot, join, list, maskText, short } from './ask.ts';
-import { fan, spaces, view } from './more-asks.ts';
+import { debug, fan, spaces, view } from './more-asks.ts';
 
 const ids: number[] = [];
 const idsOptions = { out: ids, mask: 7 };
@@ -304,4 +304,5 @@ export const asks: readonly Ask[] = [
   spaces,
   events,
   filters,
+  debug,
 ];

@@ -1,4 +1,4 @@
-// More questions of the page: what a camera sees, many rays in one call, and the pairs of two spaces.
+// More questions of the page: what a camera sees, many rays in one call, the pairs of two spaces, and what a space holds.
 import { BroadPhase, type ManyRayHits } from 'broadphase';
 import { type Ask, first, found, join, maskText, short } from './ask.ts';
 
@@ -144,5 +144,22 @@ export const spaces: Ask = {
   text() {
     const some = [...pairs.subarray(0, 12)].join(', ');
     return `ring.setAll(boxes).update();\nring.pairsWith(space); // of each pair one of the ring, then one of the boxes\n// [${some}${pairs.length > 12 ? ', …' : ''}]`;
+  },
+};
+
+export const debug: Ask = {
+  name: 'debug',
+  label: 'Debug drawing',
+  hint: 'What broadphase/draw shows of a space: boxes, pairs, the nodes of a quadtree, and a ray. Drag the ray.',
+  counts: 'Pairs',
+  options: [],
+  technique: 'quadtree',
+  ask: ({ space }) => space.pairCount,
+  draw({ pen, space, aim: [x, y, toX, toY] }) {
+    pen.space(space, { cells: true, hot: true, rays: [[x, y, toX - x, toY - y]] });
+  },
+  text({ aim: [x, y, toX, toY] }) {
+    const ray = [x, y, toX - x, toY - y].map(short).join(', ');
+    return `drawSpace(context, space, {\n  cells: true,\n  hot: true, // the fullest\n  rays: [[${ray}]],\n});`;
   },
 };

@@ -1,5 +1,5 @@
-// The floors of the kernel, as ARCHITECTURE.md draws them: no include goes up, none goes round, and only space/ names a
-// technique.
+// The layers of the kernel, as ARCHITECTURE.md draws them: no include goes up, none goes round, and only the policy
+// names a technique.
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -65,7 +65,22 @@ test('floors lean on few others', () => {
   expect(between.size, 'arrows from floor to floor').toBeLessThanOrEqual(35);
 });
 
-test('only space/ names a technique, and what is kept names strip sweep', () => {
+test('only the policy names a technique, and what is kept names strip sweep', () => {
+  const list = readFileSync(join(kernel, 'space/techniques.hpp'), 'utf8');
+  const known = [...list.matchAll(/IfBuilt<Technique::(\w+), (\w+)<D>>/g)];
+  expect(known.length).toBeGreaterThan(10);
+  const names = [...known.map(([, , kind]) => `\\b${kind}\\b`), 'Technique::\\w+'];
+  const may = ['space/techniques.hpp', 'space/auto.hpp'];
+  const named = [...files, 'abi.cpp']
+    .filter((file) => !may.includes(file) && !file.startsWith('techniques/') && !file.endsWith('incremental.hpp'))
+    .flatMap((file) =>
+      readFileSync(join(kernel, file), 'utf8')
+        .split('\n')
+        .map((text) => text.replace(/\/\/.*/, ''))
+        .filter((text) => new RegExp(names.join('|')).test(text))
+        .map((text) => `kernel/${file}: ${text.trim()}`),
+    );
+  expect(named.filter((place) => !/^kernel\/coherence\/.*\bStripSweep\b/.test(place))).toEqual([]);
   const others = arrows.filter(({ from, to }) => to.startsWith('techniques/') && !from.startsWith('space/'));
   expect(places(others).map((place) => place.replace(/:\d+/, ''))).toEqual([
     'kernel/coherence/candidate_list.hpp includes techniques/strip_sweep.hpp',
