@@ -201,7 +201,11 @@ describe('errors say where', () => {
     ['a layer of more than 32 bits', [0x21, 2, 0, 1, 0, 2, 255, 255, 255, 255, 127, 1, 0], 'a layer is 34359738367'],
     ['an unknown kind', [7], 'unknown kind'],
     ['changes before any snapshot', [2, 0, 0, 0], 'not a snapshot'],
-    ['sixteen million boxes in ten bytes', [1, 0x80, 0x80, 0x80, 8, 0, 0], '16777216 boxes are new, but only 0 of them'],
+    [
+      'sixteen million boxes in ten bytes',
+      [1, 0x80, 0x80, 0x80, 8, 0, 0],
+      '16777216 boxes are new, but only 0 of them',
+    ],
     [
       'the same, said to be there',
       [1, 0x80, 0x80, 0x80, 8, 0, 1, 0, 0x80, 0x80, 0x80, 8],
