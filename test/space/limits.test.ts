@@ -7,7 +7,7 @@ import { createRandom } from '../../src/scenes/random.ts';
 import { setBox } from '../support/set-box.ts';
 
 const mebibyte = 2 ** 20;
-const kernel = readFileSync(new URL('../build/kernel.wasm', import.meta.url));
+const kernel = readFileSync(new URL('../../build/kernel.wasm', import.meta.url));
 
 /** The kernel, with a limit to its memory, so that running out of it takes milliseconds. */
 function kernelWith(bytes: number): Uint8Array<ArrayBuffer> {
