@@ -138,7 +138,7 @@ describe('documents', () => {
       figure: '0 of 2; the worst: 30.00x (uniform2d 2D, 100,000, boxes)',
       met: false,
     });
-    expect(of('motions to judge by')).toMatchObject({
+    expect(of('motions for validation')).toMatchObject({
       figure: '1 of 2; the worst: 0.90x (flock 2D, 10,000, set)',
       met: false,
     });
