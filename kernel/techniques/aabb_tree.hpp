@@ -31,9 +31,10 @@ template <int D> class AabbTree {
   // fitting its node, moving it, testing a candidate; a test in the tree.
   static constexpr f64 build_cost = 30, look_cost = 4, fit_cost = 5, move_cost = D == 2 ? 30 : 50, candidate_cost = 8;
   static constexpr f64 test_cost = D == 2 ? 2 : 4;
-  static constexpr u32 first_pause = 16, longest_pause = 256;  // updates; each pause is twice as long as the one before
-  static constexpr f64
-      most_loss = 2;  // updates that keep nothing: a pause begins when keeping has cost more than these
+  // A pause begins when keeping has cost more than so many updates that keep nothing; each is twice as long as the one
+  // before, in updates.
+  static constexpr f64 most_loss = 2;
+  static constexpr u32 first_pause = 16, longest_pause = 256;
 
   PackedTree<D> tree_;
   Pairs candidates_;  // in the order of their slots
