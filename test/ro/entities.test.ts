@@ -1,7 +1,7 @@
 // Entities that come and go, the technique that finds their pairs, and what is refused.
 import * as ro from 'broadphase/ro';
 import { describe, expect, test, vi } from 'vitest';
-import { rings } from '../../site/demos/rings.ts';
+import { rings } from '../../site/article/demos/rings.ts';
 import { FakeCanvas } from './fake-canvas.ts';
 import { keys, squares } from './scene.ts';
 
