@@ -1,8 +1,8 @@
 // One list of items, ordered along axis 0 and swept.
-// Idea: items are put into as many cells along the sweep axis as there are items, by one counting sort; they are
-// not sorted further, since the sweep tests four at a time and a few candidates more cost nothing, while branches
-// of a sort do. Where the cells turn out uneven (outliers, clusters) the list is radix-sorted instead.
-// Cost: about 10 ns an item, then the tests; 40 (2D) or 64 (3D) bytes an item of the longest list.
+// Idea: items are put into as many cells along the sweep axis as there are items, by one counting sort; they are not
+// sorted further, since the sweep tests four at a time and a few more candidates cost nothing, while the branches of a
+// sort do. If the cells turn out uneven (outliers, clusters), the list is radix-sorted instead.
+// Cost: about 10 ns per item, then the tests; 40 (2D) or 64 (3D) bytes an item of the longest list.
 #pragma once
 #include "base/radix_sort.hpp"
 #include "search/quantized_sweep.hpp"

@@ -1,14 +1,14 @@
-// AABB tree: a packed tree of fat boxes, kept between updates, and the pairs of fat boxes with it.
+// AABB tree: a packed tree of fat boxes and the pairs of fat boxes, both retained between updates.
 //
-// Idea: each box is kept in a fat one that reaches ahead of it, as far as its motion will take it in a few
-// updates. While it stays inside, the tree and the candidates, which are the pairs of fat boxes that overlap, hold
-// as they are, and an update only tests each candidate again. Boxes that left get new fat ones: their candidates
-// go, the nodes above them are fitted again, and the tree is joined with itself where something moved: all that
-// rests has one exclusion bit in common. When boxes have wandered far from the places they had on the curve, only
-// the order is made anew; when most moved at once, everything is, which costs what the r-tree costs.
-// Cost: about 2 ns a box that rests, 6 ns a candidate, 60 ns a box that left; build and pairs as the r-tree;
-// about 140 (2D) or 200 (3D) bytes a box.
-// Wins where most boxes rest or move slowly and steadily. Loses where all jump: fat boxes are then useless.
+// Idea: each box is enclosed in a fat one that extends ahead of it, as far as its motion will take it in a few updates.
+// While it stays inside, the tree and the candidates, which are the overlapping pairs of fat boxes, remain valid, and
+// an update only tests each candidate again. Boxes that left get new fat ones: their candidates are dropped, the nodes
+// above them are refitted, and the tree is joined with itself where something moved; boxes at rest share an exclusion
+// bit. When boxes have moved far from their places on the curve, the order is rebuilt; when most moved at once,
+// everything is, at the cost of the r-tree.
+// Cost: about 2 ns per box at rest, 6 ns per candidate, 60 ns per box that left; build and pairs as the r-tree; about
+// 140 (2D) or 200 (3D) bytes per box.
+// Wins when most boxes are at rest or move slowly and steadily. Loses when all jump: fat boxes are then useless.
 // From: fat boxes and moved sets as in the dynamic trees of Bullet (N. Presson) and Box2D (E. Catto); candidates
 // kept with a margin from L. Verlet, "Computer Experiments on Classical Fluids", 1967.
 #pragma once
