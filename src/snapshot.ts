@@ -2,9 +2,9 @@
 import { badInPlace } from './boxes.ts';
 import type { Dimensions } from './dimensions.ts';
 import { badValue } from './errors.ts';
+import { snapshotFaults, techniques } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { readStats, type Stats } from './stats.ts';
-import { techniques } from './techniques.ts';
 import { bytesOf } from './values.ts';
 
 /** Bytes in front of what stands in the space, and the version of them that this library writes. */
@@ -72,18 +72,18 @@ function snapshotBytes(value: unknown): Uint8Array {
   );
 }
 
-/** `fault` is kernel/space/snapshot.hpp's SnapshotFault. */
+/** `fault` is the number of one of `snapshotFaults`. */
 function badSnapshot(fault: number, bytes: Uint8Array, dimensions: Dimensions): never {
   const technique = techniques[bytes[7]!] ?? `number ${bytes[7]}`;
-  const reasons = [
-    '',
-    `got ${bytes.length} bytes that are no snapshot, expected what snapshot() gave`,
-    `got a snapshot of format ${bytes[4]}, expected at most ${newest}: it was made by a newer version of this library`,
-    `got ${bytes.length} bytes, expected another number of them: the snapshot was cut off, or something is behind it`,
-    'the snapshot is damaged: its checksum or its header is wrong',
-    `got a snapshot of a space with ${bytes[5]! & 15} dimensions, expected ${dimensions}`,
-    `got a snapshot of a space with the technique ${technique}, expected one that there is: 'broadphase/all' has all`,
-    'the snapshot holds what no space holds, so it was not made by snapshot()',
-  ];
-  throw new RangeError(`restore: ${reasons[fault]}`);
+  const reasons: Record<(typeof snapshotFaults)[number], string> = {
+    none: '',
+    foreign: `got ${bytes.length} bytes that are no snapshot, expected what snapshot() gave`,
+    newer: `got a snapshot of format ${bytes[4]}, expected at most ${newest}: it was made by a newer version of this library`,
+    length: `got ${bytes.length} bytes, expected another number of them: the snapshot was cut off, or something is behind it`,
+    damaged: 'the snapshot is damaged: its checksum or its header is wrong',
+    dimensions: `got a snapshot of a space with ${bytes[5]! & 15} dimensions, expected ${dimensions}`,
+    technique: `got a snapshot of a space with the technique ${technique}, expected one that there is: 'broadphase/all' has all`,
+    content: 'the snapshot holds what no space holds, so it was not made by snapshot()',
+  };
+  throw new RangeError(`restore: ${reasons[snapshotFaults[fault]!]}`);
 }
