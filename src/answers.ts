@@ -343,8 +343,8 @@ export function readHit(instance: KernelInstance, k: number, hit: { id: number; 
 export function known(where: string, count: number): number {
   if (count !== -1) return count;
   throw new Error(
-    `${where}: boxes have changed since the last update, and a space of so many keeps none of before until it was ` +
-      'asked, expected the first question right after an update',
+    `${where}: boxes have changed since the last update, and a space this large keeps no copy of the previous ones until it was ` +
+      'queried; make its first query right after an update',
   );
 }
 

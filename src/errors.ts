@@ -46,7 +46,7 @@ export function badId(where: string, id: unknown): never {
 
 /** An id without a box, where there must be one. */
 export function noBox(where: string, id: number): never {
-  throw new RangeError(`${where}: there is no box ${id}, expected the id of one: call set first`);
+  throw new RangeError(`${where}: there is no box ${id}, expected the id of a box: call set first`);
 }
 
 /** A box that is not one: says which of its numbers is wrong. */

@@ -140,7 +140,7 @@ function checkHeeded(options: Record<string, unknown>): void {
   if (isBuilt('spatial-grid')) return;
   for (const [name, value] of Object.entries(options)) {
     if (value === undefined) continue;
-    badValue(name, value, "that it is left out: the techniques that heed it are in 'broadphase/all'");
+    badValue(name, value, "it to be left out: the techniques that use it are in 'broadphase/all'");
   }
 }
 

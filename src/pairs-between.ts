@@ -41,7 +41,7 @@ function checkOther(instance: KernelInstance, other: KernelInstance): void {
     throw new TypeError(`${where}: got the space itself, expected another: the pairs within it are in its pairs`);
   }
   instance.kernel.size(); // throws where this one was disposed of
-  if (other.isDisposed) throw new Error(`${where}: the other BroadPhase was disposed: it cannot be used any more`);
+  if (other.isDisposed) throw new Error(`${where}: the other BroadPhase was disposed and can no longer be used`);
   if (other.dimensions !== instance.dimensions) {
     badValue(`${where}: dimensions of the other`, other.dimensions, `${instance.dimensions} as here`);
   }

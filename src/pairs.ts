@@ -8,8 +8,8 @@ export function update(instance: KernelInstance, stats: Stats): void {
   if (instance.exposed?.byteOffset === 0) {
     // Only views that were cut off stand there.
     throw new Error(
-      'update: the array that boxes() gave was cut off when memory grew, so what was written to it since is lost: ' +
-        'call boxes(count) before each time it is written',
+      'update: the array of boxes() was detached when memory grew, so what was written to it since is lost: ' +
+        'call boxes(count) again before you write',
     );
   }
   let bad = -1;
@@ -54,5 +54,5 @@ export function* eachPair(pairs: Uint32Array): IterableIterator<[a: number, b: n
 }
 
 function noEvents(what: string): never {
-  throw new Error(`${what}: this space keeps no events, expected one made with new BroadPhase({ events: true })`);
+  throw new Error(`${what}: this space records no events, expected one made with new BroadPhase({ events: true })`);
 }

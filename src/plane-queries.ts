@@ -16,7 +16,9 @@ export function queryPlanes(
 ): number[] {
   const where = 'queryPlanes';
   if (instance.farthest < Number.POSITIVE_INFINITY) {
-    throw new Error(`${where}: this world wraps around, expected a space without wrap: planes have no end in it`);
+    throw new Error(
+      `${where}: this world wraps around, expected a space without wrap, since planes would have no end in it`,
+    );
   }
   checkNumberArray(where, planes);
   const width = instance.dimensions + 1;

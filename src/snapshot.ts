@@ -67,8 +67,7 @@ function placeOf(instance: KernelInstance): number {
 /** What was given to `restore`, as bytes. */
 function snapshotBytes(value: unknown): Uint8Array {
   return (
-    bytesOf(value) ??
-    badValue('restore', value, 'the bytes that snapshot() gave, as a Uint8Array or an ArrayBuffer', true)
+    bytesOf(value) ?? badValue('restore', value, 'the bytes of snapshot(), as a Uint8Array or an ArrayBuffer', true)
   );
 }
 
@@ -77,13 +76,13 @@ function badSnapshot(fault: number, bytes: Uint8Array, dimensions: Dimensions): 
   const technique = techniques[bytes[7]!] ?? `number ${bytes[7]}`;
   const reasons: Record<(typeof snapshotFaults)[number], string> = {
     none: '',
-    foreign: `got ${bytes.length} bytes that are no snapshot, expected what snapshot() gave`,
+    foreign: `got ${bytes.length} bytes that are not a snapshot, expected those of snapshot()`,
     newer: `got a snapshot of format ${bytes[4]}, expected at most ${newest}: it was made by a newer version of this library`,
-    length: `got ${bytes.length} bytes, expected another number of them: the snapshot was cut off, or something is behind it`,
+    length: `got ${bytes.length} bytes, which is not the snapshot's length: it was cut off, or something follows it`,
     damaged: 'the snapshot is damaged: its checksum or its header is wrong',
     dimensions: `got a snapshot of a space with ${bytes[5]! & 15} dimensions, expected ${dimensions}`,
-    technique: `got a snapshot of a space with the technique ${technique}, expected one that there is: 'broadphase/all' has all`,
-    content: 'the snapshot holds what no space holds, so it was not made by snapshot()',
+    technique: `got a snapshot of a space with the technique ${technique}, which is not available here: 'broadphase/all' has all`,
+    content: 'the snapshot has contents that no space can have, so snapshot() did not make it',
   };
   throw new RangeError(`restore: ${reasons[snapshotFaults[fault]!]}`);
 }

@@ -168,8 +168,8 @@ export class KernelInstance {
     this.kernel.__stack_pointer.value = this.#stackTop;
     if (this.kernel.recover() === 0) throw error;
     throw new RangeError(
-      `${where}: out of memory: ${this.io()[0]} bytes more for ${this.size} boxes and their pairs, expected no ` +
-        'more than WebAssembly allows (4 GiB) or this host can give',
+      `${where}: out of memory: ${this.io()[0]} more bytes are needed for ${this.size} boxes and their pairs, which is ` +
+        'more than WebAssembly (4 GiB) or this host allows',
       { cause: error },
     );
   }
@@ -178,6 +178,6 @@ export class KernelInstance {
 /** Stands in for the kernel of a disposed space. */
 const disposed = new Proxy({} as KernelExports, {
   get() {
-    throw new Error('this BroadPhase was disposed: it cannot be used any more');
+    throw new Error('this BroadPhase was disposed and can no longer be used');
   },
 });

@@ -44,7 +44,7 @@ export function init(source: WebAssembly.Module | BufferSource): void {
 /** The module, if it is a kernel of this library: else what was there before stays. */
 function checked(module: WebAssembly.Module): WebAssembly.Module {
   if (WebAssembly.Module.exports(module).some(({ name }) => name === 'open_space')) return module;
-  throw new TypeError("init: got a module that is no kernel, expected the one of 'broadphase/kernel.wasm'");
+  throw new TypeError("init: got a module that is not a kernel, expected that of 'broadphase/kernel.wasm'");
 }
 
 /** A fresh kernel with memory of its own. */
@@ -61,7 +61,9 @@ export function builtTechniques(): number {
 
 function compile(bytes: BufferSource): WebAssembly.Module {
   if (typeof WebAssembly === 'undefined') {
-    throw new Error('broadphase needs WebAssembly with SIMD (all browsers since 2023, Node 16.4): it is missing here');
+    throw new Error(
+      'broadphase needs WebAssembly with SIMD (all browsers since 2023, Node 16.4), which is missing here',
+    );
   }
   try {
     return new WebAssembly.Module(bytes);

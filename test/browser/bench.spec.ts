@@ -93,9 +93,7 @@ test('motions are a table, with the goals', async ({ page }) => {
 
 test('a file that is none is refused in words', async ({ page }) => {
   await page.goto('/bench/');
-  await page
-    .getByLabel('Your own results')
-    .setInputFiles({ name: 'a.json', mimeType: '', buffer: Buffer.from('{}') });
+  await page.getByLabel('Your own results').setInputFiles({ name: 'a.json', mimeType: '', buffer: Buffer.from('{}') });
   await expect(page.locator('#note')).toContainText('a.json was not read: these are no results');
 });
 

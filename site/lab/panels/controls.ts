@@ -1,8 +1,8 @@
 // The lab's controls: what they offer, what is chosen in them, and which of them are shown.
 import { BroadPhase, type TechniqueName } from 'broadphase';
-import { find } from '../shared/elements.ts';
-import { sceneGroups } from './catalog.ts';
-import type { LabState, Layer } from './state.ts';
+import { find } from '../../shared/elements.ts';
+import { sceneGroups } from '../catalog.ts';
+import type { LabState, Layer } from '../state.ts';
 
 export const sceneMenu = find<HTMLSelectElement>('scene');
 export const techniqueMenu = find<HTMLSelectElement>('technique');

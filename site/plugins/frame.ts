@@ -2,7 +2,7 @@
 // says where they go, with the comments `<!-- head -->` and `<!-- navigation -->`; `<!-- repository -->` leads to the source. Every address is relative, so that
 // the site works under any path.
 import type { Plugin } from 'vite';
-import manifest from '../package.json' with { type: 'json' };
+import manifest from '../../package.json' with { type: 'json' };
 
 /** Where one can go, by folder, in this order. */
 const sections = {

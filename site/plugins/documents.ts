@@ -7,15 +7,15 @@ import { fileURLToPath } from 'node:url';
 import highlight from 'highlight.js';
 import MarkdownIt from 'markdown-it';
 import type { Plugin } from 'vite';
-import manifest from '../package.json' with { type: 'json' };
+import manifest from '../../package.json' with { type: 'json' };
 import { rootFrom } from './frame.ts';
 import { names as live, waysTo } from './live.ts';
 import { addressOf } from './names.ts';
 
 /** The text of an example, which not all have. */
 const readme = 'README.md';
-const repository = fileURLToPath(new URL('..', import.meta.url));
-const site = fileURLToPath(new URL('.', import.meta.url));
+const repository = fileURLToPath(new URL('../..', import.meta.url));
+const site = fileURLToPath(new URL('..', import.meta.url));
 
 const guides = [
   'getting-started',

@@ -1,14 +1,14 @@
 // The first page: boxes that move, their pairs found every frame, and what that costs.
 // What is chosen stands in the address, so that a view can be sent to someone.
 import { BroadPhase, type TechniqueName } from 'broadphase';
-import rain from '../recordings/rain.trace.gz?url';
-import type { SceneName } from '../src/scenes/index.ts';
-import { find, showPlaying } from './shared/elements.ts';
-import { Figure } from './shared/figure.ts';
-import { formatCount, formatMilliseconds, formatRate, formatShare } from './shared/format.ts';
-import { numberPanel } from './shared/numbers.ts';
-import type { RendererKind } from './shared/renderer.ts';
-import { fetchRecording, type LiveScene, recordedScene, seededScene } from './shared/scenes.ts';
+import rain from '../../recordings/rain.trace.gz?url';
+import type { SceneName } from '../../src/scenes/index.ts';
+import { find, showPlaying } from '../shared/elements.ts';
+import { Figure } from '../shared/figure.ts';
+import { formatCount, formatMilliseconds, formatRate, formatShare } from '../shared/format.ts';
+import { numberPanel } from '../shared/numbers.ts';
+import type { RendererKind } from '../shared/renderer.ts';
+import { fetchRecording, type LiveScene, recordedScene, seededScene } from '../shared/scenes.ts';
 
 /** The scenes of the menu: name, label, and a word about them. */
 const scenes: readonly (readonly [SceneName | 'rain', string, string])[] = [

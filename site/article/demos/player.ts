@@ -1,7 +1,7 @@
 // A player, power-ups to collect, and a crowd that only gets in the way. Two questions are asked in each step: which
 // power-ups does the player touch, and does the guard touch the player? No one asks for the other collisions.
 import type { ro as Ro } from 'broadphase/ro';
-import { createRandom } from '../../src/scenes/random.ts';
+import { createRandom } from '../../../src/scenes/random.ts';
 import { turnRound } from './crowd.ts';
 
 const REACH = 3.2; // of the player, in pixels per step

@@ -44,16 +44,16 @@ const withoutExample = (project: ProjectReflection): string[] =>
 
 /** Writes the reference into a folder api/ of this one, and beside it the texts for programs. */
 async function writeReference(folder: string): Promise<void> {
-  const customCss = path('../build/api.css');
-  const styles = [path('shared/frame.css'), path('api.css')];
+  const customCss = path('../../build/api.css');
+  const styles = [path('../shared/frame.css'), path('api.css')];
   await writeFile(customCss, (await Promise.all(styles.map((file) => readFile(file, 'utf8')))).join('\n'));
   const app = await Application.bootstrapWithPlugins({
-    options: path('../typedoc.json'),
-    tsconfig: path('../tsconfig.json'),
+    options: path('../../typedoc.json'),
+    tsconfig: path('../../tsconfig.json'),
     customCss,
     customJs: path('api-search.js'),
     categoryOrder: groups.map(({ title }) => title),
-    favicon: path('public/logo.svg'),
+    favicon: path('../public/logo.svg'),
   });
   app.renderer.hooks.on('body.begin', ({ page }) =>
     JSX.createElement(JSX.Raw, { html: navigation(`api/${page.url}`) }),
@@ -86,10 +86,10 @@ async function writeReference(folder: string): Promise<void> {
 export const api: Plugin = {
   name: 'api',
   async closeBundle() {
-    await writeReference(path('dist'));
+    await writeReference(path('../dist'));
   },
   configureServer(server) {
-    const folder = path('../build/reference');
+    const folder = path('../../build/reference');
     let written: Promise<void> | undefined;
     server.middlewares.use(async (request, response, next) => {
       const { pathname } = new URL(request.url!, 'http://site');

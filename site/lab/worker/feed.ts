@@ -1,6 +1,6 @@
 // Where the boxes of each frame come from: a generator, which goes on for ever, or a trace, which begins again.
 import { type Frame, type FrameSource, gunzip, openAny } from 'broadphase/trace';
-import { createScene, type SceneName } from '../../src/scenes/index.ts';
+import { createScene, type SceneName } from '../../../src/scenes/index.ts';
 
 export interface Feed {
   readonly dimensions: 2 | 3;

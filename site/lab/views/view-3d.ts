@@ -24,8 +24,8 @@ import {
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { slotCount } from '../shared/groups.ts';
-import { makePalette } from '../shared/palette.ts';
+import { slotCount } from '../../shared/groups.ts';
+import { makePalette } from '../../shared/palette.ts';
 import { type LabView, onSize } from './view.ts';
 
 const vertexShader = `

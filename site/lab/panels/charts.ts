@@ -2,8 +2,8 @@
 // size; the charts are drawn a few times a second, not in each frame.
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import { heapSize } from '../shared/heap.ts';
-import type { Picture } from './messages.ts';
+import { heapSize } from '../../shared/heap.ts';
+import type { Picture } from '../worker/messages.ts';
 
 const kept = 240;
 const height = 84;

@@ -4,11 +4,11 @@
 import { existsSync, readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { build, createServer, type HttpServer, type Plugin, type ViteDevServer } from 'vite';
-import manifest from '../package.json' with { type: 'json' };
+import manifest from '../../package.json' with { type: 'json' };
 import { rootFrom } from './frame.ts';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
-const examples = path('../examples/');
+const examples = path('../../examples/');
 const configFile = `${examples}vite.config.mjs`;
 
 /** Has a server of its own, since a policy is what it is about. */
@@ -45,7 +45,7 @@ const serve = (site: HttpServer) =>
   createServer({
     configFile,
     base: '/live/',
-    cacheDir: path('../build/live'),
+    cacheDir: path('../../build/live'),
     logLevel: 'warn',
     server: { middlewareMode: true, ws: { server: site } },
   });
@@ -80,7 +80,7 @@ export const live: Plugin = {
       logLevel: 'warn',
       build: {
         target: 'es2022',
-        outDir: path('dist/live'),
+        outDir: path('../dist/live'),
         emptyOutDir: true,
         chunkSizeWarningLimit: 1500, // Phaser
         rolldownOptions: { input },

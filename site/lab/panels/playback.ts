@@ -1,6 +1,6 @@
 // Frame after frame: a new one is asked for only when the one before has come, so that nothing piles up however slow
 // a scene is; and no more often than the chosen rate.
-import { FrameLoop } from '../shared/loop.ts';
+import { FrameLoop } from '../../shared/loop.ts';
 
 /** Displays of 60 Hz have frames of a little less than 1/60 s too. */
 const slack = 4;

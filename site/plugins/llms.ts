@@ -2,7 +2,7 @@
 // are made of the same texts and doc comments as the pages.
 import { writeFile } from 'node:fs/promises';
 import { type Comment, type DeclarationReflection, type ProjectReflection, ReflectionKind } from 'typedoc';
-import manifest from '../package.json' with { type: 'json' };
+import manifest from '../../package.json' with { type: 'json' };
 import { texts } from './documents.ts';
 
 /** What the list of guides says of each, by its file; of what it does not have, the first sentence. */

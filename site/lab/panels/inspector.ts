@@ -1,6 +1,6 @@
 // The box that was clicked: where it is, whom it meets, in how many cells it is; and the hottest cells.
-import { formatCount } from '../shared/format.ts';
-import type { Chosen, HotCell, Picture } from './messages.ts';
+import { formatCount } from '../../shared/format.ts';
+import type { Chosen, HotCell, Picture } from '../worker/messages.ts';
 
 const digits = new Intl.NumberFormat('en', { maximumSignificantDigits: 6, useGrouping: false });
 

@@ -1,5 +1,5 @@
 // Boxes of very different sizes: a few giants over a crowd of dwarfs, in a world of 480 by 300.
-import { createRandom } from '../../src/scenes/random.ts';
+import { createRandom } from '../../../src/scenes/random.ts';
 import type { Box } from './cells.ts';
 
 /** @param giants how many of the boxes are giants */

@@ -20,7 +20,7 @@ const classes = {
   'broadphase/shard': ['Shard', 'Zones'],
 };
 
-const readme = readFileSync(new URL('../README.md', import.meta.url), 'utf8');
+const readme = readFileSync(new URL('../../README.md', import.meta.url), 'utf8');
 
 /** The groups of the README's table of the API: under each title in bold the names at the start of its rows. */
 export const groups: readonly Group[] = /## API\n([\s\S]*?)\n## /

@@ -1,9 +1,9 @@
 // Flat scenes: cells and boxes by the renderer of the site, pairs as lines on a canvas above it.
-import { Camera, type World } from '../shared/camera.ts';
-import { makePalette } from '../shared/palette.ts';
-import { panZoom } from '../shared/pan-zoom.ts';
-import { createRenderer, type RendererKind } from '../shared/renderer.ts';
-import type { Picture } from './messages.ts';
+import { Camera, type World } from '../../shared/camera.ts';
+import { makePalette } from '../../shared/palette.ts';
+import { panZoom } from '../../shared/pan-zoom.ts';
+import { createRenderer, type RendererKind } from '../../shared/renderer.ts';
+import type { Picture } from '../worker/messages.ts';
 import { type LabView, onSize } from './view.ts';
 
 /** A click this near to a box is meant for it, in pixels of CSS. */

@@ -2,7 +2,7 @@
 // and whom it cares about (its mask). A pair is found where each one's layer is in the other's mask.
 import { findPairs } from 'broadphase';
 import type { ro as Ro } from 'broadphase/ro';
-import { createRandom } from '../../src/scenes/random.ts';
+import { createRandom } from '../../../src/scenes/random.ts';
 import { turnRound } from './crowd.ts';
 
 /** One bit each. */

@@ -1,8 +1,8 @@
 // The cell size: a slider over doublings of the usual box, and the curve of what each size costs, which is measured
 // and drawn as the slider is dragged over it.
 import uPlot from 'uplot';
+import type { CellSizes, Cost } from '../worker/messages.ts';
 import { chartOptions, fitChart } from './charts.ts';
-import type { CellSizes, Cost } from './messages.ts';
 
 /** Steps of the slider in a doubling; it reaches from a quarter of the usual box to 256 of it. */
 const stepsPerDoubling = 4;

@@ -1,5 +1,5 @@
 // What shows pictures: flat scenes on a canvas, solid ones in three dimensions, both to the same orders.
-import type { Picture } from './messages.ts';
+import type { Picture } from '../worker/messages.ts';
 
 export interface LabView {
   /** The element that is shown or hidden. */

@@ -1,6 +1,6 @@
 // A crowd: boxes that drift, and turn round at the edge of the world. Those that collide are darker.
 import type { ro as Ro } from 'broadphase/ro';
-import { createRandom } from '../../src/scenes/random.ts';
+import { createRandom } from '../../../src/scenes/random.ts';
 
 export interface Crowd {
   count: number;

@@ -1,6 +1,6 @@
 // Boxes on a retained grid, of which some move and the others rest; the cells that a step touches light up.
 import type { ro as Ro } from 'broadphase/ro';
-import { createRandom } from '../../src/scenes/random.ts';
+import { createRandom } from '../../../src/scenes/random.ts';
 import { turnRound } from './crowd.ts';
 import type { RetainedGrid } from './retained-grid.ts';
 

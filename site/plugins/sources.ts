@@ -4,7 +4,7 @@ import { fileURLToPath } from 'node:url';
 import highlight from 'highlight.js';
 import type { Plugin } from 'vite';
 
-const repository = fileURLToPath(new URL('..', import.meta.url));
+const repository = fileURLToPath(new URL('../..', import.meta.url));
 
 export const sources: Plugin = {
   name: 'sources',

@@ -2,12 +2,12 @@
 // is solved (this alone is timed), coloured, and packed into arrays to draw. It knows nothing of messages or pages.
 import { BroadPhase, type BroadPhaseOptions, findPairsBetween, type Stats } from 'broadphase';
 import { type Frame, TraceWriter } from 'broadphase/trace';
-import type { SceneName } from '../../src/scenes/index.ts';
-import { pairsDigest } from '../../src/trace/compare.ts';
-import { begin, timeUpdate } from '../../src/trace/replay.ts';
-import { heeds, typicalSide } from '../../src/trace/tune.ts';
-import { cellSlot, chosenSlot, Groups, heatSlot, heats, partnerSlot } from '../shared/groups.ts';
-import { heapSize } from '../shared/heap.ts';
+import type { SceneName } from '../../../src/scenes/index.ts';
+import { pairsDigest } from '../../../src/trace/compare.ts';
+import { begin, timeUpdate } from '../../../src/trace/replay.ts';
+import { heeds, typicalSide } from '../../../src/trace/tune.ts';
+import { cellSlot, chosenSlot, Groups, heatSlot, heats, partnerSlot } from '../../shared/groups.ts';
+import { heapSize } from '../../shared/heap.ts';
 import { type Feed, generate, play } from './feed.ts';
 import type { CellSizes, Chosen, Cost, HotCell, Opened, Picture, Requests, Setup, Source, Wanted } from './messages.ts';
 

@@ -1,6 +1,6 @@
 // The slider for the number of boxes: logarithmic, in counts of two digits.
-import { formatCount } from '../shared/format.ts';
-import { mostBoxes } from './catalog.ts';
+import { formatCount } from '../../shared/format.ts';
+import { mostBoxes } from '../catalog.ts';
 
 const least = 100;
 
