@@ -5,9 +5,10 @@
 //   npm run dev -- wrap events     these tests, whatever was edited
 //   npm run dev -- --once          once, without watching
 import { spawn } from 'node:child_process';
-import { mkdirSync, readdirSync, watch, writeFileSync } from 'node:fs';
+import { readdirSync, watch, writeFileSync } from 'node:fs';
 import { basename, join, parse } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { writeAbi } from './abi.mjs';
 import { compile, lean, only } from './compile.mjs';
 import { moduleOf } from './inline.mjs';
 
@@ -33,7 +34,7 @@ async function check(header) {
   const started = performance.now();
   decoder ??= Buffer.from(await compile('kernel/decoder.cpp')).toString('hex');
   const bytes = await compile('kernel/abi.cpp', [only(lean)]);
-  mkdirSync(join(root, 'src/generated'), { recursive: true });
+  writeAbi();
   writeFileSync(join(root, `src/generated/${name}.ts`), moduleOf(bytes, decoder, lean, [2, 3]));
   console.log(`compiled: ${seconds(started)}`);
   const near = header ? nearest(header) : [];
