@@ -1,5 +1,5 @@
-// The numbers that say when it pays to keep pairs. `npm run bench -- --motions --set tune --count 10000 --dimensions 2
-// --by boxes` measures them; what halving and doubling each does is in docs/decisions/0007-coherence.md.
+// The numbers that decide when retaining pairs pays. `npm run bench -- --motions --set tune --count 10000 --dimensions
+// 2 --by boxes` measures them; docs/decisions/0007-coherence.md shows the effect of halving and doubling each.
 #pragma once
 #include "base/simd.hpp"
 
