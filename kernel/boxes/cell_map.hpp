@@ -1,4 +1,4 @@
-// From coordinates to cells: monotone, so that boxes that overlap span cells that do.
+// From coordinates to cells. The map is monotone, so that boxes that overlap span cells that overlap.
 #pragma once
 #include "base/heap.hpp"
 

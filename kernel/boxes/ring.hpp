@@ -1,9 +1,9 @@
-// Boxes that were set, on their way into the space.
-// Idea: JavaScript writes each into this memory by itself and calls the kernel only when there are many, or when
-// somebody is about to look. They are then put in their places a batch at a time: of many boxes each is far from the
-// caches, and so all of a batch are waited for together. The kernel says what may wait here without being able to
-// fail later: boxes whose ids it knows, and as many new ones as it has room for. All others come alone, at once.
-// Cost: about 3 ns a box in here, where boxes are near.
+// A buffer of boxes that were set but are not in the space yet.
+// Idea: JavaScript writes each box into this memory itself, and calls the kernel only when the buffer is full, or
+// before boxes are read. They are then written to their slots in batches: the slots of many boxes are cache misses, so
+// a whole batch is prefetched together. The kernel says which boxes may wait here because flushing them cannot fail:
+// those with known ids, and as many new ones as it has room for. All others are flushed alone, at once.
+// Cost: about 3 ns per box in the kernel, if slots are in the cache.
 #pragma once
 #include "base/simd.hpp"
 

@@ -1,11 +1,12 @@
-// Incremental: a list of the pairs that may come to overlap is tested in each update, instead of finding all pairs anew.
+// Incremental: each update tests a list of pairs that may come to overlap, instead of a full rebuild.
 //
-// Idea: candidate_list.hpp has the list; here it is decided when one is made, with which margin, and when it ends.
-//   - The margin is measured, not foreseen: see watch.hpp. Where none promises to pay, strip sweep answers, and it is
-//     tried again after 8 to 512 updates.
-//   - A list ends when being late has cost more than a new list would, on average. Motion with bounds never ends one.
-// Nothing here looks at a clock: work is counted, so the order of the pairs depends on the calls alone.
-// Wins where boxes rest, tremble, turn, or move by less than a tenth of their size. Is strip sweep where they jump.
+// Idea: candidate_list.hpp has the list; this file decides when one is made, with which margin, and when it ends.
+//   - The margin comes from measured displacements, not predictions: see watch.hpp. If no margin is expected to pay,
+//     strip sweep runs, and a list is tried again after 8 to 512 updates.
+//   - A list ends when late boxes have cost more than a new list would, on average. Bounded motion never ends one.
+// Nothing here reads a clock: work is counted, so the order of the pairs depends on the calls alone.
+// Wins when boxes are at rest, jitter, turn, or move by less than a tenth of their size. Equals strip sweep when they
+// jump.
 #pragma once
 #include "coherence/candidate_list.hpp"
 #include "pairs/pair_order.hpp"

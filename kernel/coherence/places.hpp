@@ -1,9 +1,10 @@
-// Where regions stand, to be searched when boxes leave theirs.
-// Idea: grids whose cells are twice as wide from one to the next. A region stands once, in the finest grid in which it
-// spans no more than two cells along each axis, in the cell of its lower corner. So a search looks one cell back. The
-// regions that boxes had first, their bases, stand behind one another in the order of the cells: a row of cells is one
-// run of memory. Those of boxes that have left theirs hang in chains, one for each cell.
-// Cost: about 6 ns to put a base in; in a search 1 ns for each that stands near. 8 bytes a box beside its base, 5 for cells.
+// The regions in grids, to be searched when boxes leave theirs.
+// Idea: grids whose cells double in width from one to the next. A region is stored once, in the finest grid in which it
+// spans no more than two cells along each axis, in the cell of its lower corner. So a search starts one cell further
+// back. The first regions of boxes, their bases, are stored in the order of the cells: a row of cells is one run of
+// memory. The later regions of late boxes are in chains, one for each cell.
+// Cost: about 6 ns to insert a base; in a search 1 ns for each region nearby. 8 bytes per box besides its base, 5 for
+// cells.
 // From: F. Schornbaum, "Hierarchical Hash Grids for Coarse Collision Detection", 2009.
 #pragma once
 #include "base/box_tests.hpp"

@@ -1,5 +1,5 @@
-// The numbers that say when it pays to keep pairs. `npm run bench -- --motions --set tune --count 10000 --dimensions 2
-// --by boxes` measures them; what halving and doubling each does is in docs/decisions/0007-coherence.md.
+// The numbers that decide when retaining pairs pays. `npm run bench -- --motions --set tune --count 10000 --dimensions
+// 2 --by boxes` measures them; docs/decisions/0007-coherence.md shows the effect of halving and doubling each.
 #pragma once
 #include "base/simd.hpp"
 
@@ -8,7 +8,7 @@ template <int D> struct Tuning {
   f64 entry = D == 2 ? 16 : 20;      // tests: to put a box into a strip and order it there
   f64 look = 1;                      // tests: to see whether a box is in its region
   f64 candidate = D == 2 ? 2 : 3;    // tests: to test one
-  f64 late = 500;                    // tests: to give a box that has left its region a new one
+  f64 late = 350;                    // tests: to give a box that has left its region a new one
   f64 late_margin = 0.5;             // of a box's size: the margin of that
   f64 burst = 0.5;                   // of a rebuild: in one update boxes may be late for as much
   f64 build = 2;                       // of a rebuild: a list that would cost more is not made

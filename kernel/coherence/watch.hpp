@@ -1,8 +1,8 @@
-// How far boxes get from where they were, by a sample of them, and which margin is worth it.
+// How far boxes move, measured on a sample, and the margin that costs least.
 // Idea: for each box of the sample, the largest displacement after 1, 2, 4 … 64 updates is measured. Nothing is
-// extrapolated. A list with a margin m that lives for so many updates then costs: its candidates, the share of its
-// making, and whatever it takes to serve the boxes that were further away than m. The cheapest is chosen.
-// Motion that most boxes have in common (a world that scrolls or zooms) is taken out first.
+// extrapolated. For a list with margin m that lives for that many updates, the cost per update is: testing its
+// candidates, its share of making the list, and serving the boxes that moved further than m. The cheapest margin is
+// chosen. Motion common to most boxes (a world that scrolls or zooms) is subtracted first.
 #pragma once
 #include "base/box_tests.hpp"
 #include "boxes/scene_sample.hpp"

@@ -1,5 +1,5 @@
-// What is asked about the pairs of the last update: whether two ids are one, and who is in one with an id. Made at the
-// first question after an update.
+// Lookups in the pairs of the last update: whether two ids are a pair, and which ids are in a pair with one. Built at
+// the first query after an update.
 #pragma once
 #include "pairs/pair_table.hpp"
 #include "pairs/partners.hpp"

@@ -1,9 +1,9 @@
-// The question about planes: what is not wholly behind any of them, as a camera asks about what it sees.
-// Idea: a box is behind a plane if its foremost corner is, and in front of it if its hindmost corner is. The walk
-// goes down the index with the planes that still cut: what is in front of a plane with all it holds is not tested
-// against it again, and where no plane is left all is inside and taken as it stands.
-// Distances are summed in doubles, axis by axis. Each of these roundings keeps order, so no corner of a block is
-// further behind than that of a box in it: the answers are those of the sum, box by box.
+// The query for planes: boxes that are not wholly behind any of them, such as those that a camera sees.
+// Idea: a box is behind a plane if its foremost corner is, and in front of it if its hindmost corner is. The traversal
+// goes down the index with the planes that still cut: a block wholly in front of a plane is not tested against it
+// again, and once no plane is left, everything in the block is inside and taken without tests. Distances are summed in
+// doubles, axis by axis. Each rounding is monotone, so no corner of a block is further behind than that of a box in it:
+// the answers equal those of testing box by box.
 // Cost, of 500,000 boxes in 3D: 0.03 ms for a view of 600 of them, 0.2 ms for 15,000, 1 ms for 66,000.
 // From: N. Greene, "Detecting Intersection of a Rectangular Solid and a Convex Polyhedron", Graphics Gems IV, 1994;
 // U. Assarsson and T. Möller, "Optimized View Frustum Culling Algorithms for Bounding Boxes", 2000.

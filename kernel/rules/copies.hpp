@@ -1,10 +1,10 @@
-// Where a question meets boxes in a world that wraps around.
+// Queries in a world that wraps around.
 // Idea: the index has each box once, moved by whole worlds so that its minimum is inside, and so up to two worlds wide.
-// The question is moved by whole worlds, a turn each, and asked again: by one world back and forth along each axis, and
-// along the way of what moves as often as it comes through boxes. A box that is met at several turns is taken from the
-// one where it is met first, or nearest: so nothing comes twice, and nothing has to be remembered.
-// Exact: whether boxes touch is found as for pairs. Distances and times are those to the copy of a box whose numbers are
-// min + k * world and max + k * world, as doubles have them.
+// The query is shifted by whole worlds, one turn each, and repeated: by one world back and forth along each axis, and
+// along the path of a ray or sweep for as long as it may hit boxes. A box found in several turns is taken from the turn
+// of its first or nearest hit: so nothing comes twice, and nothing has to be remembered. Exact: touching is decided as
+// for pairs. Distances and times are those to the copy of a box with the numbers min + k * world and max + k * world,
+// computed in doubles.
 // Cost: up to 9 (2D) or 27 (3D) searches, most of which end at the root.
 // One copy for 2D and 3D, since it is small code that counts here.
 #pragma once

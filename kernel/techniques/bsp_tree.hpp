@@ -1,15 +1,15 @@
-// BSP tree: the world cut in two again and again along its axes (a k-d tree), built anew each update.
+// BSP tree: the world cut in two again and again along its axes (a k-d tree), rebuilt each update.
 //
-// Idea: each cut stands at the median of a sample, across the axis along which the boxes are spread furthest,
-// measured in boxes. A box that a cut crosses goes to both sides and is marked as continuing on the right one;
-// two boxes with a common mark have met further left, so every pair is found once, in the leaf that holds the
-// larger of the two minimum corners. Two stacks of items are all that is kept: a cut pushes its left side onto
-// the other stack and closes the gaps of the right one in place, without a branch. A cut is made while it saves
-// more tests in the sweep of the leaves than its copies cost.
-// Cost: build O(n log(n / leaf)), about 3 ns an item and level; pairs O(n + candidates); about 100 (2D) or 160
-// (3D) bytes a box. Nothing to update.
-// Wins on clusters within clusters, where no one grid or strip width is right. Loses to the strips elsewhere: it
-// passes over the items once for each level where they pass twice.
+// Idea: each cut is at the median of a sample, across the axis along which the boxes are spread furthest, measured in
+// boxes. A box that a cut crosses goes to both sides and is marked as continuing on the right one; two boxes with a
+// common mark have met further left, so every pair is found once, in the leaf that contains the larger of the two
+// minimum corners. Two stacks of items are the only storage: a cut pushes its left side onto the other stack and closes
+// the gaps of the right one in place, without a branch. Cuts continue while they save more tests in the sweep of the
+// leaves than their copies cost.
+// Cost: build O(n log(n / leaf)), about 3 ns an item and level; pairs O(n + candidates); about 100 (2D) or 160 (3D)
+// bytes a box. Nothing is updated.
+// Wins on clusters within clusters, where no one grid or strip width is right. Otherwise loses to strip sweep: it
+// passes over the items once per level, strip sweep twice in all.
 // From: J. L. Bentley, "Multidimensional Binary Search Trees Used for Associative Searching", 1975; cuts and
 // leaves as in Serpa & Rodrigues, "Broadmark: A Testing Framework for Broad-Phase Collision Detection", 2019.
 #pragma once

@@ -1,12 +1,12 @@
 // Strip sweep: cut the world into strips (2D) or columns (3D), order each along the remaining axis, sweep.
 //
-// Idea: an item enters every strip it touches and is marked "continues" in all but its first (3D: one mark per
-// axis). Two items that both continue into a strip have already met, so their shared mark keeps them from being
-// tested again: every pair is found once, with no table. Where a strip has too many candidates that are not
-// hits, it is cut again, along the same axes, by its own statistics.
+// Idea: an item enters every strip it touches and is marked "continues" in all but its first (3D: one mark per axis).
+// Two items that both continue into a strip have already met, so their shared mark keeps them from being tested again:
+// every pair is found once, with no table. If a strip has too many candidates that are not hits, it is divided again,
+// along the same axes, by its own statistics.
 // Cost: build O(n), pairs O(n + candidates); memory about 48 (2D) or 80 (3D) bytes for each entry.
 // Wins nearly always when everything moves: box size costs almost nothing, there is no cell size to choose.
-// Loses when few boxes move: it starts anew each time.
+// Loses when few boxes move: each update is a full rebuild.
 // From: two-layer partitioning, Tsitsigkos et al., "A Two-layer Partitioning for Non-point Spatial Data",
 // ICDE 2021; the sweep in strips goes back to Güting & Schilling 1987.
 #pragma once

@@ -7,19 +7,27 @@ import { numberPanel } from '../shared/numbers.ts';
 import type { RendererKind } from '../shared/renderer.ts';
 import { Timings } from '../shared/timings.ts';
 import { isTrace, mostBoxes, traces } from './catalog.ts';
-import { createCellSize } from './cell-size.ts';
-import { createCharts } from './charts.ts';
-import { arrange, fillControls, layersChosen, racersChosen, rateMenu, sceneMenu, techniqueMenu } from './controls.ts';
-import { createCountSlider } from './count-slider.ts';
 import { save, takeFiles } from './files.ts';
-import { createInspector } from './inspector.ts';
-import type { Opened, Picture, Requests, Source, Wanted } from './messages.ts';
-import { Pilot, TooSlow } from './pilot.ts';
-import { Playback } from './playback.ts';
+import { createCellSize } from './panels/cell-size.ts';
+import { createCharts } from './panels/charts.ts';
+import {
+  arrange,
+  fillControls,
+  layersChosen,
+  racersChosen,
+  rateMenu,
+  sceneMenu,
+  techniqueMenu,
+} from './panels/controls.ts';
+import { createCountSlider } from './panels/count-slider.ts';
+import { createInspector } from './panels/inspector.ts';
+import { Playback } from './panels/playback.ts';
 import { createRace, type Race } from './race.ts';
 import { defaults, type LabState, type Layer, latestFrame, type Rate, readState, writeState } from './state.ts';
-import { type LabView, onClick } from './view.ts';
-import { createFlatView } from './view-2d.ts';
+import { type LabView, onClick } from './views/view.ts';
+import { createFlatView } from './views/view-2d.ts';
+import type { Opened, Picture, Requests, Source, Wanted } from './worker/messages.ts';
+import { Pilot, TooSlow } from './worker/pilot.ts';
 
 /** Milliseconds that a worker may take for an answer. */
 const patience = 10_000;
@@ -234,7 +242,7 @@ async function change(next: { scene: string; own?: File }): Promise<void> {
 async function useView(dimensions: 2 | 3): Promise<void> {
   if (dimensions === 3) {
     // The library for it is fetched only by those who look at a solid scene.
-    solid ??= import('./view-3d.ts').then(({ createSolidView }) => {
+    solid ??= import('./views/view-3d.ts').then(({ createSolidView }) => {
       find('solid').hidden = false;
       const made = createSolidView(find('solid'), () => remember());
       listen(made);

@@ -6,8 +6,8 @@ import { Camera, type World } from '../shared/camera.ts';
 import { formatCount, formatMilliseconds } from '../shared/format.ts';
 import { makePalette } from '../shared/palette.ts';
 import { createRenderer } from '../shared/renderer.ts';
-import type { Opened, Picture, Source } from './messages.ts';
-import { Pilot, TooSlow } from './pilot.ts';
+import type { Opened, Picture, Source } from './worker/messages.ts';
+import { Pilot, TooSlow } from './worker/pilot.ts';
 
 /** Milliseconds that a frame may take in a race. */
 const patience = 3000;

@@ -57,7 +57,7 @@ export async function write(path: string, data: Uint8Array | string): Promise<vo
 export async function checkWritable(option: string, path: string, read: string): Promise<void> {
   const [there, source] = await Promise.all([path, read].map((each) => stat(each).catch(() => undefined)));
   if (there && source && there.dev === source.dev && there.ino === source.ino) {
-    throw new UsageError(`${option} is ${path}, which is the trace itself: expected another file`);
+    throw new UsageError(`${option} is ${path}, which is the trace itself; expected another file`);
   }
   try {
     await (await open(path, 'a')).close();
@@ -98,7 +98,7 @@ function slice(source: FrameSource, range: string): FrameSource {
   const from = Number(first);
   const to = Number(last);
   if (!(from <= to && to < source.frames)) {
-    throw new UsageError(`--frames is ${range}, expected two from 0 to ${source.frames - 1}, such as 0..9`);
+    throw new UsageError(`--frames is ${range}, expected two numbers from 0 to ${source.frames - 1}, such as 0..9`);
   }
   return {
     dimensions: source.dimensions,

@@ -48,10 +48,10 @@ export const initCommand: Command = {
     const [name] = input.operands;
     const folder = resolve(name);
     const given = input.text('package');
-    if (given !== undefined && !existsSync(given)) throw new FileError(`cannot read ${given}: it is not there`);
+    if (given !== undefined && !existsSync(given)) throw new FileError(`cannot read ${given}: there is no such file`);
     const tarball = given ?? (await tarballHere());
     const there = await readdir(folder).catch(() => []);
-    if (there.length > 0) throw new UsageError(`${name} has files in it, expected an empty folder or a new one`);
+    if (there.length > 0) throw new UsageError(`${name} is not empty, expected an empty or new folder`);
     const spec = tarball === undefined ? `^${version}` : `file:${relative(folder, resolve(tarball))}`;
     try {
       await mkdir(folder, { recursive: true });

@@ -23,7 +23,7 @@ export const tuneCommand: Command = {
     const seconds = input.number('seconds', { least: 0, most: 3600 }) ?? 8;
     const source = await openSource(input, terminal);
     const [path] = input.operands;
-    if (isEmpty(source)) throw new TraceError(`${path}: there are no boxes in any frame to tune on`, -1, 0);
+    if (isEmpty(source)) throw new TraceError(`${path}: no frame has boxes to tune on`, -1, 0);
     const report = input.text('report');
     if (report !== undefined) await checkWritable('--report', report, path);
     const progress = progressBar(terminal);

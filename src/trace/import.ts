@@ -29,14 +29,14 @@ export async function gunzip(bytes: Uint8Array, most = maxUnpackedBytes): Promis
   let length = 0;
   for (;;) {
     const { done, value } = await reader.read().catch((error: Error) => {
-      throw new TraceError(`the gzip around it is broken: ${error.message}`, -1, length);
+      throw new TraceError(`its gzip data is broken: ${error.message}`, -1, length);
     });
     if (done) break;
     pieces.push(value);
     length += value.length;
     if (length > most) {
       await reader.cancel();
-      throw new TraceError(`unpacked it is larger than ${most} bytes, which is not allowed`, -1, length);
+      throw new TraceError(`unpacked, it exceeds the limit of ${most} bytes`, -1, length);
     }
   }
   const all = new Uint8Array(length);
@@ -147,7 +147,7 @@ function checkFrame(recording: RawRecording, index: number): void {
       if (boxes[k] <= boxes[k + dimensions]) continue;
       const box = boxes.subarray(at, at + width).join(', ');
       const offset = headerBytes + 4 * (index * count * width + k);
-      throw new TraceError(`box ${at / width} is [${box}], which is none`, index, offset);
+      throw new TraceError(`box ${at / width} is [${box}], which is not a box`, index, offset);
     }
   }
 }

@@ -1,7 +1,7 @@
 // The examples run on the site, above their code: built, and as `npm start` serves them.
 import { readdirSync } from 'node:fs';
 import { expect, test } from '@playwright/test';
-import { waysTo } from '../../site/live.ts';
+import { waysTo } from '../../site/plugins/live.ts';
 import { examples, needExamples } from './example.ts';
 import { startPort } from './ports.ts';
 

@@ -262,7 +262,7 @@ describe('init', () => {
     expect(await run('init', folder)).toMatchObject({
       code: 2,
       out: '',
-      err: expect.stringContaining('has files in it'),
+      err: expect.stringContaining('is not empty'),
     });
     const absent = await run('init', file('third'), '--package', file('absent.tgz'));
     expect(absent).toMatchObject({ code: 4, out: '', err: expect.stringContaining('absent.tgz') });

@@ -1,11 +1,11 @@
-// The kernel as text: what scripts/inline.mjs writes, src/kernel.ts and its small decoder read back byte for byte.
+// The kernel as text: what scripts/inline.mjs writes, src/kernel/load.ts and its small decoder read back byte for byte.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { inline } from '../../scripts/inline.mjs';
 import * as lean from '../../src/generated/kernel-lean.ts';
-import { read } from '../../src/kernel.ts';
+import { read } from '../../src/kernel/load.ts';
 
 const fileOf = (name: string) =>
   new Uint8Array(readFileSync(fileURLToPath(new URL(`../../build/${name}.wasm`, import.meta.url))));

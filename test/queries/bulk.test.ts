@@ -237,7 +237,7 @@ describe('what is refused', () => {
     [
       'too few to ignore',
       () => space.rayCasts([0, 0, 1, 0], { ignoreEach: [] }),
-      'rayCasts: ignoreEach: length: got 0, expected 1, an id for each question',
+      'rayCasts: ignoreEach: length: got 0, expected 1, one id for each query',
     ],
     [
       'a bad id',

@@ -93,7 +93,7 @@ describe('what cannot be done is said at once', () => {
       await run(['generate', 'crowd', path, '--count', count, '--frames', frames]);
       const { code, out, err } = await run(['tune', path]);
       expect({ code, out }).toEqual({ code: 3, out: '' });
-      expect(err).toContain(`${path}: there are no boxes in any frame to tune on`);
+      expect(err).toContain(`${path}: no frame has boxes to tune on`);
     }
   });
 

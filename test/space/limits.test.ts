@@ -7,7 +7,7 @@ import { createRandom } from '../../src/scenes/random.ts';
 import { setBox } from '../support/set-box.ts';
 
 const mebibyte = 2 ** 20;
-const kernel = readFileSync(new URL('../build/kernel.wasm', import.meta.url));
+const kernel = readFileSync(new URL('../../build/kernel.wasm', import.meta.url));
 
 /** The kernel, with a limit to its memory, so that running out of it takes milliseconds. */
 function kernelWith(bytes: number): Uint8Array<ArrayBuffer> {
@@ -76,7 +76,7 @@ describe('with 32 MiB of memory', () => {
       space.setAll(identical(count, dimensions));
       const update = () => space.update();
       expect(update).toThrow(RangeError);
-      expect(update).toThrow(/^update: out of memory: \d+ bytes more for 20000 boxes and their pairs/);
+      expect(update).toThrow(/^update: out of memory: \d+ more bytes are needed for 20000 boxes and their pairs/);
       expect(space.size).toBe(count);
       expect(space.pairCount).toBe(0);
       expect(space.pairs.length).toBe(0);
@@ -214,7 +214,7 @@ describe.runIf(process.env.LARGE_MEMORY)('with all memory that WebAssembly allow
     expect(Array.from(pairs.subarray(-2))).toEqual([count - 2, count - 1]);
     space.validate();
     space.boxes(100_000).set(identical(100_000, 2)); // stands behind the pairs
-    expect(() => space.update()).toThrow(/^update: out of memory: \d+ bytes more for 100000 boxes/);
+    expect(() => space.update()).toThrow(/^update: out of memory: \d+ more bytes are needed for 100000 boxes/);
     space.boxes(1000).set(identical(1000, 2));
     expect(space.update().validate().pairCount).toBe((1000 * 999) / 2);
   });
@@ -275,8 +275,8 @@ describe('views of memory', () => {
     crowd(space);
     expect(view.length).toBe(0);
     view[0] = 7; // is lost
-    expect(() => space.update()).toThrow(/^update: the array that boxes\(\) gave was cut off when memory grew/);
-    expect(() => space.update()).toThrow(/call boxes\(count\) before each time it is written/);
+    expect(() => space.update()).toThrow(/^update: the array of boxes\(\) was detached when memory grew/);
+    expect(() => space.update()).toThrow(/call boxes\(count\) again before you write/);
     const again = space.boxes(3000);
     expect(again === view).toBe(false);
     expect(again).toEqual(identical(3000, 2));

@@ -326,10 +326,10 @@ describe('bytes that are no snapshot leave the space as it was', () => {
       refused(
         space,
         saved.subarray(0, length),
-        length < 24 ? /are no snapshot|another number/ : /another number of them/,
+        length < 24 ? /are not a snapshot|is not the snapshot's length/ : /is not the snapshot's length/,
       );
     }
-    refused(space, Uint8Array.from([...saved, 0, 0, 0, 0, 0, 0, 0, 0]), 'another number of them');
+    refused(space, Uint8Array.from([...saved, 0, 0, 0, 0, 0, 0, 0, 0]), "which is not the snapshot's length");
     space.restore(saved.buffer);
   });
 
@@ -337,13 +337,13 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     const space = full(2);
     const saved = space.snapshot();
     const changed = (at: number, value: number) => sealed(saved.map((byte, k) => (k === at ? value : byte)));
-    refused(space, new Uint8Array(), 'got 0 bytes that are no snapshot');
-    refused(space, new TextEncoder().encode('{"boxes": [0, 0, 10, 10]}'.repeat(40)), 'are no snapshot');
+    refused(space, new Uint8Array(), 'got 0 bytes that are not a snapshot');
+    refused(space, new TextEncoder().encode('{"boxes": [0, 0, 10, 10]}'.repeat(40)), 'are not a snapshot');
     refused(space, changed(4, 3), 'format 3, expected at most 2: it was made by a newer version');
     refused(space, full(3).snapshot(), 'a space with 3 dimensions, expected 2');
     refused(space, changed(7, 77), 'the technique number 77');
     for (const value of [undefined, null, 'abc', 12, {}, [1, 2, 3]]) {
-      refused(space, value, 'expected the bytes that snapshot() gave', TypeError as never);
+      refused(space, value, 'expected the bytes of snapshot()', TypeError as never);
     }
   });
 
@@ -353,9 +353,9 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     const { bytes } = space.stats;
     const forged = space.snapshot();
     new DataView(forged.buffer).setUint32(16, 2 ** 24, true);
-    refused(space, sealed(forged), 'another number of them');
+    refused(space, sealed(forged), "which is not the snapshot's length");
     new DataView(forged.buffer).setUint32(20, 2 ** 32 - 1, true);
-    refused(space, sealed(forged), 'another number of them');
+    refused(space, sealed(forged), "which is not the snapshot's length");
     expect(space.update().stats.bytes).toBeLessThan(bytes + 2 ** 16);
   });
 
@@ -368,7 +368,7 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     const forge = (at: number, value: number) => {
       const bytes = ordered.snapshot();
       new DataView(bytes.buffer).setUint32(24 + boxes + ids + at, value, true);
-      refused(space, sealed(bytes), 'holds what no space holds');
+      refused(space, sealed(bytes), 'contents that no space can have');
     };
     forge(0, 0); // there is no next one
     forge(0, 2); // the second box came as number 2
@@ -383,7 +383,7 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     const forge = (change: (view: DataView) => void) => {
       const bytes = plain.snapshot();
       change(new DataView(bytes.buffer));
-      refused(space, sealed(bytes), 'holds what no space holds');
+      refused(space, sealed(bytes), 'contents that no space can have');
     };
     space.restore(sealed(plain.snapshot()));
     forge((view) => view.setFloat32(24, Number.NaN, true));
@@ -402,7 +402,7 @@ describe('bytes that are no snapshot leave the space as it was', () => {
       const bytes = kept.snapshot();
       new DataView(bytes.buffer).setUint32(24, pair[0], true);
       new DataView(bytes.buffer).setUint32(28, pair[1], true);
-      refused(space, sealed(bytes), 'holds what no space holds');
+      refused(space, sealed(bytes), 'contents that no space can have');
     }
   });
 

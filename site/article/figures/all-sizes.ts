@@ -1,10 +1,10 @@
 // Fig. 20: giants and dwarfs once more, each in the grid whose cells fit it.
 import { ro } from 'broadphase/ro';
-import { bestCellSize, countWork, place } from '../../demos/cells.ts';
-import { HierarchicalGrid } from '../../demos/hierarchical-grid.ts';
-import source from '../../demos/hierarchical-grid.ts?raw';
-import { mixedSizes } from '../../demos/mixed-sizes.ts';
 import { demoColumns } from '../demo.ts';
+import { bestCellSize, countWork, place } from '../demos/cells.ts';
+import { HierarchicalGrid } from '../demos/hierarchical-grid.ts';
+import source from '../demos/hierarchical-grid.ts?raw';
+import { mixedSizes } from '../demos/mixed-sizes.ts';
 import { boxOn, fitWorld } from '../kit/drawing.ts';
 import { choice, counters, createView, excerpt, listing, sayer } from '../kit/index.ts';
 
@@ -69,7 +69,7 @@ export function mount(root: HTMLElement): void {
     pairs: 'Pairs found',
   });
   const say = sayer(left);
-  listing(right, 'site/demos/hierarchical-grid.ts', excerpt(source, 'queryForCollisionPairs()'));
+  listing(right, 'site/article/demos/hierarchical-grid.ts', excerpt(source, 'queryForCollisionPairs()'));
 
   write('grids', sizes.length);
   write('lookUps', grids.lookUps);

@@ -2,10 +2,11 @@
 //
 // One page has one heap, so the four take turns; the chart's clock runs only while they do. A browser that does not
 // tell the size of its heap gets the number of arrays made instead, which is known everywhere.
-import { makeWorlds } from '../../demos/heap.ts';
-import source from '../../demos/heap.ts?raw';
+
 import { heapSize } from '../../shared/heap.ts';
 import { demoColumns } from '../demo.ts';
+import { makeWorlds } from '../demos/heap.ts';
+import source from '../demos/heap.ts?raw';
 import { text } from '../kit/drawing.ts';
 import { button, choice, createView, element, excerpt, listing, row, runWhileAttended, sayer } from '../kit/index.ts';
 
@@ -110,7 +111,7 @@ export function mount(root: HTMLElement): () => void {
   const head = element('tr', {}, ...headings.map((heading) => element('th', { scope: 'col' }, heading)));
   right.append(element('div', { class: 'table' }, element('table', {}, element('thead', {}, head), body)));
   const say = sayer(right, true);
-  listing(right, 'site/demos/heap.ts', excerpt(source, 'function on<T'));
+  listing(right, 'site/article/demos/heap.ts', excerpt(source, 'function on<T'));
 
   const attended = runWhileAttended(
     place,
