@@ -33,7 +33,7 @@ template <int D> class Numbers {
     return rounding_ ? smaller(all, exact_.capacity() / width) : all;
   }
   /// Room for `count` boxes, of which the first `keep` stay.
-  void make_room(u64 count, u32 keep) {
+  SMALL void make_room(u64 count, u32 keep) {
     if (written.in_place() && written.shown() == 0 && count * width + padding > boxes_.capacity()) {
       written.move(boxes_, larger(count * width + padding, boxes_.capacity() + boxes_.capacity() / 2), keep);
     }

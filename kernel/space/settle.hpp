@@ -38,7 +38,7 @@ NOINLINE u64* retest(const Filters& filters, const T* boxes, const u64* from, co
 /// Keeps, of the pairs in doubt, those that overlap in the numbers given, or grown from these. `noted`: whether the
 /// technique says which are in doubt; else all are.
 template <int D>
-void settle_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles, bool noted, bool touching) {
+SMALL void settle_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles, bool noted, bool touching) {
   const Filters& filters = store.own.filters;
   const f32* boxes = store.numbers.boxes();
   u64* list = pairs.list.data();
