@@ -5,10 +5,10 @@ import { type TechniqueName, techniques } from './techniques.ts';
 const reasons = [
   'asked for',
   'a handful of boxes',
-  'what was found is kept: boxes rest or move little',
-  'all is found anew: how boxes move is being watched',
-  'all is found anew: boxes move too far, or there are few',
-  'all is found anew: after a snapshot, no update before may show in the order of pairs',
+  'candidates are retained: boxes are at rest or move little',
+  'full rebuild: how boxes move is being observed',
+  'full rebuild: boxes move too far, or there are few',
+  'full rebuild: after a snapshot, earlier updates must not affect the order of pairs',
 ] as const;
 
 /** Why a technique ran. */
@@ -16,11 +16,11 @@ export type Reason = (typeof reasons)[number];
 
 /** Counters of the last update. */
 export interface Stats {
-  /** The technique that ran: what `auto` chose. */
+  /** The technique that ran: with `auto`, the one it chose. */
   technique: TechniqueName;
-  /** Why it ran: where `auto` chose it, what it saw. */
+  /** Why it ran: with `auto`, the reason for its choice. */
   reason: Reason;
-  /** Boxes tested against boxes. */
+  /** Tests of one box against another. */
   tests: number;
   /** Pairs found in float32, before the exact test in double precision and the last of the filters. */
   candidates: number;
@@ -28,7 +28,7 @@ export interface Stats {
   pairs: number;
   /** Cells, strips or nodes in use. */
   cells: number;
-  /** Places of boxes in them: more than there are boxes where a box stands in several. */
+  /** Entries of boxes in them: more than the number of boxes if a box is in several. */
   entries: number;
   /** Bytes of memory in use by the space. */
   bytes: number;

@@ -3,7 +3,7 @@
 import { badValue } from './errors.ts';
 import { builtTechniques } from './kernel/load.ts';
 
-/** All that there are, in the order of the kernel's numbers, which stand in snapshots: new ones go before 'auto'. */
+/** All techniques, in the order of the kernel's numbers, which are in snapshots: new ones go before 'auto'. */
 export const techniques = [
   'brute-force',
   'spatial-grid',

@@ -9,8 +9,9 @@ import type { BroadPhase } from 'broadphase';
 const atOnce = 1000;
 
 /**
- * How many boxes stand in each cell of `structure()`, in its order. Each box counts once: in the smallest cell that has
- * its lower corner, or in none. Slower than an update: some hundredths of a second for 100,000 boxes, for an `aabb-tree` seconds.
+ * The number of boxes in each cell of `structure()`, in its order. Each box counts once: in the smallest cell that
+ * contains its lower corner, or in none. Slower than an update: a few hundredths of a second for 100,000 boxes, for an
+ * `aabb-tree` seconds.
  *
  * @example
  * const space = new BroadPhase({ technique: 'strip-sweep' });
