@@ -31,27 +31,30 @@ template <int D> class AabbTree {
   // fitting its node, moving it, testing a candidate; a test in the tree.
   static constexpr f64 build_cost = 30, look_cost = 4, fit_cost = 5, move_cost = D == 2 ? 30 : 50, candidate_cost = 8;
   static constexpr f64 test_cost = D == 2 ? 2 : 4;
-  static constexpr u32 longest_pause = 256;
+  // A pause begins when keeping has cost more than so many updates that keep nothing; each is twice as long as the one
+  // before, in updates.
+  static constexpr f64 most_loss = 2;
+  static constexpr u32 first_pause = 16, longest_pause = 256;
 
   PackedTree<D> tree_;
-  Pairs candidates_;       // in the order of their slots
-  Buffer<u64> merged_;     // where they go with each update, and what they are swapped with
+  Pairs candidates_;  // in the order of their slots
+  Buffer<u64> merged_;  // where they go with each update, and what they are swapped with
   PairOrder pair_order_;
-  Buffer<f32> fat_;      // per slot its fat box, as in a scene
-  Buffer<f32> origin_;   // per slot its minima when it was fattened, and in which update that was
-  Buffer<u32> tags_;     // per slot its exclusion bits, and whether it rests
-  Buffer<u32> place_;    // per slot its place in the tree
-  Buffer<u32> free_;     // places without a box
-  Buffer<u32> moved_;    // slots that moved
-  u32 count_ = 0;        // boxes in the tree; 0: nothing is kept
+  Buffer<f32> fat_;  // per slot its fat box, as in a scene
+  Buffer<f32> origin_;  // per slot its minima when it was fattened, and in which update that was
+  Buffer<u32> tags_;  // per slot its exclusion bits, and whether it rests
+  Buffer<u32> place_;  // per slot its place in the tree
+  Buffer<u32> free_;  // places without a box
+  Buffer<u32> moved_;  // slots that moved
+  u32 count_ = 0;  // boxes in the tree; 0: nothing is kept
   u32 free_count_ = 0;
   u64 wear_ = 0;  // boxes moved since the order was made
-  u32 now_ = 0;   // updates, counted
-  f32 reach_ = 0;    // updates that fat boxes reach ahead, on average
-  f64 fresh_ = 0;    // what an update costs that keeps nothing
-  f64 loss_ = 0;     // what keeping has cost more than that
-  u32 pause_ = 0;    // updates left in which nothing is kept
-  u32 pauses_ = 0;   // how many the last pause had
+  u32 now_ = 0;  // updates, counted
+  f32 reach_ = 0;  // updates that fat boxes reach ahead, on average
+  f64 fresh_ = 0;  // what an update costs that keeps nothing
+  f64 loss_ = 0;  // what keeping has cost more than that
+  u32 pause_ = 0;  // updates left in which nothing is kept
+  u32 pauses_ = 0;  // how many the last pause had
 
  public:
   void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
@@ -163,9 +166,9 @@ template <int D> class AabbTree {
   /// Where keeping things costs more than it saves, update after update, it is left for a while.
   void reckon(f64 cost) {
     loss_ = larger(0.0, loss_ + cost - fresh_);
-    if (loss_ < 2 * fresh_) return;
+    if (loss_ < most_loss * fresh_) return;
     loss_ = 0;
-    pause_ = pauses_ = smaller(longest_pause, 2 * pauses_ + 16);
+    pause_ = pauses_ = smaller(longest_pause, 2 * pauses_ + first_pause);
     count_ = free_count_ = 0;
     candidates_.count = 0;
   }

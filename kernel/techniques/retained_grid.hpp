@@ -18,6 +18,9 @@
 template <int D> class RetainedGrid {
   // Entries that may be looked at for each box before building anew is the better way.
   static constexpr u32 most_effort = 8;
+  // All is built anew when there are so many times the entries, or the tests, that there were when it was built, and
+  // when there is room for so many times the entries that are in use.
+  static constexpr u32 most_worse = 2, most_room = 4, worse_anyway = 64;
 
   struct Cell {
     u32 at, size, room;  // its entries
@@ -162,10 +165,11 @@ template <int D> class RetainedGrid {
         put(grid_.range(axes, item), k);
       }
       keep(scene, k);
-      if (effort_ > most_effort * n || entries_end_ > larger(2 * built_placed_, f64(n)) * 4) return false;
+      if (effort_ > most_effort * n || entries_end_ > larger(most_worse * built_placed_, f64(n)) * most_room)
+        return false;
     }
     count_ = n;
-    return placed_ <= 2 * built_placed_ + 64 && tests_ <= 2 * built_tests_ + n;
+    return placed_ <= most_worse * built_placed_ + worse_anyway && tests_ <= most_worse * built_tests_ + n;
   }
 
   /// Puts a slot into its cells.

@@ -7,7 +7,7 @@ import { fileURLToPath } from 'node:url';
 import highlight from 'highlight.js';
 import MarkdownIt from 'markdown-it';
 import type { Plugin } from 'vite';
-import manifest from '../package.json' with { type: 'json' };
+import manifest from '../../package.json' with { type: 'json' };
 import { rootFrom } from './frame.ts';
 import { names as live, waysTo } from './live.ts';
 import { addressOf } from './names.ts';
