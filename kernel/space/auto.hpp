@@ -1,7 +1,8 @@
-// What `auto` stands for in an update, and how that is told.
-// Which of them, and why (the words are those of `reasons` in src/stats.ts):
-//   - A handful of boxes: all against all, which costs less than to look at them first.
-//   - From the first snapshot on, strip sweep: it keeps nothing, so that no update before shows in the order of pairs.
+// Which technique `auto` runs in an update, and why. The choices (their wording for users is `reasons` in
+// src/stats.ts):
+//   - A handful of boxes: brute force, which costs less than looking at them first.
+//   - From the first snapshot on, strip sweep: it retains nothing, so that earlier updates do not affect the order of
+//   pairs.
 //   - Else incremental, which answers by what it keeps where that costs less, by strip sweep where it does not, and
 //     counts work, not time, to know.
 #pragma once
