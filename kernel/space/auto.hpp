@@ -2,9 +2,9 @@
 // src/stats.ts):
 //   - A handful of boxes: brute force, which costs less than looking at them first.
 //   - From the first snapshot on, strip sweep: it retains nothing, so that earlier updates do not affect the order of
-//   pairs.
-//   - Else incremental, which answers by what it keeps where that costs less, by strip sweep where it does not, and
-//     counts work, not time, to know.
+//     pairs.
+//   - Otherwise incremental, which answers from its candidates when that costs less and by strip sweep when it does not.
+//     It decides by counting work, not time.
 #pragma once
 #include "search/stats.hpp"
 #include "space/snapshot.hpp"
