@@ -1,4 +1,4 @@
-// What the questions of queries.ts may be given, and what they answer; and the checks of it.
+// The options and the results of the queries in queries.ts, and their checks.
 import { badId, badNumber, badValue, checkBits, isId, isSize } from './errors.ts';
 
 /** Options of every query, each of which adds an `out` or a `visit` of its own. */
@@ -205,7 +205,7 @@ export function othersIgnored(options: QueryOptions | undefined): readonly numbe
   return typeof ignore === 'object' && ignore.length > 1 ? ignore : undefined;
 }
 
-/** The options of each kind of question. */
+/** The options of each kind of query. */
 export const idsOptions = ['mask', 'ignore', 'out', 'visit', 'touching'] as const;
 export const boxOptions = [...idsOptions, 'within'] as const;
 export const farOptions = ['mask', 'ignore', 'maxDistance', 'out', 'visit'] as const;

@@ -1,4 +1,4 @@
-// Many questions in one call: numbers of all of them in, the answers of all of them out.
+// Many queries in one call: all their numbers in, all their answers out.
 import type {
   ManyAreaOptions,
   ManyBoxOptions,
@@ -11,7 +11,7 @@ import type {
   ManySweepHits,
 } from '../query-options.ts';
 
-/** Many questions in one call: numbers of all of them in, the answers of all of them out. */
+/** Many queries in one call: all their numbers in, all their answers out. */
 export interface ManyQuestions {
   /**
    * The boxes in each of many boxes, as `queryBox` returns them: those of query k are `ids[offsets[k]]` up to
