@@ -11,14 +11,14 @@
 #include "base/rounding.hpp"
 
 struct Meeting {
-  f64 time;     // share of the way
-  i32 side;     // axis + 1 of the face, negative where its normal is; 0: inside
+  f64 time;  // share of the way
+  i32 side;  // axis + 1 of the face, negative where its normal is; 0: inside
   bool corner;  // more than one face is met at that time
 };
 
 namespace detail {
 
-inline constexpr f64 touch = 0x1p-48;      // of the coordinates: what still counts as touching
+inline constexpr f64 touch = 0x1p-48;  // of the coordinates: what still counts as touching
 inline constexpr f64 roundings = 0x1p-51;  // of all numbers on the way: what they may add up to
 
 inline f64 size_of(f64 x) { return __builtin_isinf(x) ? 0 : __builtin_fabs(x); }

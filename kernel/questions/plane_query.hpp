@@ -25,7 +25,7 @@ template <int D> class PlaneQuery {
   const Index<D>& index_;
   const Planes<D>& planes_;
   const Wanted<D> wanted_;
-  const bool touching_;   // whether what only touches a plane is in front of it
+  const bool touching_;  // whether what only touches a plane is in front of it
   const bool takes_all_;  // what is inside, without a look at each box
   u32 from_ = 0, most_ = 0, found_ = 0, looks_ = 0;
 

@@ -1,5 +1,5 @@
-// From the pairs of slots that a technique has found in float32 to those that are reported.
-// Only pairs of which two bounds are equal in float32 are in doubt: they are tested again in the numbers given.
+// Turns the pairs of slots that a technique found in float32 into the pairs to report. Only pairs with two bounds equal
+// in float32 are in doubt: they are tested again with the numbers given.
 #pragma once
 #include "space/store.hpp"
 

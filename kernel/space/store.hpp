@@ -1,6 +1,6 @@
-// What stands in a space: boxes by id, and what each has of its own.
-// Whoever has to know of a change is told before it: the index, which copies what the last update saw, and the events,
-// which keep who was deleted. Every change allocates before it writes: when memory ends, the store is as it was.
+// The contents of a space: boxes by id, and their settings. Two parts are notified before a change: the index, which
+// copies the boxes of the last update, and the events, which record deleted boxes. Every change allocates before it
+// writes: if memory runs out, the store is as it was.
 #pragma once
 #include "boxes/changed_ids.hpp"
 #include "boxes/ring.hpp"
