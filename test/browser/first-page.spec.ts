@@ -101,7 +101,7 @@ test('brute force stops at a number that a page can bear, and says so', async ({
   await openStill(page, '/?boxes=50000');
   await page.getByRole('combobox', { name: 'Technique' }).selectOption('brute-force');
   await expect(shown(page, 'boxes')).toHaveText('20,000');
-  await expect(page.getByRole('status')).toContainText('199,990,000 tests a frame');
+  await expect(page.getByRole('status')).toContainText('199,990,000 tests per frame');
 });
 
 test('every technique of the menu finds the same pairs', async ({ page }) => {

@@ -147,7 +147,7 @@ test('pans and zooms, keeps the view in the address, and shows everything again'
 test('the cell size costs what the curve shows, which is drawn as the slider moves', async ({ page }) => {
   await openStill(page, 'boxes=3000&technique=spatial-grid');
   const slider = page.getByRole('slider', { name: 'Side of a cell' });
-  const curve = page.getByRole('img', { name: /Milliseconds over the cell size/ });
+  const curve = page.getByRole('img', { name: /Milliseconds by cell size/ });
   await expect(curve).toHaveAttribute('aria-label', /nothing measured/);
   const tests = await number(page, 'tests');
   await slider.fill('24');
