@@ -18,6 +18,9 @@ export abstract class PlaneQueries<D extends Dimensions> extends PlaceQueries<D>
    * bound anything convex, or nothing: without planes all boxes are meant. A box near a corner of the view may be
    * outside of it and yet behind no single plane: it is among the answers.
    *
+   * In a world that wraps around a box is in view where it stands in the world, its minimum from 0 on, or one world
+   * further or back along any axes. It is an answer once, and inside where one of these copies is.
+   *
    * @param planes 4 numbers for each plane, its normal, of any length, and its offset: `[nx, ny, nz, d, …]`; in 2D 3:
    *   `[nx, ny, d, …]`. All finite
    * @param options as for `queryBox`; `visit` is told which boxes are wholly inside, in front of all planes: what is in
@@ -40,9 +43,6 @@ export abstract class PlaneQueries<D extends Dimensions> extends PlaceQueries<D>
    */
   queryPlanes(planes: Float32Array | Float64Array | readonly number[], options?: PlanesOptions): number[] {
     const where = 'queryPlanes';
-    if (this.farthest < Number.POSITIVE_INFINITY) {
-      throw new Error(`${where}: this world wraps around, expected a space without wrap: planes have no end in it`);
-    }
     checkNumberArray(where, planes);
     const width = this.dimensions + 1;
     if (planes.length % width !== 0 || planes.length > most * width) {
