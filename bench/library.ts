@@ -2,7 +2,8 @@
 export { BroadPhase, findPairs, findPairsBetween } from '../src/index.ts';
 export { createScene, gameNames, sceneNames } from '../src/scenes/index.ts';
 export { createRandom } from '../src/scenes/random.ts';
-export { readRecording } from '../src/scenes/recorded.ts';
-export { keysOf, referencePairs } from '../test/reference.ts';
+export { framesOf } from '../src/scenes/recorded.ts';
+export { openPlain } from '../src/trace/import.ts';
+export { keysOf, referencePairs } from '../test/support/reference.ts';
 export { createMotion, motionNames } from './motions/index.ts';
 export { createJitter } from './motions/jitter.ts';

@@ -10,7 +10,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { bundle } from '../scripts/bundle.mjs';
-import { machineName } from './machine.mjs';
+import { machineName } from './harness/machine.mjs';
 import { compare } from './report/compare.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
@@ -65,7 +65,7 @@ if (!existsSync(`${here}node_modules`)) {
   execFileSync('npm', ['ci', '--no-audit', '--no-fund'], { cwd: here, stdio: ['ignore', 'ignore', 'inherit'] });
 }
 await bundle('bench/library.ts', 'build/bench/library.mjs');
-const { run, writeDocuments } = await import('./run.mjs');
+const { run, writeDocuments } = await import('./harness/run.mjs');
 
 const asked = kinds.filter((kind) => options[kind]);
 if (!options.figures) {

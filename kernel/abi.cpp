@@ -9,6 +9,11 @@ BOTH(Index)
 BOTH(Queries)
 BOTH(PlaneQuery)
 BOTH(Bulk)
+BOTH(Numbers)
+BOTH(Store)
+BOTH(Questions)
+BOTH(SceneBuilder)
+BOTH(Finder)
 BOTH(Space)
 
 namespace {
@@ -65,56 +70,56 @@ EXPORT(set_bounds)() -> void {
 }
 
 EXPORT(reserve)(u32 count) -> void {
-  with_space([&](auto& space) { space.reserve(count); });
+  with_space([&](auto& space) { space.store.reserve(count); });
 }
 EXPORT(ring_address)() -> f64* {
   return with_ring([](auto&, auto& ring) { return &ring.dense; });
 }
 /// Adds or moves the boxes of the ring.
 EXPORT(take)(u32 count) -> void {
-  with_ring([&](auto& space, auto& ring) { space.take(ring, count); });
+  with_ring([&](auto& space, auto& ring) { space.store.take(ring, count); });
 }
 EXPORT(remove)(u32 id) -> u32 {
-  return with_space([&](auto& space) { return space.remove(id); });
+  return with_space([&](auto& space) { return space.store.remove(id); });
 }
 EXPORT(has)(u32 id) -> u32 { return ids.slot(id) != Ids::none; }
 EXPORT(get)(u32 id) -> u32 {
-  return with_space([&](auto& space) { return space.get(id, io); });
+  return with_space([&](auto& space) { return space.store.get(id, io); });
 }
 EXPORT(size)() -> u32 { return ids.count(); }
 EXPORT(clear)() -> void {
-  with_space([](auto& space) { space.clear(); });
+  with_space([](auto& space) { space.store.clear(); });
 }
 
 /// These return 0 where there is no such box.
 EXPORT(set_filter)(u32 id, u32 layer, u32 mask) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
-  with_space([&](auto& space) { space.filter(slot, layer, mask); });
+  with_space([&](auto& space) { space.store.filter(slot, layer, mask); });
   return 1;
 }
 EXPORT(set_static)(u32 id, u32 on) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
-  with_space([&](auto& space) { space.exclude(slot, is_static, on != 0); });
+  with_space([&](auto& space) { space.store.exclude(slot, is_static, on != 0); });
   return 1;
 }
 EXPORT(set_enabled)(u32 id, u32 on) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
-  with_space([&](auto& space) { space.enable(slot, on != 0); });
+  with_space([&](auto& space) { space.store.enable(slot, on != 0); });
   return 1;
 }
 EXPORT(set_group)(u32 id, u32 group) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
-  with_space([&](auto& space) { space.put_in_group(slot, group); });
+  with_space([&](auto& space) { space.store.put_in_group(slot, group); });
   return 1;
 }
 EXPORT(set_reach)(u32 id, f64 distance) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
-  with_space([&](auto& space) { space.set_reach(slot, distance); });
+  with_space([&](auto& space) { space.store.set_reach(slot, distance); });
   return 1;
 }
 /// In io: layer, mask, whether it is static, whether it is enabled, its group and its reach. 0 where there is no such box.
@@ -122,42 +127,42 @@ EXPORT(get_rule)(u32 id) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
   with_space([&](auto& space) {
-    Rule rule = space.rule(slot);
+    Rule rule = space.store.own.rule(slot);
     io[0] = rule.layer;
     io[1] = rule.mask;
     io[2] = (rule.excluded & is_static) != 0;
     io[3] = !rule.is_off();
-    io[4] = space.group(slot);
-    io[5] = space.reach_of(slot);
+    io[4] = space.store.own.groups.of(slot);
+    io[5] = space.store.own.reaches.of(slot);
   });
   return 1;
 }
 /// Writes the ids to answers, in the order in which they came; returns how many.
 EXPORT(list_ids)() -> u32 {
   return with_space([](auto& space) {
-    ids.in_order(space.answers);
+    ids.in_order(space.questions.answers);
     return ids.count();
   });
 }
 EXPORT(contents)() -> void {
-  with_space([](auto& space) { space.contents(io); });
+  with_space([](auto& space) { space.store.contents(io); });
 }
 
 EXPORT(stage)(u32 count) -> f32* {
-  return with_space([&](auto& space) { return space.stage(count); });
+  return with_space([&](auto& space) { return space.store.numbers.stage(count); });
 }
 EXPORT(stage_exact)(u32 count) -> f64* {
-  return with_space([&](auto& space) { return space.stage_exact(count); });
+  return with_space([&](auto& space) { return space.store.numbers.stage_exact(count); });
 }
 EXPORT(replace)(u32 count, u32 doubles) -> i32 {
-  return with_space([&](auto& space) { return space.replace(count, doubles != 0); });
+  return with_space([&](auto& space) { return space.store.replace(count, doubles != 0); });
 }
 EXPORT(expose)(u32 count) -> f32* {
-  return with_space([&](auto& space) { return space.expose(count); });
+  return with_space([&](auto& space) { return space.store.expose(count); });
 }
 /// A number of a box that was staged, for the message that says why it is bad.
 EXPORT(staged_number)(u32 index, u32 doubles) -> f64 {
-  return with_space([&](auto& space) { return space.staged_number(index, doubles != 0); });
+  return with_space([&](auto& space) { return space.store.numbers.staged_number(index, doubles != 0); });
 }
 
 /// The bytes of a snapshot; in io, how many, and the first bad id among boxes written in place (-1: none).
@@ -183,7 +188,7 @@ EXPORT(restore)() -> u32 {
 /// Marks boxes 0 … red - 1 as red and the rest as blue: only pairs of both colours are reported.
 EXPORT(split)(u32 red) -> void {
   with_space([&](auto& space) {
-    for (u32 slot = 0; slot < ids.count(); slot++) space.exclude(slot, slot < red ? is_red : is_blue, true);
+    for (u32 slot = 0; slot < ids.count(); slot++) space.store.exclude(slot, slot < red ? is_red : is_blue, true);
   });
 }
 
@@ -205,19 +210,19 @@ EXPORT(pair_count)() -> u32 {
 }
 /// From now on the pairs that began and ended are kept with every update.
 EXPORT(set_events)() -> void {
-  with_space([](auto& space) { space.keeps_events = true; });
+  with_space([](auto& space) { space.store.keeps_events = true; });
 }
 EXPORT(began_address)() -> u64* {
-  return with_space([](auto& space) { return space.events.began.list.data(); });
+  return with_space([](auto& space) { return space.store.events.began.list.data(); });
 }
 EXPORT(began_count)() -> u32 {
-  return with_space([](auto& space) { return u32(space.events.began.count); });
+  return with_space([](auto& space) { return u32(space.store.events.began.count); });
 }
 EXPORT(ended_address)() -> u64* {
-  return with_space([](auto& space) { return space.events.ended.list.data(); });
+  return with_space([](auto& space) { return space.store.events.ended.list.data(); });
 }
 EXPORT(ended_count)() -> u32 {
-  return with_space([](auto& space) { return u32(space.events.ended.count); });
+  return with_space([](auto& space) { return u32(space.store.events.ended.count); });
 }
 EXPORT(is_pair)(u32 a, u32 b) -> u32 {
   return with_space([&](auto& space) { return space.is_pair(a, b); });
@@ -227,7 +232,7 @@ EXPORT(partners)(u32 id) -> u32 {
   return with_space([&](auto& space) { return space.partners(id); });
 }
 EXPORT(answers_address)() -> u32* {
-  return with_space([](auto& space) { return space.answers.data(); });
+  return with_space([](auto& space) { return space.questions.answers.data(); });
 }
 /// Questions. What they ask is in io: the box or twice the point, what it moves by, then at fixed places, of areas,
 /// whether what only touches counts, the radius
@@ -251,90 +256,90 @@ template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignore
 /// The number of ids in answers. Where there may be more, io says from where to go on; else -1.
 EXPORT(ask_area)(u32 mask, u32 ignored, u32 from, u32 most) -> u32 {
   return with_space([&](auto& space) {
-    read_question(space.question, mask, ignored);
-    u32 count = space.ask_area(from, most);
-    io[0] = count < most || count == space.unknown ? -1 : f64(from);
+    read_question(space.questions.asked, mask, ignored);
+    u32 count = space.questions.ask_area(from, most);
+    io[0] = count < most || count == space.questions.unknown ? -1 : f64(from);
     return count;
   });
 }
 /// The same for the boxes that are not behind one of so many planes; ids have PlaneQuery::inside with them.
 EXPORT(ask_planes)(u32 planes, u32 mask, u32 ignored, u32 from, u32 most) -> u32 {
   return with_space([&]<int D>(Space<D>& space) {
-    read_question(space.question, mask, ignored);
-    space.planes.count = planes;
+    read_question(space.questions.asked, mask, ignored);
+    space.questions.planes.count = planes;
     for (u32 p = 0; p < planes; p++) {
       const f64* plane = io + planes_at + p * (D + 1);
-      for (int a = 0; a < D; a++) space.planes.normal[p][a] = plane[a];
-      space.planes.offset[p] = plane[D];
+      for (int a = 0; a < D; a++) space.questions.planes.normal[p][a] = plane[a];
+      space.questions.planes.offset[p] = plane[D];
     }
-    u32 count = space.ask_planes(from, most);
-    io[0] = count < most || count == space.unknown ? -1 : f64(from);
+    u32 count = space.questions.ask_planes(from, most);
+    io[0] = count < most || count == space.questions.unknown ? -1 : f64(from);
     return count;
   });
 }
 /// The number of hits: of what is nearest (0), on a ray (1), or on the way of a box that is to stop (2).
 EXPORT(ask_order)(u32 kind, u32 mask, u32 ignored, u32 after, u32 most) -> u32 {
   return with_space([&](auto& space) {
-    read_question(space.question, mask, ignored);
-    space.question.measure_way(kind == 1);
+    read_question(space.questions.asked, mask, ignored);
+    space.questions.asked.measure_way(kind == 1);
     Hit last{io[after_at], after, 0};
-    return space.ask_order(kind != 0, most, after == no_id ? nullptr : &last);
+    return space.questions.ask_order(kind != 0, most, after == no_id ? nullptr : &last);
   });
 }
 /// Many questions: where their numbers go, and then of each the id it ignores.
 EXPORT(stage_questions)(u32 numbers) -> f64* {
-  return with_space([&](auto& space) { return space.bulk.stage(numbers); });
+  return with_space([&](auto& space) { return space.questions.bulk.stage(numbers); });
 }
 /// The first whose numbers are bad, or -1.
 EXPORT(bad_question)(u32 kind, u32 count) -> i32 {
-  return with_space([&](auto& space) { return space.bulk.first_bad(Asks(kind), count); });
+  return with_space([&](auto& space) { return space.questions.bulk.first_bad(Asks(kind), count); });
 }
 /// The number of questions. Of each, offsets_address says where its answers begin among those of all, which are ids for
 /// areas, else hits; and behind them where the last ones end. Of all boxes, their ids are in answers.
 EXPORT(ask_many)(u32 kind, u32 count, u32 mask, u32 most) -> u32 {
   return with_space([&](auto& space) {
-    read_question(space.question, mask, no_id);
-    return space.ask_many(Asks(kind), count, most);
+    read_question(space.questions.asked, mask, no_id);
+    return space.questions.ask_many(Asks(kind), count, most);
   });
 }
 EXPORT(offsets_address)() -> const u32* {
-  return with_space([](auto& space) { return space.bulk.offsets(); });
+  return with_space([](auto& space) { return space.questions.bulk.offsets(); });
 }
 EXPORT(many_ids_address)() -> const u32* {
-  return with_space([](auto& space) { return space.bulk.ids.data(); });
+  return with_space([](auto& space) { return space.questions.bulk.ids.data(); });
 }
 EXPORT(many_hits_address)() -> const Hit* {
-  return with_space([](auto& space) { return space.bulk.hits.data(); });
+  return with_space([](auto& space) { return space.questions.bulk.hits.data(); });
 }
 /// For who keeps pairs with another space: the epoch of the list of what has changed (-1: nobody has kept what the last
 /// update saw), its length, and the list itself: see changed_ids.hpp.
 EXPORT(log_epoch)() -> u32 {
-  return with_space([](auto& space) { return space.keep_changes(); });
+  return with_space([](auto& space) { return space.questions.keep_changes(); });
 }
 EXPORT(log_count)() -> u32 {
-  return with_space([](auto& space) { return space.changed.count(); });
+  return with_space([](auto& space) { return space.store.changed.count(); });
 }
 EXPORT(log_address)() -> const u32* {
-  return with_space([](auto& space) { return space.changed.list(); });
+  return with_space([](auto& space) { return space.store.changed.list(); });
 }
 /// How many boxes the last update saw.
 EXPORT(seen_count)() -> u32 {
-  return with_space([](auto& space) { return space.seen().count(); });
+  return with_space([](auto& space) { return space.questions.index().count(); });
 }
 /// Fills rows that were staged in place of questions, and begin with a slot: see Bulk::fill_rows.
 EXPORT(see_rows)(u32 count) -> void {
-  with_space([&](auto& space) { space.bulk.fill_rows(space.seen(), count); });
+  with_space([&](auto& space) { space.questions.bulk.fill_rows(space.questions.index(), count); });
 }
 /// How far a box reaches at most that the last update saw.
 EXPORT(most_reach)() -> f64 {
-  return with_space([](auto& space) { return space.seen().most_reach(); });
+  return with_space([](auto& space) { return space.questions.index().most_reach(); });
 }
 /// Whether the two boxes that `io` begins with overlap, in a world that wraps around.
 EXPORT(meet_around)() -> u32 {
-  return with_space([](auto& space) { return u32(space.meet_around(io)); });
+  return with_space([](auto& space) { return u32(space.questions.meet_around(io)); });
 }
 EXPORT(hits_address)() -> const Hit* {
-  return with_space([](auto& space) { return space.hits.data(); });
+  return with_space([](auto& space) { return space.questions.hits.data(); });
 }
 EXPORT(updates)() -> u32 {
   return with_space([](auto& space) { return space.updates; });
@@ -345,11 +350,11 @@ EXPORT(stats_address)() -> Stats* {
 EXPORT(structure)() -> f32* {
   return with_space([](auto& space) {
     space.structure();
-    return space.cells.data();
+    return space.finder.cells.data();
   });
 }
 EXPORT(structure_count)() -> u32 {
-  return with_space([](auto& space) { return space.cell_count; });
+  return with_space([](auto& space) { return space.finder.cell_count; });
 }
 EXPORT(validate)() -> u32 {
   return with_space([](auto& space) {

@@ -1,6 +1,6 @@
-// A module of its own, of a kilobyte: turns the text that scripts/inline.mjs writes back into the bytes of the kernel,
-// and the streams that scripts/streams.mjs has made of these back into instructions. It runs once, before the kernel is
-// compiled: JavaScript that no engine has optimised yet takes several times as long for it.
+// A module of its own, of a kilobyte: decodes the text that scripts/inline.mjs writes into bytes, and puts the streams
+// that scripts/streams.mjs has made of the kernel together again. It runs once, before the kernel is compiled;
+// JavaScript, which no engine has optimised by then, would take several times as long.
 #include "base/simd.hpp"
 
 extern "C" u8 __heap_base;

@@ -1,6 +1,6 @@
-// Same calls, same answers, in the same order, everywhere: plays the same tapes (test/determinism/tape.ts) with every
+// Same calls, same answers, in the same order, everywhere: plays the same tapes (test/promises/determinism/tape.ts) with every
 // technique in Node, in Chromium, in Firefox, and natively as g++ and clang compile the kernel, and compares the hash of
-// all answers with those kept in test/determinism/golden.json.
+// all answers with those kept in test/promises/determinism/golden.json.
 //
 //   npm run determinism                 all that is here; what is not is named
 //   npm run determinism -- --write      rewrites the hashes, if all agree: after a change of what an order is
@@ -15,21 +15,22 @@ import { build, clangs, findCompiler, root, run } from './native.mjs';
 
 const write = process.argv.includes('--write');
 const folder = join(root, 'build/determinism');
-const golden = join(root, 'test/determinism/golden.json');
+const golden = join(root, 'test/promises/determinism/golden.json');
 const script = 'build/determinism/player.mjs';
-const { play, techniqueNames, randomTape, framesTape, readRecording } = await import(
-  await bundle('test/determinism/index.ts', script)
+const { play, techniqueNames, randomTape, framesTape, framesOf, openTrace } = await import(
+  await bundle('test/promises/determinism/index.ts', script)
 );
 mkdirSync(folder, { recursive: true });
 
+// Of each the first frame that is played.
 const recordings = {
-  rain: 'site/public/traces/rain.bin.gz',
-  ...Object.fromEntries(
-    ['junkyard', 'smash', 'spinner', 'tumbler', 'rapier3d-freefall10k', 'rapier3d-gravity8k'].map((name) => [
-      name,
-      `test/traces/${name}.bin.gz`,
-    ]),
-  ),
+  rain: 0,
+  junkyard: 14,
+  smash: 0,
+  spinner: 0,
+  tumbler: 0,
+  'rapier3d-freefall10k': 0,
+  'rapier3d-gravity8k': 0,
 };
 const framesPlayed = 5; // of a recording
 const callsPlayed = 4000; // of a random tape
@@ -51,9 +52,10 @@ for (const dimensions of [2, 3]) {
 for (const dimensions of [2, 3]) {
   tapes[`many${dimensions}d`] = randomTape(dimensions, techniques.length, 6, callsPlayed, 'many');
 }
-for (const [name, file] of Object.entries(recordings)) {
-  const recording = readRecording(gunzipSync(readFileSync(join(root, file))));
-  const frames = Array.from({ length: Math.min(framesPlayed, recording.frames) }, (_, k) => recording.frame(k));
+for (const [name, first] of Object.entries(recordings)) {
+  const trace = openTrace(gunzipSync(readFileSync(join(root, `recordings/${name}.trace.gz`))));
+  const recording = framesOf(trace, first, first + framesPlayed);
+  const frames = Array.from({ length: recording.frames }, (_, k) => recording.frame(k));
   tapes[name] = framesTape(recording.dimensions, frames);
 }
 const file = (name) => join(folder, `${name}.tape`);

@@ -5,8 +5,8 @@
 //   npm run dev -- wrap events     these tests, whatever was edited
 //   npm run dev -- --once          once, without watching
 import { spawn } from 'node:child_process';
-import { existsSync, mkdirSync, readdirSync, watch, writeFileSync } from 'node:fs';
-import { join, parse } from 'node:path';
+import { mkdirSync, readdirSync, watch, writeFileSync } from 'node:fs';
+import { basename, join, parse } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { compile, lean, only } from './compile.mjs';
 import { moduleOf } from './inline.mjs';
@@ -16,17 +16,17 @@ const chosen = process.argv.slice(2).filter((name) => name !== '--once');
 const usual = ['properties', 'set'];
 const name = 'kernel-dev';
 
-const testOf = (stem) => join('test', `${stem}.test.ts`);
 const seconds = (since) => `${((performance.now() - since) / 1000).toFixed(1)} s`;
 let decoder;
 
+/** The tests whose names start so, but those of pages. */
+const testsOf = (stem) =>
+  readdirSync(join(root, 'test'), { recursive: true, encoding: 'utf8' })
+    .filter((file) => file.endsWith('.test.ts') && basename(file).startsWith(stem))
+    .map((file) => join('test', file));
+
 /** The tests that are named as a header is. */
-function nearest(header) {
-  const stem = parse(header).name.replaceAll('_', '-');
-  return readdirSync(join(root, 'test'))
-    .filter((file) => file.endsWith('.test.ts') && file.startsWith(stem))
-    .map((file) => file.replace('.test.ts', ''));
-}
+const nearest = (header) => testsOf(parse(header).name.replaceAll('_', '-'));
 
 /** Compiles the lean kernel, and runs tests on it. */
 async function check(header) {
@@ -37,8 +37,7 @@ async function check(header) {
   writeFileSync(join(root, `src/generated/${name}.ts`), moduleOf(bytes, decoder, lean, [2, 3]));
   console.log(`compiled: ${seconds(started)}`);
   const near = header ? nearest(header) : [];
-  const names = [chosen, near, usual].find((each) => each.length > 0);
-  const tests = names.map(testOf).filter((file) => existsSync(join(root, file)));
+  const tests = [chosen.flatMap(testsOf), near, usual.flatMap(testsOf)].find((each) => each.length > 0);
   const vitest = spawn(process.execPath, ['node_modules/vitest/vitest.mjs', 'run', '--project', 'unit', ...tests], {
     cwd: root,
     stdio: 'inherit',

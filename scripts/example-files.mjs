@@ -1,7 +1,7 @@
 // Each folder of examples can be taken as it is, so what several have in common stands in each: the files of their
 // pages, which are written once in examples/page, and the version of the library.
 //
-//   npm run examples    writes both into the folders; test/examples.test.ts tells where that was forgotten
+//   npm run examples    writes both into the folders; test/house/example-folders.test.ts tells where that was forgotten
 import { existsSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
@@ -9,13 +9,13 @@ const examples = fileURLToPath(new URL('../examples/', import.meta.url));
 const { version } = JSON.parse(readFileSync(new URL('../package.json', import.meta.url), 'utf8'));
 const read = (path) => readFileSync(examples + path, 'utf8');
 
-/** These two have a lock and an installation of their own. */
-const apart = ['join-duckdb', 'world-colyseus'];
+const packagesIn = (folder) =>
+  readdirSync(examples + folder)
+    .map((name) => folder + name)
+    .filter((path) => path !== 'apart' && existsSync(`${examples}${path}/package.json`));
 
-/** The folders with a package.json of their own, all installed by that of examples/. */
-export const folders = readdirSync(examples).filter(
-  (name) => !apart.includes(name) && existsSync(`${examples}${name}/package.json`),
-);
+/** The folders with a package.json of their own, by their paths in examples/. */
+export const folders = [...packagesIn(''), ...packagesIn('apart/')];
 
 /** What has to be in which file, by its path in examples/. */
 export function expectedFiles() {
@@ -26,7 +26,7 @@ export function expectedFiles() {
     expected.set(`${name}/package.json`, `${JSON.stringify(manifest, null, 2)}\n`);
     if (!existsSync(`${examples}${name}/page`)) continue;
     for (const file of readdirSync(`${examples}${name}/page`))
-      expected.set(`${name}/page/${file}`, read(`page/${file}`));
+      if (existsSync(`${examples}page/${file}`)) expected.set(`${name}/page/${file}`, read(`page/${file}`));
   }
   const smallest = read('smallest/index.html').replace(/broadphase@[^/]+/, `broadphase@${version}`);
   return expected.set('smallest/index.html', smallest);

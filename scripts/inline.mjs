@@ -1,7 +1,7 @@
 // Bytes as text for a JavaScript string, so that a compressor finds as much in the text as in the bytes.
 // Idea: bytes that occur often become one character each, the others two, of which the first is one of a few that
 // stand for nothing else. What repeats in the bytes thus repeats in the text, and no character needs an escape,
-// neither in a string, nor in HTML, nor in any encoding of the page. src/kernel.ts reads it.
+// neither in a string, nor in HTML, nor in any encoding of the page. src/kernel/load.ts reads it.
 import { apart } from './streams.mjs';
 
 /** All of ASCII that can be seen, but what means something in strings and in HTML. */

@@ -2,6 +2,7 @@
 // Where no compiler is found it says so and all else goes on; a compiler whose sanitizers do not work is a failure
 // in CI only. `npm run test:native -- ids` runs the tests with `ids` in their name; CXX chooses the compiler.
 import { join } from 'node:path';
+import { techniqueNames } from './compile.mjs';
 import { build, clangs, findCompiler, flags, root, run, testSources } from './native.mjs';
 
 const options = ['-fsanitize=address,undefined'];
@@ -38,6 +39,14 @@ const none = [...flags, '-w', '-DTECHNIQUES=0', '-fsyntax-only', join(root, 'ker
 const without = await run(compiler, none);
 if (!without.ok) {
   console.error(`the kernel without techniques: not compiled\n${without.output}`);
+  process.exit(1);
+}
+
+// A build with `auto` and without what it stands for would find no pairs: it must not compile.
+const auto = 1 << techniqueNames().indexOf('auto');
+const alone = await run(compiler, [...none.filter((flag) => flag !== '-DTECHNIQUES=0'), `-DTECHNIQUES=${auto}`]);
+if (alone.ok || !alone.output.includes('a build with it has all three')) {
+  console.error(`a kernel with auto alone: expected its static_assert to fail, got\n${alone.output || 'a kernel'}`);
   process.exit(1);
 }
 

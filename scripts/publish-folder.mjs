@@ -50,7 +50,7 @@ function main() {
   const isFolder = (path) => statSync(new URL(path.split('#')[0], root)).isDirectory();
   const readme = readFileSync(new URL('README.md', root), 'utf8');
   writeFileSync(new URL('README.md', folder), readmeForNpm(readme, manifest, isFolder));
-  const { scripts, devDependencies, ...published } = manifest;
+  const { scripts, devDependencies, workspaces, ...published } = manifest;
   writeFileSync(new URL('package.json', folder), `${JSON.stringify(published, null, 2)}\n`);
   console.log(`${fileURLToPath(folder)}: npm publish build/publish`);
 }

@@ -1,4 +1,4 @@
-// Hours of churn (test/soak/soak.ts): boxes come and go, techniques are switched, states restored; everything is compared
+// Hours of churn (test/promises/soak.ts): boxes come and go, techniques are switched, states restored; everything is compared
 // with a model after each update, crowds of thousands with strip-sweep, and memory must stay what it was, the kernels' and
 // JavaScript's.
 //   npm run soak                            an hour
@@ -15,7 +15,7 @@ const hours = Number(values.hours);
 const seed = Number(values.seed);
 if (!(hours > 0) || !Number.isInteger(seed))
   throw new RangeError('soak: --hours takes a number above 0, --seed an integer');
-const { soak } = await import(await bundle('test/soak/soak.ts', 'build/soak/soak.mjs'));
+const { soak } = await import(await bundle('test/promises/soak.ts', 'build/soak/soak.mjs'));
 
 setFlagsFromString('--expose-gc');
 const collectGarbage = runInNewContext('gc');

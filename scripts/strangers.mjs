@@ -5,8 +5,9 @@
 //   npm run test:examples                    all of them
 //   npm run test:examples -- react starter   those with these words in their names
 //
-// Most share what examples/node_modules has, beside the tarball; test/examples.test.ts says that each folder names all
-// that it imports. The starter and the hooks for React are installed by npm itself.
+// Most share what examples/node_modules has, beside the tarball, and those of examples/apart what that has;
+// test/house/example-folders.test.ts says that each folder names all that it imports. The starter and the hooks for
+// React are installed by npm itself.
 import { equal, match, ok } from 'node:assert/strict';
 import { execFile, spawn } from 'node:child_process';
 import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, symlinkSync } from 'node:fs';
@@ -20,6 +21,7 @@ import { folders } from './example-files.mjs';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
 const tools = join(root, 'examples/node_modules');
+const apart = join(root, 'examples/apart/node_modules');
 const wanted = process.argv.slice(2);
 const longest = 300_000; // milliseconds that a command may take, or a page until it shows what it must
 const install = ['install', '--prefer-offline', '--no-audit', '--no-fund'];
@@ -51,6 +53,7 @@ const programs = {
   'record-rapier': /^rapier\.trace: \d+ frames/,
   'record-three': /^three\.trace: \d+ frames/,
   'server-interest': /sees [\d.]+ others/,
+  'apart/join-duckdb': /^1,000,000 boxes:\s+broadphase join: [\d.]+ s, 1,99\d,\d+ pairs in \d+ tiles/,
 };
 /** These measure for minutes, and are ended once they have said that. */
 const longPrograms = ['matter-broadphase', 'planck-broadphase'];
@@ -68,8 +71,8 @@ async function run(folder, command, ...args) {
 }
 
 /** Runs a script of a package, hands what it has printed to `use` once that matches, and ends it with all that it has started. */
-async function whileStarted(folder, expected, use, script = 'start') {
-  const child = spawn('npm', ['run', script, '--silent'], {
+async function whileStarted(folder, expected, use, script = ['start']) {
+  const child = spawn('npm', ['run', '--silent', ...script], {
     cwd: folder,
     env: { ...environment, PORT: '0' },
     detached: true,
@@ -77,7 +80,7 @@ async function whileStarted(folder, expected, use, script = 'start') {
   let said = '';
   try {
     const answer = await new Promise((resolve, reject) => {
-      const late = setTimeout(() => reject(new Error(`npm run ${script} said only: ${said}`)), longest);
+      const late = setTimeout(() => reject(new Error(`npm run ${script[0]} said only: ${said}`)), longest);
       const hear = (text) => {
         said += text;
         const found = expected.exec(said);
@@ -85,7 +88,7 @@ async function whileStarted(folder, expected, use, script = 'start') {
       };
       child.stdout.on('data', hear);
       child.stderr.on('data', hear);
-      child.on('exit', (code) => reject(new Error(`npm run ${script} ended with ${code}: ${said}`)));
+      child.on('exit', (code) => reject(new Error(`npm run ${script[0]} ended with ${code}: ${said}`)));
       child.on('close', () => clearTimeout(late));
     });
     await use(answer);
@@ -179,13 +182,13 @@ async function rendered(folder, page) {
     match(html, page.server);
     await look(address, page);
   };
-  await whileStarted(folder, /http:\S+/, goOn, 'server');
+  await whileStarted(folder, /http:\S+/, goOn, ['server']);
 }
 
-/** A copy of a folder of examples, without what belongs to the repository. */
+/** A copy of a folder of examples, without what was installed or built in it. */
 function copyOut(workshop, name) {
   const folder = join(workshop, name);
-  const filter = (path) => !/[/\\]node_modules$|[/\\]dist$|\.test\.mjs$/.test(path);
+  const filter = (path) => !/[/\\](node_modules|dist)$/.test(path);
   cpSync(join(root, 'examples', name), folder, { recursive: true, filter });
   return folder;
 }
@@ -225,6 +228,14 @@ const all = {
     const use = ([address]) => look(address, { where: '#pairs', says: /^7, 9, 9, 11$/ });
     await whileStarted(copyOut(workshop, 'csp'), /http:\S+/, use);
   },
+  /** In memory, as where there is no Redis. By npm it runs in the Node that it brings. */
+  async 'apart/world-colyseus'(workshop) {
+    const port = await freePort();
+    const options = ['--', '--memory', '--entities', '500', '--clients', '10', '--port', port];
+    const shown = { where: '#said', says: /500 entities in 3 of 3 zones and 1 processes; 10 clients/ };
+    const use = ([address]) => look(address, shown);
+    await whileStarted(copyOut(workshop, 'apart/world-colyseus'), /http:[^, ]+/, use, ['start', ...options]);
+  },
   /** The game of `broadphase init`, as its last lines say to go on; it is played until a rock is hit. */
   async starter(workshop, tarball) {
     const apart = join(workshop, 'starter');
@@ -254,7 +265,7 @@ async function played(page) {
   await page.waitForFunction('/^[1-9]/.test(globalThis.drawn)', undefined, { timeout: longest });
 }
 
-/** node_modules for the copies: the package as it is packed, and beside it what the examples have installed. */
+/** node_modules for the copies: the package as it is packed, and beside it what is installed in the repository. */
 async function furnish(workshop) {
   await run(root, 'npm', 'pack', '--pack-destination', workshop);
   const tarball = join(
@@ -265,10 +276,26 @@ async function furnish(workshop) {
   const published = join(modules, 'broadphase');
   mkdirSync(published, { recursive: true });
   await run(workshop, 'tar', '-xzf', tarball, '-C', published, '--strip-components=1');
-  for (const name of readdirSync(tools)) {
-    if (!name.startsWith('broadphase')) symlinkSync(join(tools, name), join(modules, name), 'junction');
-  }
+  link(tools, modules);
+  if (!existsSync(apart)) return tarball;
+  mkdirSync(join(workshop, 'apart/node_modules'), { recursive: true });
+  link(apart, join(workshop, 'apart/node_modules'));
   return tarball;
+}
+
+function link(from, to) {
+  for (const name of readdirSync(from)) {
+    if (!name.startsWith('broadphase')) symlinkSync(join(from, name), join(to, name), 'junction');
+  }
+}
+
+/** A port that is free now. */
+async function freePort() {
+  const server = createServer();
+  await new Promise((resolve) => server.listen(0, resolve));
+  const { port } = server.address();
+  await new Promise((resolve) => server.close(resolve));
+  return String(port);
 }
 
 const seconds = (since) => `${((performance.now() - since) / 1000).toFixed(1)} s`;
@@ -290,6 +317,11 @@ async function main() {
     const tarball = await furnish(workshop);
     for (const [name, test] of Object.entries(all)) {
       if (wanted.length > 0 && !wanted.some((word) => name.includes(word))) continue;
+      if (name.startsWith('apart') && !existsSync(apart)) {
+        console.log(`skipped ${name}: npm ci --prefix examples/apart brings what it needs`);
+        if (process.env.CI) failed++;
+        continue;
+      }
       const started = performance.now();
       try {
         await test(workshop, tarball);

@@ -4,12 +4,12 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { everyTechnique } from '../scripts/every-technique.mjs';
-import { addresses } from './addresses.ts';
-import { api } from './api.ts';
-import { documents } from './documents.ts';
-import { frame } from './frame.ts';
-import { live } from './live.ts';
-import { sources } from './sources.ts';
+import { addresses } from './plugins/addresses.ts';
+import { api } from './plugins/api.ts';
+import { documents } from './plugins/documents.ts';
+import { frame } from './plugins/frame.ts';
+import { live } from './plugins/live.ts';
+import { sources } from './plugins/sources.ts';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 const headers = {
@@ -55,7 +55,7 @@ export default defineConfig({
     },
   },
   // What only workers import is found by these too: found later, it makes Vite reload the page in the middle of a run.
-  optimizeDeps: { entries: ['**/index.html', '*/worker.ts', '!dist/**'] },
+  optimizeDeps: { entries: ['**/index.html', '*/worker.ts', 'lab/worker/worker.ts', '!dist/**'] },
   server: { headers, fs: { allow: [path('..')] } },
   preview: { headers },
 });

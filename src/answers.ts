@@ -2,8 +2,8 @@
 // The kernel answers (kernel/questions/queries.hpp); the files of the questions check them and write them into its array of numbers;
 // here the answers are copied to where they are wanted. A visitor gets them in parts, so that the search ends where it
 // says so, and may ask questions itself.
-import type { Dimensions } from './dimensions.ts';
 import { badQuestion, badValue, checkOptions, checkOut, maxId } from './errors.ts';
+import { ioLength, type KernelInstance } from './kernel/instance.ts';
 import {
   type AreaOptions,
   checkVisitor,
@@ -17,7 +17,6 @@ import {
   type PlanesOptions,
   type QueryOptions,
 } from './query-options.ts';
-import { ioLength, Space } from './space.ts';
 
 // Places in the kernel's array of numbers: see kernel/abi.cpp.
 const touchingAt = 11;
@@ -52,6 +51,10 @@ class Visit {
   readonly hits = { [onRay]: { id: 0, distance: 0, normal: [] }, [onWay]: { id: 0, time: 0, normal: [] } };
 }
 
+// One for each question whose visitor is being called, of whichever space: a visitor may ask again.
+const visits: Visit[] = [];
+let visiting = 0;
+
 /** The answer where a visitor got it. */
 export const none: readonly unknown[] = Object.freeze([]);
 
@@ -64,282 +67,295 @@ export const point3 = ['x', 'y', 'z'];
 export const isPlace = Number.isFinite as (value: unknown) => value is number;
 export const isNumber = (value: unknown): value is number => typeof value === 'number';
 
-/** A space that asks its kernel. */
-export abstract class Answers<D extends Dimensions> extends Space<D> {
-  #words = new Uint32Array();
-  #doubles = new Float64Array();
-  readonly #visits: Visit[] = [];
-  #visiting = 0;
-
-  override dispose(): void {
-    super.dispose();
-    this.#words = new Uint32Array();
-    this.#doubles = new Float64Array();
+/** Puts a point, as a box without size, where the kernel reads it; returns the options behind its numbers. */
+export function point(
+  instance: KernelInstance,
+  where: string,
+  x: number,
+  y: number,
+  z?: unknown,
+  options?: unknown,
+): IdsOptions | undefined {
+  const io = instance.io();
+  const good = isPlace(x) && isPlace(y);
+  if (instance.width === 4) {
+    if (!good || options !== undefined) badQuestion(where, [x, y, z, options], point2, finite);
+    io[2] = x;
+    io[3] = y;
+    options = z;
+  } else {
+    if (!(good && isPlace(z))) badQuestion(where, [x, y, z], point3, finite);
+    io[2] = z;
+    io[3] = x;
+    io[4] = y;
+    io[5] = z;
   }
+  io[0] = x;
+  io[1] = y;
+  return options as IdsOptions | undefined;
+}
 
-  /** Puts a point, as a box without size, where the kernel reads it; returns the options behind its numbers. @internal */
-  protected point(where: string, x: number, y: number, z?: unknown, options?: unknown): IdsOptions | undefined {
-    const io = this.io();
-    const good = isPlace(x) && isPlace(y);
-    if (this.width === 4) {
-      if (!good || options !== undefined) badQuestion(where, [x, y, z, options], point2, finite);
-      io[2] = x;
-      io[3] = y;
-      options = z;
-    } else {
-      if (!(good && isPlace(z))) badQuestion(where, [x, y, z], point3, finite);
-      io[2] = z;
-      io[3] = x;
-      io[4] = y;
-      io[5] = z;
-    }
-    io[0] = x;
-    io[1] = y;
-    return options as IdsOptions | undefined;
+/** Asks for the boxes that touch what stands in the kernel's array, or that are not behind so many planes there. */
+export function area(
+  instance: KernelInstance,
+  where: string,
+  options: IdsOptions | PlanesOptions | undefined,
+  names: readonly string[] = idsOptions,
+  planes = shape,
+): number[] {
+  checkOptions(where, options, names);
+  tellTouching(instance, where, options);
+  const mask = maskOf(where, options);
+  const ignored = ignoredOf(where, options);
+  const others = othersIgnored(options);
+  if (options?.visit !== undefined) {
+    visitArea(instance, where, planes, mask, ignored, others, options.visit);
+    return none as number[];
   }
-
-  /** Asks for the boxes that touch what stands in the kernel's array, or that are not behind so many planes there. @internal */
-  protected area(
-    where: string,
-    options: IdsOptions | PlanesOptions | undefined,
-    names: readonly string[] = idsOptions,
-    planes = shape,
-  ): number[] {
-    checkOptions(where, options, names);
-    this.tellTouching(where, options);
-    const mask = maskOf(where, options);
-    const ignored = ignoredOf(where, options);
-    const others = othersIgnored(options);
-    if (options?.visit !== undefined) {
-      this.#visitArea(where, planes, mask, ignored, others, options.visit);
-      return none as number[];
-    }
-    const out = options?.out ?? [];
-    checkOut(where, out);
-    try {
-      return this.copyIds(this.#ids(where, planes, mask, ignored, 0, everything), out, others);
-    } catch (error) {
-      this.recover(error, where);
-    }
+  const out = options?.out ?? [];
+  checkOut(where, out);
+  try {
+    return copyIds(instance, ids(instance, where, planes, mask, ignored, 0, everything), out, others);
+  } catch (error) {
+    instance.recover(error, where);
   }
+}
 
-  /** Tells the kernel whether what only touches counts. @internal */
-  protected tellTouching(where: string, options: AreaOptions | undefined): void {
-    // Without an object of its own: this is asked in every frame.
-    const given = options?.touching;
-    const touching = given === undefined ? this.touching : given;
-    if (typeof touching !== 'boolean') badValue(`${where}: touching`, touching, 'true or false', true);
-    this.io()[touchingAt] = touching ? 1 : 0;
+/** Tells the kernel whether what only touches counts. */
+export function tellTouching(instance: KernelInstance, where: string, options: AreaOptions | undefined): void {
+  // Without an object of its own: this is asked in every frame.
+  const given = options?.touching;
+  const touching = given === undefined ? instance.touching : given;
+  if (typeof touching !== 'boolean') badValue(`${where}: touching`, touching, 'true or false', true);
+  instance.io()[touchingAt] = touching ? 1 : 0;
+}
+
+/** Asks for the first boxes that the box in the kernel's array meets, or for the nearest; returns how many. */
+export function order(
+  instance: KernelInstance,
+  where: string,
+  kind: number,
+  options: QueryOptions | undefined,
+  most: number,
+): number {
+  const mask = maskOf(where, options);
+  const ignored = ignoredOf(where, options);
+  const others = othersIgnored(options);
+  try {
+    const wanted = Math.min(most + (others?.length ?? 0), everything);
+    const count = known(where, instance.kernel.ask_order(kind, mask, ignored, nobody, wanted));
+    return others === undefined ? count : leaveOut(instance, others, count, most);
+  } catch (error) {
+    instance.recover(error, where);
   }
+}
 
-  /** Asks for the first boxes that the box in the kernel's array meets, or for the nearest; returns how many. @internal */
-  protected order(where: string, kind: number, options: QueryOptions | undefined, most: number): number {
-    const mask = maskOf(where, options);
-    const ignored = ignoredOf(where, options);
-    const others = othersIgnored(options);
-    try {
-      const wanted = Math.min(most + (others?.length ?? 0), everything);
-      const count = known(where, this.kernel.ask_order(kind, mask, ignored, nobody, wanted));
-      return others === undefined ? count : this.#leaveOut(others, count, most);
-    } catch (error) {
-      this.recover(error, where);
-    }
+/** Takes boxes out of the kernel's hits; returns how many are left, at most so many. */
+function leaveOut(instance: KernelInstance, others: readonly number[], count: number, most: number): number {
+  const words = instance.wordView();
+  const first = instance.kernel.hits_address() >>> 2;
+  let kept = 0;
+  for (let k = 0; k < count && kept < most; k++) {
+    if (others.includes(words[first + 4 * k + 2]! & maxId)) continue;
+    words.copyWithin(first + 4 * kept++, first + 4 * k, first + 4 * k + 4);
   }
+  return kept;
+}
 
-  /** Takes boxes out of the kernel's hits; returns how many are left, at most so many. */
-  #leaveOut(others: readonly number[], count: number, most: number): number {
-    const words = this.wordView();
-    const first = this.kernel.hits_address() >>> 2;
-    let kept = 0;
-    for (let k = 0; k < count && kept < most; k++) {
-      if (others.includes(words[first + 4 * k + 2]! & maxId)) continue;
-      words.copyWithin(first + 4 * kept++, first + 4 * k, first + 4 * k + 4);
-    }
-    return kept;
-  }
+/** How many ids the kernel has found, at most so many, beginning at place `from` of its index. */
+function ids(
+  instance: KernelInstance,
+  where: string,
+  planes: number,
+  mask: number,
+  ignored: number,
+  from: number,
+  most: number,
+): number {
+  const { kernel } = instance;
+  const count =
+    planes === shape
+      ? kernel.ask_area(mask, ignored, from, most)
+      : kernel.ask_planes(planes, mask, ignored, from, most);
+  return known(where, count);
+}
 
-  /** How many ids the kernel has found, at most so many, beginning at place `from` of its index. */
-  #ids(where: string, planes: number, mask: number, ignored: number, from: number, most: number): number {
-    const { kernel } = this;
-    const count =
-      planes === shape
-        ? kernel.ask_area(mask, ignored, from, most)
-        : kernel.ask_planes(planes, mask, ignored, from, most);
-    return known(where, count);
-  }
-
-  #visitArea(
-    where: string,
-    planes: number,
-    mask: number,
-    ignored: number,
-    others: readonly number[] | undefined,
-    visitor: (id: number, inside: boolean) => unknown,
-  ): void {
-    checkVisitor(`${where}: visit`, visitor);
-    const visit = this.#startVisit();
-    try {
-      for (let from = 0; from >= 0; ) {
-        this.io().set(visit.question);
-        const count = this.#ids(where, planes, mask, ignored, from, part);
-        from = this.io()[0]!;
-        const first = this.kernel.answers_address() >>> 2;
-        const words = this.wordView();
-        for (let k = 0; k < count; k++) visit.ids[k] = words[first + k]!;
-        const updates = this.kernel.updates();
-        for (let k = 0; k < count; k++) {
-          const id = visit.ids[k]!; // of planes: above it stands whether it is in front of all
-          if (others?.includes(id & maxId)) continue;
-          if ((planes === shape ? (visitor as (id: number) => unknown)(id) : visitor(id & maxId, id > maxId)) === false)
-            return;
-          if (this.kernel.updates() !== updates) updatedInside(where);
-        }
+function visitArea(
+  instance: KernelInstance,
+  where: string,
+  planes: number,
+  mask: number,
+  ignored: number,
+  others: readonly number[] | undefined,
+  visitor: (id: number, inside: boolean) => unknown,
+): void {
+  checkVisitor(`${where}: visit`, visitor);
+  const visit = startVisit(instance);
+  try {
+    for (let from = 0; from >= 0; ) {
+      instance.io().set(visit.question);
+      const count = ids(instance, where, planes, mask, ignored, from, part);
+      from = instance.io()[0]!;
+      const first = instance.kernel.answers_address() >>> 2;
+      const words = instance.wordView();
+      for (let k = 0; k < count; k++) visit.ids[k] = words[first + k]!;
+      const updates = instance.kernel.updates();
+      for (let k = 0; k < count; k++) {
+        const id = visit.ids[k]!; // of planes: above it stands whether it is in front of all
+        if (others?.includes(id & maxId)) continue;
+        if ((planes === shape ? (visitor as (id: number) => unknown)(id) : visitor(id & maxId, id > maxId)) === false)
+          return;
+        if (instance.kernel.updates() !== updates) updatedInside(where);
       }
-    } catch (error) {
-      this.recover(error, where);
-    } finally {
-      this.#visiting--;
     }
+  } catch (error) {
+    instance.recover(error, where);
+  } finally {
+    visiting--;
   }
+}
 
-  /** Calls a visitor for each answer, at most so many. @internal */
-  protected visitOrder(where: string, kind: number, options: QueryOptions, most: number, visitor: Visitor): void {
-    checkVisitor(`${where}: visit`, visitor);
-    this.#walk(where, kind, options, most, part, visitor);
-  }
+/** Calls a visitor for each answer, at most so many. */
+export function visitOrder(
+  instance: KernelInstance,
+  where: string,
+  kind: number,
+  options: QueryOptions,
+  most: number,
+  visitor: Visitor,
+): void {
+  checkVisitor(`${where}: visit`, visitor);
+  walk(instance, where, kind, options, most, part, visitor);
+}
 
-  /** Writes the first hit that is accepted to `hit`, as it does with all before; false where none is. @internal */
-  protected firstAccepted(where: string, kind: number, options: QueryOptions, hit: Hit, accept: Accept): boolean {
-    checkVisitor(`${where}: accept`, accept);
-    return this.#walk(where, kind, options, everything, firstPart, accept, hit);
-  }
+/** Writes the first hit that is accepted to `hit`, as it does with all before; false where none is. */
+export function firstAccepted(
+  instance: KernelInstance,
+  where: string,
+  kind: number,
+  options: QueryOptions,
+  hit: Hit,
+  accept: Accept,
+): boolean {
+  checkVisitor(`${where}: accept`, accept);
+  return walk(instance, where, kind, options, everything, firstPart, accept, hit);
+}
 
-  /**
-   * Goes through the answers in order, beginning with so many at once. With `into`, where each hit is written, until one
-   * is accepted, which it tells; else until the visitor says `false`.
-   */
-  #walk(
-    where: string,
-    kind: number,
-    options: QueryOptions,
-    most: number,
-    ahead: number,
-    call: Visitor | Accept,
-    into?: Hit,
-  ): boolean {
-    const mask = maskOf(where, options);
-    const ignored = ignoredOf(where, options);
-    const others = othersIgnored(options);
-    const visit = this.#startVisit();
-    const hit = into ?? (kind === near ? undefined : visit.hits[kind as typeof onRay]);
-    try {
-      for (let left = most, after = nobody; left > 0; ahead = part) {
-        const wanted = Math.min(left + (others?.length ?? 0), ahead);
-        this.io().set(visit.question);
-        const count = known(where, this.kernel.ask_order(kind, mask, ignored, after, wanted));
-        this.#keepHits(visit, count);
-        const updates = this.kernel.updates();
-        for (let k = 0; k < count && left > 0; k++) {
-          const id = visit.ids[k]! & maxId;
-          if (others?.includes(id)) continue;
-          left--;
-          if (hit !== undefined) this.#writeHit(visit, k, kind, hit);
-          if (into !== undefined) {
-            if ((call as Accept)(id, into)) return true;
-          } else if ((call as Visitor)(id, visit.ranks[k]!, hit) === false) return true;
-          if (this.kernel.updates() !== updates) updatedInside(where);
-        }
-        if (count < wanted) return false;
-        after = visit.ids[count - 1]!;
-        visit.question[afterAt] = visit.ranks[count - 1]!;
+/**
+ * Goes through the answers in order, beginning with so many at once. With `into`, where each hit is written, until one
+ * is accepted, which it tells; else until the visitor says `false`.
+ */
+function walk(
+  instance: KernelInstance,
+  where: string,
+  kind: number,
+  options: QueryOptions,
+  most: number,
+  ahead: number,
+  call: Visitor | Accept,
+  into?: Hit,
+): boolean {
+  const mask = maskOf(where, options);
+  const ignored = ignoredOf(where, options);
+  const others = othersIgnored(options);
+  const visit = startVisit(instance);
+  const hit = into ?? (kind === near ? undefined : visit.hits[kind as typeof onRay]);
+  try {
+    for (let left = most, after = nobody; left > 0; ahead = part) {
+      const wanted = Math.min(left + (others?.length ?? 0), ahead);
+      instance.io().set(visit.question);
+      const count = known(where, instance.kernel.ask_order(kind, mask, ignored, after, wanted));
+      keepHits(instance, visit, count);
+      const updates = instance.kernel.updates();
+      for (let k = 0; k < count && left > 0; k++) {
+        const id = visit.ids[k]! & maxId;
+        if (others?.includes(id)) continue;
+        left--;
+        if (hit !== undefined) writeHit(instance, visit, k, kind, hit);
+        if (into !== undefined) {
+          if ((call as Accept)(id, into)) return true;
+        } else if ((call as Visitor)(id, visit.ranks[k]!, hit) === false) return true;
+        if (instance.kernel.updates() !== updates) updatedInside(where);
       }
-      return false;
-    } catch (error) {
-      this.recover(error, where);
-    } finally {
-      this.#visiting--;
+      if (count < wanted) return false;
+      after = visit.ids[count - 1]!;
+      visit.question[afterAt] = visit.ranks[count - 1]!;
     }
+    return false;
+  } catch (error) {
+    instance.recover(error, where);
+  } finally {
+    visiting--;
   }
+}
 
-  /** Copies the kernel's hits, which other questions will overwrite. */
-  #keepHits(visit: Visit, count: number): void {
-    const first = this.kernel.hits_address();
-    const words = this.wordView();
-    const doubles = this.doubleView();
-    for (let k = 0; k < count; k++) {
-      visit.ids[k] = words[(first >>> 2) + 4 * k + 2]!;
-      visit.sides[k] = words[(first >>> 2) + 4 * k + 3]!;
-      visit.ranks[k] = doubles[(first >>> 3) + 2 * k]!;
-    }
+/** Copies the kernel's hits, which other questions will overwrite. */
+function keepHits(instance: KernelInstance, visit: Visit, count: number): void {
+  const first = instance.kernel.hits_address();
+  const words = instance.wordView();
+  const doubles = instance.doubleView();
+  for (let k = 0; k < count; k++) {
+    visit.ids[k] = words[(first >>> 2) + 4 * k + 2]!;
+    visit.sides[k] = words[(first >>> 2) + 4 * k + 3]!;
+    visit.ranks[k] = doubles[(first >>> 3) + 2 * k]!;
   }
+}
 
-  #writeHit(visit: Visit, k: number, kind: number, hit: Hit): void {
-    hit.id = visit.ids[k]! & maxId;
-    if (kind === onRay) hit.distance = visit.ranks[k]!;
-    else hit.time = visit.ranks[k]!;
-    this.#writeNormal(visit.sides[k]!, hit.normal);
-  }
+function writeHit(instance: KernelInstance, visit: Visit, k: number, kind: number, hit: Hit): void {
+  hit.id = visit.ids[k]! & maxId;
+  if (kind === onRay) hit.distance = visit.ranks[k]!;
+  else hit.time = visit.ranks[k]!;
+  writeNormal(instance, visit.sides[k]!, hit.normal);
+}
 
-  /** The normal of the side that was hit, by the kernel's number of it. */
-  #writeNormal(side: number, normal: number[]): void {
-    for (let axis = 0; axis < this.dimensions; axis++) {
-      normal[axis] = side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0;
-    }
-    normal.length = this.dimensions;
+/** The normal of the side that was hit, by the kernel's number of it. */
+function writeNormal(instance: KernelInstance, side: number, normal: number[]): void {
+  for (let axis = 0; axis < instance.dimensions; axis++) {
+    normal[axis] = side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0;
   }
+  normal.length = instance.dimensions;
+}
 
-  /** Remembers the question that stands in the kernel's array. */
-  #startVisit(): Visit {
-    const level = this.#visiting++;
-    let visit = this.#visits[level];
-    if (visit === undefined) {
-      visit = new Visit();
-      this.#visits.push(visit);
-    }
-    visit.question.set(this.io());
-    return visit;
+/** Remembers the question that stands in the kernel's array. */
+function startVisit(instance: KernelInstance): Visit {
+  const level = visiting++;
+  let visit = visits[level];
+  if (visit === undefined) {
+    visit = new Visit();
+    visits.push(visit);
   }
+  visit.question.set(instance.io());
+  return visit;
+}
 
-  /** Copies the first of the kernel's answers. @internal */
-  protected copyIds(count: number, out: number[], others?: readonly number[]): number[] {
-    const words = this.wordView();
-    const first = this.kernel.answers_address() >>> 2;
-    let kept = 0;
-    for (let k = 0; k < count; k++) {
-      const id = words[first + k]! & maxId;
-      if (!others?.includes(id)) out[kept++] = id;
-    }
-    out.length = kept;
-    return out;
+/** Copies the first of the kernel's answers. */
+export function copyIds(instance: KernelInstance, count: number, out: number[], others?: readonly number[]): number[] {
+  const words = instance.wordView();
+  const first = instance.kernel.answers_address() >>> 2;
+  let kept = 0;
+  for (let k = 0; k < count; k++) {
+    const id = words[first + k]! & maxId;
+    if (!others?.includes(id)) out[kept++] = id;
   }
+  out.length = kept;
+  return out;
+}
 
-  /** Reads the k-th of the kernel's hits; returns the place of its rank among the doubles. @internal */
-  protected readHit(k: number, hit: { id: number; normal: number[] }): number {
-    const at = this.kernel.hits_address() + 16 * k;
-    const words = this.wordView();
-    hit.id = words[(at >>> 2) + 2]! & maxId; // above it stands whether it was met at a corner
-    this.#writeNormal(words[(at >>> 2) + 3]! | 0, hit.normal);
-    return at >>> 3;
-  }
-
-  /** The kernel's memory. @internal */
-  protected wordView(): Uint32Array {
-    if (this.#words.length === 0) this.#words = new Uint32Array(this.kernel.memory.buffer);
-    return this.#words;
-  }
-  /** @internal */
-  protected doubleView(): Float64Array {
-    if (this.#doubles.length === 0) this.#doubles = new Float64Array(this.kernel.memory.buffer);
-    return this.#doubles;
-  }
+/** Reads the k-th of the kernel's hits; returns the place of its rank among the doubles. */
+export function readHit(instance: KernelInstance, k: number, hit: { id: number; normal: number[] }): number {
+  const at = instance.kernel.hits_address() + 16 * k;
+  const words = instance.wordView();
+  hit.id = words[(at >>> 2) + 2]! & maxId; // above it stands whether it was met at a corner
+  writeNormal(instance, words[(at >>> 2) + 3]! | 0, hit.normal);
+  return at >>> 3;
 }
 
 /** A number of answers, where the kernel knows them. */
 export function known(where: string, count: number): number {
   if (count !== -1) return count;
   throw new Error(
-    `${where}: boxes have changed since the last update, and a space of so many keeps none of before until it was ` +
-      'asked, expected the first question right after an update',
+    `${where}: boxes have changed since the last update, and a space this large keeps no copy of the previous ones until it was ` +
+      'queried; make its first query right after an update',
   );
 }
 

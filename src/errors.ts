@@ -34,6 +34,10 @@ export function show(value: unknown): string {
 /** Whether it is an integer in range. */
 export const isId = (id: unknown): id is number => typeof id === 'number' && id >>> 0 === id && id <= maxId;
 
+export function checkId(where: string, id: unknown): void {
+  if (!isId(id)) badId(where, id);
+}
+
 /** An id that is no integer in range. */
 export function badId(where: string, id: unknown): never {
   const message = `${where}: the id is ${show(id)}, expected an integer from 0 to ${maxId}`;
@@ -42,7 +46,7 @@ export function badId(where: string, id: unknown): never {
 
 /** An id without a box, where there must be one. */
 export function noBox(where: string, id: number): never {
-  throw new RangeError(`${where}: there is no box ${id}, expected the id of one: call set first`);
+  throw new RangeError(`${where}: there is no box ${id}, expected the id of a box: call set first`);
 }
 
 /** A box that is not one: says which of its numbers is wrong. */
@@ -68,7 +72,7 @@ export function badBox(where: string, id: number, box: ArrayLike<unknown>, dimen
 }
 
 /** A call with too few or too many arguments. */
-export function badCount(
+function badCount(
   where: string,
   id: number,
   got: number,
@@ -90,8 +94,7 @@ export function badCentred(where: string, given: ArrayLike<unknown>, dimensions:
     const value = given[1 + k];
     const what = `${where}: ${name} of box ${id}`;
     const expected = k < dimensions ? 'a finite number' : 'a number, at least 0';
-    if (typeof value !== 'number') badValue(what, value, expected, true);
-    if (k < dimensions ? !Number.isFinite(value) : !(value >= 0)) badValue(what, value, expected);
+    if (!(k < dimensions ? Number.isFinite(value) : isSize(value))) badNumber(what, value, expected);
   }
   throw new Error(`${where}: box ${id} was refused, but nothing is wrong with it: please report this`);
 }
@@ -100,6 +103,29 @@ export function badCentred(where: string, given: ArrayLike<unknown>, dimensions:
 export function badValue(where: string, value: unknown, expected: string, wrongType = false): never {
   const message = `${where}: got ${show(value)}, expected ${expected}`;
   throw wrongType ? new TypeError(message) : new RangeError(message);
+}
+
+/** An argument or option that is to be a number of some kind. */
+export function badNumber(where: string, value: unknown, expected: string): never {
+  badValue(where, value, expected, typeof value !== 'number');
+}
+
+/** Whether it is a number above 0, or 0 where that is the least, and not infinite. */
+export const isFinitePositive = (value: unknown, least = Number.MIN_VALUE): value is number =>
+  Number.isFinite(value) && Number(value) >= least;
+
+export function checkBoolean(what: string, value: unknown): void {
+  if (typeof value !== 'boolean') badValue(what, value, 'true or false', true);
+}
+
+export const isBoxCount = (count: unknown): boolean =>
+  Number.isInteger(count) && Number(count) >= 0 && Number(count) <= maxId + 1;
+
+// Made once: a text of every call would be garbage in each frame.
+const boxCounts = `an integer from 0 to ${maxId + 1}`;
+
+export function checkBoxCount(what: string, count: unknown): void {
+  if (!isBoxCount(count)) badNumber(what, count, boxCounts);
 }
 
 /** Numbers come in one of three kinds of array. */
@@ -187,7 +213,7 @@ export function badQuestion(
   for (const [k, name] of names.entries()) {
     const value = given[k];
     const unbounded = expected === 'a number' && /^m(in|ax)[XYZ]$/.test(name);
-    if (typeof value !== 'number') badValue(`${where}: ${name}`, value, 'a number', true);
+    if (typeof value !== 'number') badNumber(`${where}: ${name}`, value, 'a number');
     if (Number.isNaN(value)) badValue(`${where}: ${name}`, value, expected);
     if (!unbounded && !Number.isFinite(value)) badValue(`${where}: ${name}`, value, 'a finite number');
   }
@@ -198,4 +224,45 @@ export function badQuestion(
     if (low > high) badValue(`${where}: ${name}`, low, `no more than ${names[above]}, which is ${high}`);
   }
   throw new TypeError(`${where}: got too many arguments, expected ${names.join(', ')}, and options if any`);
+}
+
+export const areNumbers = (
+  a: unknown,
+  b: unknown,
+  c: unknown = 0,
+  d: unknown = 0,
+  e: unknown = 0,
+  f: unknown = 0,
+): boolean =>
+  typeof a === 'number' &&
+  typeof b === 'number' &&
+  typeof c === 'number' &&
+  typeof d === 'number' &&
+  typeof e === 'number' &&
+  typeof f === 'number';
+
+/** Half the size of a box, a radius or a distance: infinite ones too. */
+export const isSize = (size: unknown): boolean => typeof size === 'number' && size >= 0;
+
+/** Finds what is wrong with the arguments of `set`. */
+export function badSet(
+  given: number,
+  id: unknown,
+  a: unknown,
+  b: unknown,
+  c: unknown,
+  d: unknown,
+  e: unknown,
+  f: unknown,
+  dimensions: 2 | 3,
+): never {
+  if (!isId(id)) badId('set', id);
+  if (given !== 1 + 2 * dimensions) badCount('set', id, given, dimensions);
+  badBox('set', id, [a, b, c, d, e, f], dimensions);
+}
+
+/** Finds what is wrong with the arguments of `setSwept`. */
+export function badSwept(id: unknown, given: readonly unknown[], dimensions: 2 | 3): never {
+  if (!isId(id)) badId('setSwept', id);
+  badQuestion('setSwept', given, dimensions === 2 ? sweep2 : sweep3, 'a number');
 }

@@ -1,41 +1,41 @@
 // One-shot search: pairs of an array of boxes, or between two, without keeping anything.
 // A call that asks for nothing but dimensions takes a spare space, since making one costs many times as much as the
 // search among a few boxes. A spare space is as new, so that the order of pairs does not depend on the calls before.
-import {
-  type Boxes,
-  BroadPhase,
-  type BroadPhaseOptions,
-  beginAnew,
-  countBoxes,
-  fill,
-  optionNames,
-  splitColours,
-} from './broad-phase.ts';
+import { type Boxes, countBoxes, setAll } from './boxes.ts';
 import type { Dimensions } from './dimensions.ts';
-import { checkNumberArray, checkOptions } from './errors.ts';
-import { builtDimensions } from './kernel.ts';
+import { checkNumberArray } from './errors.ts';
+import type { KernelInstance } from './kernel/instance.ts';
+import { builtDimensions } from './kernel/load.ts';
+import { type BroadPhaseOptions, checkNames, open } from './options.ts';
+import { pairsIn, update } from './pairs.ts';
+import { noStats } from './stats.ts';
 import { isFloat32Array } from './values.ts';
 
 /** By dimensions. A space is not here while it is in use: a getter in the caller's array may call again. */
-const spares: (BroadPhase<Dimensions> | undefined)[] = [];
+const spares: (KernelInstance | undefined)[] = [];
 
 /** A spare space may have used this many bytes of memory, but no more: what has been touched stays taken. */
 const mostBytes = 64 * 2 ** 20;
 
+/** Of the last search: nobody reads them. */
+const stats = noStats();
+
 /** The space for a call with these options. */
-function borrow(where: string, options?: BroadPhaseOptions<Dimensions>): BroadPhase<Dimensions> {
-  checkOptions(where, options, optionNames);
+function borrow(where: string, options?: BroadPhaseOptions<Dimensions>): KernelInstance {
+  checkNames(where, options);
   const dimensions = plain(options);
   const spare = spares[dimensions];
-  if (spare === undefined) return new BroadPhase(options);
+  if (spare === undefined) return open(options);
   spares[dimensions] = undefined;
   return spare;
 }
 
 /** Keeps the space of a call that went well for the next. Where a call throws, its space goes with it. */
-function giveBack(space: BroadPhase<Dimensions>, options?: BroadPhaseOptions<Dimensions>): void {
+function giveBack(space: KernelInstance, options?: BroadPhaseOptions<Dimensions>): void {
   const dimensions = plain(options);
-  if (dimensions !== 0 && beginAnew(space) <= mostBytes) spares[dimensions] = space;
+  if (dimensions === 0) return;
+  space.clear();
+  if (space.kernel.begin_anew() >>> 0 <= mostBytes) spares[dimensions] = space;
 }
 
 /** The dimensions that the options ask for, where they ask for nothing else; 0 where they do. */
@@ -60,7 +60,8 @@ function plain(options?: BroadPhaseOptions<Dimensions>): number {
  */
 export function findPairs(boxes: Boxes, options?: BroadPhaseOptions<Dimensions>): Uint32Array {
   const space = borrow('findPairs', options);
-  const pairs = fill(space, boxes, undefined, 'findPairs').update().pairs.slice();
+  setAll(space, boxes, undefined, 'findPairs');
+  const pairs = search(space);
   giveBack(space, options);
   return pairs;
 }
@@ -85,12 +86,27 @@ export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOp
   checkNumberArray('findPairsBetween: blue', blue);
   const reds = countBoxes('findPairsBetween: red', red, space.dimensions);
   countBoxes('findPairsBetween: blue', blue, space.dimensions);
-  fill(space, join(red, blue), undefined, 'findPairsBetween');
-  splitColours(space, reds);
-  const pairs = space.update().pairs.slice();
+  setAll(space, join(red, blue), undefined, 'findPairsBetween');
+  split(space, reds);
+  const pairs = search(space);
   giveBack(space, options);
   for (let k = 1; k < pairs.length; k += 2) pairs[k]! -= reds;
   return pairs;
+}
+
+/** The pairs of what stands in a space, as an array of their own. */
+function search(space: KernelInstance): Uint32Array {
+  update(space, stats);
+  return pairsIn(space).slice();
+}
+
+/** Boxes 0 … red - 1 become red, the others blue; only pairs of both colours are reported. */
+function split(space: KernelInstance, red: number): void {
+  try {
+    space.kernel.split(red);
+  } catch (error) {
+    space.recover(error, 'findPairsBetween');
+  }
 }
 
 /** Both arrays as one, in double precision unless both are float32. */

@@ -5,222 +5,210 @@
 // it counts in no list, and asks for itself in each call. Where many are loose all lists are made anew.
 // Cost of a call: about 50 ns for each box that moved within its grown box, one question for each that left it and for each
 // that is loose, and a pass over the pairs.
-import { known } from './answers.ts';
-import type { BroadPhase } from './broad-phase.ts';
-import { BulkQueries } from './bulk-queries.ts';
-import type { Dimensions } from './dimensions.ts';
+import { known, tellTouching } from './answers.ts';
 import { badValue } from './errors.ts';
 import { grow, Kept, meet, reachOut, roomFor, rowMore, type Side } from './kept-pairs.ts';
+import type { KernelInstance } from './kernel/instance.ts';
 import { everything, nobody } from './query-options.ts';
 
 const where = 'pairsWith';
 /** What the kernel is asked: the boxes that overlap a box, and that it meets by its filter. Answers are slots. */
 const meeting = 8;
 
-/** A space that knows its pairs with others. */
-export abstract class PairsBetween<D extends Dimensions> extends BulkQueries<D> {
-  readonly #kept = new WeakMap<object, Kept>();
-
-  /**
-   * Every pair of a box here and a box of another space, `[here0, there0, here1, there1, …]`, as of the last update of
-   * each: such as of a level at rest and of what moves in it. Kept from call to call, at the cost of what has changed since.
-   * Filters and reaches count as between boxes of one space, boxes that are off are in no pair, and which are static or in
-   * a group makes no difference. The order depends on the calls made. The array stays as it is until the next call.
-   *
-   * @param other a space of as many dimensions, and of the same `wrap` and `touching`
-   * @throws TypeError for what is no other space; RangeError for one with another of these; Error for
-   *   one that was disposed of, and as questions do: see {@link BroadPhase}
-   *
-   * @example
-   * const level = new BroadPhase().set(0, 0, 0, 10, 1).set(1, 10, 0, 20, 1).update();
-   * const movers = new BroadPhase().set(7, 9, 1, 11, 3).update();
-   * movers.pairsWith(level); // → Uint32Array [7, 0, 7, 1]
-   * movers.set(7, 5, 1, 6, 3).update().pairsWith(level); // → Uint32Array [7, 0]
-   */
-  pairsWith(other: BroadPhase<D>): Uint32Array {
-    this.#checkOther(other);
-    let kept = this.#kept.get(other);
-    if (kept === undefined) {
-      kept = new Kept(this.width, this.touching);
-      this.#kept.set(other, kept);
-    }
-    try {
-      if (kept.begin(this.kernel.size(), other.kernel.size())) this.#keep(kept, other);
-      else other.#keep(kept, this);
-    } catch (error) {
-      kept.forget();
-      throw error;
-    }
-    return kept.view();
+/** `keptOf` holds what is kept with each other space. */
+export function pairsWith(
+  instance: KernelInstance,
+  other: KernelInstance,
+  keptOf: WeakMap<KernelInstance, Kept>,
+): Uint32Array {
+  checkOther(instance, other);
+  let kept = keptOf.get(other);
+  if (kept === undefined) {
+    kept = new Kept(instance.width, instance.touching);
+    keptOf.set(other, kept);
   }
-
-  #checkOther(other: BroadPhase<D>): void {
-    if (!(other instanceof PairsBetween)) badValue(where, other, 'another BroadPhase', true);
-    if ((other as unknown) === this) {
-      throw new TypeError(`${where}: got the space itself, expected another: the pairs within it are in its pairs`);
-    }
-    this.kernel.size(); // throws where this one was disposed of
-    if (other.disposed) throw new Error(`${where}: the other BroadPhase was disposed: it cannot be used any more`);
-    if (other.dimensions !== this.dimensions) {
-      badValue(`${where}: dimensions of the other`, other.dimensions, `${this.dimensions} as here`);
-    }
-    if (String(other.wrap) !== String(this.wrap)) {
-      badValue(
-        `${where}: wrap of the other`,
-        other.wrap,
-        `${this.wrap ? `[${this.wrap.join(', ')}]` : 'none'} as here`,
-      );
-    }
-    if (other.touching !== this.touching) {
-      badValue(`${where}: touching of the other`, other.touching, `${this.touching} as here`);
-    }
+  try {
+    if (kept.begin(instance.kernel.size(), other.kernel.size())) keep(instance, kept, other);
+    else keep(other, kept, instance);
+  } catch (error) {
+    kept.forget();
+    throw error;
   }
+  return kept.view();
+}
 
-  /** Brings the pairs up to date, of this space, which has fewer boxes, and another. */
-  #keep(kept: Kept, other: PairsBetween<D>): void {
-    const { few, many } = kept;
-    const followed = this.#follow(few, kept.call);
-    const same = other.#follow(many, kept.call);
-    if (followed && same && few.count + many.count === 0) return;
-    if (!same) kept.dropLists();
-    kept.loosen(this.kernel.seen_count());
-    if (followed && same) {
-      kept.dropPairs();
-    } else {
-      kept.length = 0;
-      few.takeAll(this.kernel.seen_count());
-    }
-    this.#askFew(kept, other);
-    other.#askLoose(kept, this);
+function checkOther(instance: KernelInstance, other: KernelInstance): void {
+  if (other === instance) {
+    throw new TypeError(`${where}: got the space itself, expected another: the pairs within it are in its pairs`);
   }
-
-  /** Finds out what has changed since the call before; false where all may have. */
-  #follow(side: Side, call: number): boolean {
-    try {
-      const { kernel } = this;
-      const epoch = known(where, kernel.log_epoch());
-      return side.read(epoch, this.wordView(), kernel.log_address() >>> 2, kernel.log_count(), call);
-    } catch (error) {
-      this.recover(error, where);
-    }
+  instance.kernel.size(); // throws where this one was disposed of
+  if (other.isDisposed) throw new Error(`${where}: the other BroadPhase was disposed and can no longer be used`);
+  if (other.dimensions !== instance.dimensions) {
+    badValue(`${where}: dimensions of the other`, other.dimensions, `${instance.dimensions} as here`);
   }
-
-  /**
-   * Reads what the last update saw of so many slots, those given or else those that the kernel's answers begin with: rows in
-   * the kernel's memory, of which this is the place.
-   */
-  #see(count: number, slots?: Uint32Array): number {
-    try {
-      const { kernel } = this;
-      const stride = this.width + rowMore;
-      const at = kernel.stage_questions(count * stride) >>> 3;
-      const rows = this.doubleView();
-      const from = slots ?? this.wordView();
-      const first = slots ? 0 : kernel.many_ids_address() >>> 2;
-      for (let k = 0; k < count; k++) rows[at + k * stride] = from[first + k]!;
-      kernel.see_rows(count);
-      return at;
-    } catch (error) {
-      this.recover(error, where);
-    }
+  if (String(other.wrap) !== String(instance.wrap)) {
+    badValue(
+      `${where}: wrap of the other`,
+      other.wrap,
+      `${instance.wrap ? `[${instance.wrap.join(', ')}]` : 'none'} as here`,
+    );
   }
-
-  /** The pairs of the boxes here that have changed: out of their lists, or asked for. */
-  #askFew(kept: Kept, other: PairsBetween<D>): void {
-    const { few, lists } = kept;
-    if (few.count === 0) return;
-    const stride = this.width + rowMore;
-    const listed = this.wrap === undefined; // where the world wraps around only the kernel tests exactly
-    const at = this.#see(few.count, few.slots);
-    const rows = this.doubleView();
-    few.asking = roomFor(few.asking, few.count);
-    let asked = 0;
-    for (let k = 0; k < few.count; k++) {
-      const row = at + k * stride;
-      const id = rows[row]!;
-      if (id < 0) continue;
-      const slot = few.slots[k]!;
-      if (listed && lists.holds(slot, rows, row)) kept.addNear(slot, rows, row);
-      else few.asking[asked++] = k;
-    }
-    if (asked === 0) return;
-    const ends = this.#ask(other, at, few.asking, asked, listed);
-    let answer = other.#see(other.wordView()[ends + asked]!);
-    const its = other.doubleView();
-    const words = other.wordView();
-    for (let k = 0; k < asked; k++) {
-      const row = at + few.asking[k]! * stride;
-      const slot = few.slots[few.asking[k]!]!;
-      if (listed) lists.begin(slot, rows, row);
-      for (let n = words[ends + k + 1]! - words[ends + k]!; n > 0; n--, answer += stride) {
-        if (listed) lists.add(its, answer);
-        else if (other.#meets(its, answer, rows, row)) kept.add(rows[row]!, its[answer]!);
-      }
-      if (listed) kept.addNear(slot, rows, row);
-    }
+  if (other.touching !== instance.touching) {
+    badValue(`${where}: touching of the other`, other.touching, `${instance.touching} as here`);
   }
+}
 
-  /** The pairs of the boxes here that are loose. */
-  #askLoose(kept: Kept, other: PairsBetween<D>): void {
-    const { loose } = kept;
-    if (loose.count === 0) return;
-    const stride = this.width + rowMore;
-    const at = this.#see(loose.count, loose.slots);
-    const rows = this.doubleView();
-    loose.asking = roomFor(loose.asking, loose.count);
-    let asked = 0;
-    for (let k = 0; k < loose.count; k++) if (rows[at + k * stride]! >= 0) loose.asking[asked++] = k;
-    if (asked === 0) return;
-    const ends = this.#ask(other, at, loose.asking, asked, false);
-    let answer = other.#see(other.wordView()[ends + asked]!);
-    const its = other.doubleView();
-    const words = other.wordView();
-    for (let k = 0; k < asked; k++) {
-      const id = rows[at + loose.asking[k]! * stride]!;
-      for (let n = words[ends + k + 1]! - words[ends + k]!; n > 0; n--, answer += stride) {
-        if (other.#meets(its, answer, rows, at + loose.asking[k]! * stride)) kept.addPair(its[answer]!, id);
-      }
+/** Brings the pairs up to date, of this space, which has fewer boxes, and another. */
+function keep(instance: KernelInstance, kept: Kept, other: KernelInstance): void {
+  const { few, many } = kept;
+  const followed = follow(instance, few, kept.call);
+  const same = follow(other, many, kept.call);
+  if (followed && same && few.count + many.count === 0) return;
+  if (!same) kept.dropLists();
+  kept.loosen(instance.kernel.seen_count());
+  if (followed && same) {
+    kept.dropPairs();
+  } else {
+    kept.length = 0;
+    few.takeAll(instance.kernel.seen_count());
+  }
+  askFew(instance, kept, other);
+  askLoose(other, kept, instance);
+}
+
+/** Finds out what has changed since the call before; false where all may have. */
+function follow(instance: KernelInstance, side: Side, call: number): boolean {
+  try {
+    const { kernel } = instance;
+    const epoch = known(where, kernel.log_epoch());
+    return side.read(epoch, instance.wordView(), kernel.log_address() >>> 2, kernel.log_count(), call);
+  } catch (error) {
+    instance.recover(error, where);
+  }
+}
+
+/**
+ * Reads what the last update saw of so many slots, those given or else those that the kernel's answers begin with: rows in
+ * the kernel's memory, of which this is the place.
+ */
+function see(instance: KernelInstance, count: number, slots?: Uint32Array): number {
+  try {
+    const { kernel } = instance;
+    const stride = instance.width + rowMore;
+    const at = kernel.stage_questions(count * stride) >>> 3;
+    const rows = instance.doubleView();
+    const from = slots ?? instance.wordView();
+    const first = slots ? 0 : kernel.many_ids_address() >>> 2;
+    for (let k = 0; k < count; k++) rows[at + k * stride] = from[first + k]!;
+    kernel.see_rows(count);
+    return at;
+  } catch (error) {
+    instance.recover(error, where);
+  }
+}
+
+/** The pairs of the boxes here that have changed: out of their lists, or asked for. */
+function askFew(instance: KernelInstance, kept: Kept, other: KernelInstance): void {
+  const { few, lists } = kept;
+  if (few.count === 0) return;
+  const stride = instance.width + rowMore;
+  const listed = instance.wrap === undefined; // where the world wraps around only the kernel tests exactly
+  const at = see(instance, few.count, few.slots);
+  const rows = instance.doubleView();
+  few.asking = roomFor(few.asking, few.count);
+  let asked = 0;
+  for (let k = 0; k < few.count; k++) {
+    const row = at + k * stride;
+    const id = rows[row]!;
+    if (id < 0) continue;
+    const slot = few.slots[k]!;
+    if (listed && lists.holds(slot, rows, row)) kept.addNear(slot, rows, row);
+    else few.asking[asked++] = k;
+  }
+  if (asked === 0) return;
+  const ends = ask(instance, other, at, few.asking, asked, listed);
+  let answer = see(other, other.wordView()[ends + asked]!);
+  const its = other.doubleView();
+  const words = other.wordView();
+  for (let k = 0; k < asked; k++) {
+    const row = at + few.asking[k]! * stride;
+    const slot = few.slots[few.asking[k]!]!;
+    if (listed) lists.begin(slot, rows, row);
+    for (let n = words[ends + k + 1]! - words[ends + k]!; n > 0; n--, answer += stride) {
+      if (listed) lists.add(its, answer);
+      else if (meets(other, its, answer, rows, row)) kept.add(rows[row]!, its[answer]!);
+    }
+    if (listed) kept.addNear(slot, rows, row);
+  }
+}
+
+/** The pairs of the boxes here that are loose. */
+function askLoose(instance: KernelInstance, kept: Kept, other: KernelInstance): void {
+  const { loose } = kept;
+  if (loose.count === 0) return;
+  const stride = instance.width + rowMore;
+  const at = see(instance, loose.count, loose.slots);
+  const rows = instance.doubleView();
+  loose.asking = roomFor(loose.asking, loose.count);
+  let asked = 0;
+  for (let k = 0; k < loose.count; k++) if (rows[at + k * stride]! >= 0) loose.asking[asked++] = k;
+  if (asked === 0) return;
+  const ends = ask(instance, other, at, loose.asking, asked, false);
+  let answer = see(other, other.wordView()[ends + asked]!);
+  const its = other.doubleView();
+  const words = other.wordView();
+  for (let k = 0; k < asked; k++) {
+    const id = rows[at + loose.asking[k]! * stride]!;
+    for (let n = words[ends + k + 1]! - words[ends + k]!; n > 0; n--, answer += stride) {
+      if (meets(other, its, answer, rows, at + loose.asking[k]! * stride)) kept.addPair(its[answer]!, id);
     }
   }
+}
 
-  /**
-   * Whether the boxes of two rows overlap, the first of which is here and answered a question about the other. Where no box
-   * here reaches beyond itself the answer said so.
-   */
-  #meets(its: Float64Array, answer: number, rows: Float64Array, row: number): boolean {
-    if (this.kernel.most_reach() === 0) return true;
-    const { width } = this;
-    if (this.wrap === undefined) return meet(its, answer + 1, rows, row + 1, width / 2, this.touching);
-    const io = this.io();
-    for (let n = 0; n < width; n++) {
-      io[n] = its[answer + 1 + n]!;
-      io[width + n] = rows[row + 1 + n]!;
-    }
-    return this.kernel.meet_around() === 1;
+/**
+ * Whether the boxes of two rows overlap, the first of which is here and answered a question about the other. Where no box
+ * here reaches beyond itself the answer said so.
+ */
+function meets(instance: KernelInstance, its: Float64Array, answer: number, rows: Float64Array, row: number): boolean {
+  if (instance.kernel.most_reach() === 0) return true;
+  const { width } = instance;
+  if (instance.wrap === undefined) return meet(its, answer + 1, rows, row + 1, width / 2, instance.touching);
+  const io = instance.io();
+  for (let n = 0; n < width; n++) {
+    io[n] = its[answer + 1 + n]!;
+    io[width + n] = rows[row + 1 + n]!;
   }
+  return instance.kernel.meet_around() === 1;
+}
 
-  /** Asks another space about so many of the rows at a place, grown or not; returns the place of the ends of the answers. */
-  #ask(other: PairsBetween<D>, first: number, asking: Uint32Array, count: number, grown: boolean): number {
-    try {
-      const { width } = this;
-      const step = width + 2;
-      const reach = other.kernel.most_reach();
-      const at = other.kernel.stage_questions(count * (step + 1)) >>> 3;
-      const to = other.doubleView();
-      const rows = this.doubleView();
-      for (let k = 0; k < count; k++) {
-        const row = first + asking[k]! * (width + rowMore);
-        const place = at + k * step;
-        for (let n = 0; n < step; n++) to[place + n] = rows[row + 1 + n]!;
-        if (grown) grow(to, place, width);
-        if (reach > 0) reachOut(to, place, width, reach);
-      }
-      other.tellTouching(where, undefined);
-      to.fill(nobody, at + count * step, at + count * (step + 1));
-      other.kernel.ask_many(meeting, count, everything, 1);
-      return other.kernel.offsets_address() >>> 2;
-    } catch (error) {
-      other.recover(error, where);
+/** Asks another space about so many of the rows at a place, grown or not; returns the place of the ends of the answers. */
+function ask(
+  instance: KernelInstance,
+  other: KernelInstance,
+  first: number,
+  asking: Uint32Array,
+  count: number,
+  grown: boolean,
+): number {
+  try {
+    const { width } = instance;
+    const step = width + 2;
+    const reach = other.kernel.most_reach();
+    const at = other.kernel.stage_questions(count * (step + 1)) >>> 3;
+    const to = other.doubleView();
+    const rows = instance.doubleView();
+    for (let k = 0; k < count; k++) {
+      const row = first + asking[k]! * (width + rowMore);
+      const place = at + k * step;
+      for (let n = 0; n < step; n++) to[place + n] = rows[row + 1 + n]!;
+      if (grown) grow(to, place, width);
+      if (reach > 0) reachOut(to, place, width, reach);
     }
+    tellTouching(other, where, undefined);
+    to.fill(nobody, at + count * step, at + count * (step + 1));
+    other.kernel.ask_many(meeting, count, everything, 1);
+    return other.kernel.offsets_address() >>> 2;
+  } catch (error) {
+    other.recover(error, where);
   }
 }

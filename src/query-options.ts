@@ -1,5 +1,5 @@
 // What the questions of queries.ts may be given, and what they answer; and the checks of it.
-import { badId, badValue, checkBits, isId } from './errors.ts';
+import { badId, badNumber, badValue, checkBits, isId, isSize } from './errors.ts';
 
 /** What every question may be given, and an `out` or a `visit` of its own. */
 export interface QueryOptions {
@@ -207,11 +207,13 @@ export const nearestOptions = [...farOptions, 'distances'] as const;
 export const rayOptions = ['mask', 'ignore', 'maxDistance', 'out', 'accept'] as const;
 export const sweepOptions = ['mask', 'ignore', 'out', 'visit', 'accept'] as const;
 
+/** Whether it says how many answers are wanted. */
+export const isCount = (k: unknown): k is number =>
+  (Number.isInteger(k) && Number(k) >= 1) || k === Number.POSITIVE_INFINITY;
+
 /** How many answers are wanted, as the kernel counts. */
 export function checkMost(where: string, k: unknown): number {
-  const expected = 'an integer from 1 on, or Infinity';
-  if (typeof k !== 'number') badValue(`${where}: k`, k, expected, true);
-  if (!(Number.isInteger(k) && k >= 1) && k !== Number.POSITIVE_INFINITY) badValue(`${where}: k`, k, expected);
+  if (!isCount(k)) badNumber(`${where}: k`, k, 'an integer from 1 on, or Infinity');
   return Math.min(k, everything);
 }
 
@@ -220,7 +222,6 @@ export function checkVisitor(where: string, visitor: unknown): void {
 }
 
 export function checkDistance(where: string, distance: number): number {
-  if (typeof distance !== 'number') badValue(where, distance, 'a number, at least 0', true);
-  if (!(distance >= 0)) badValue(where, distance, 'a number, at least 0');
+  if (!isSize(distance)) badNumber(where, distance, 'a number, at least 0');
   return distance;
 }

@@ -1,30 +1,88 @@
-// Why bytes are not a snapshot that can be restored, in words. What a snapshot holds: kernel/space/snapshot.hpp.
+// A space as bytes, and back. What a snapshot holds: kernel/space/snapshot.hpp. Why bytes are none is told here in words.
+import { badInPlace } from './boxes.ts';
+import type { Dimensions } from './dimensions.ts';
 import { badValue } from './errors.ts';
+import type { KernelInstance } from './kernel/instance.ts';
+import { readStats, type Stats } from './stats.ts';
+import { techniques } from './techniques.ts';
 import { bytesOf } from './values.ts';
 
 /** Bytes in front of what stands in the space, and the version of them that this library writes. */
-export const headerBytes = 24;
+const headerBytes = 24;
 const newest = 2;
 
+export function snapshot(instance: KernelInstance): Uint8Array<ArrayBuffer> {
+  let bad = -1;
+  try {
+    const at = instance.kernel.save() >>> 0;
+    const [length, id] = instance.io() as unknown as [number, number];
+    if (id < 0) return new Uint8Array(instance.kernel.memory.buffer, at, length).slice();
+    bad = id;
+  } catch (error) {
+    instance.recover(error, 'snapshot');
+  }
+  badInPlace(instance, 'snapshot', bad);
+}
+
+export function restore(instance: KernelInstance, bytes: Uint8Array | ArrayBuffer, stats: Stats): void {
+  const source = snapshotBytes(bytes);
+  const place = placeOf(instance);
+  const io = instance.io();
+  // The header first: memory is taken only for what may be a snapshot and is as long as it says.
+  const header = new Uint8Array(io.buffer, io.byteOffset, headerBytes);
+  header.fill(0);
+  header.set(source.subarray(0, headerBytes));
+  let fault = 0;
+  try {
+    const at = instance.kernel.stage_snapshot(source.length) >>> 0;
+    fault = instance.io()[0]!;
+    if (fault === 0) {
+      new Uint8Array(instance.kernel.memory.buffer, at, source.length).set(source);
+      instance.ring.forget();
+      fault = instance.kernel.restore();
+    }
+  } catch (error) {
+    try {
+      instance.recover(error, 'restore');
+    } finally {
+      if (placeOf(instance) !== place) restored(instance, source, stats); // memory ended while the pairs were found
+    }
+  }
+  if (fault !== 0) badSnapshot(fault, source, instance.dimensions);
+  restored(instance, source, stats);
+}
+
+function restored(instance: KernelInstance, source: Uint8Array, stats: Stats): void {
+  instance.technique = Math.min(source[7]!, techniques.length - 1); // 255 there is `auto`, the last
+  instance.exposed = undefined;
+  readStats(instance, stats);
+}
+
+/** Where the boxes stand: elsewhere once others were restored. */
+function placeOf(instance: KernelInstance): number {
+  instance.kernel.contents();
+  return instance.io()[1]!;
+}
+
 /** What was given to `restore`, as bytes. */
-export function snapshotBytes(value: unknown): Uint8Array {
+function snapshotBytes(value: unknown): Uint8Array {
   return (
-    bytesOf(value) ??
-    badValue('restore', value, 'the bytes that snapshot() gave, as a Uint8Array or an ArrayBuffer', true)
+    bytesOf(value) ?? badValue('restore', value, 'the bytes of snapshot(), as a Uint8Array or an ArrayBuffer', true)
   );
 }
 
 /** `fault` is kernel/space/snapshot.hpp's SnapshotFault. */
-export function badSnapshot(fault: number, bytes: Uint8Array, dimensions: 2 | 3, technique: string): never {
+function badSnapshot(fault: number, bytes: Uint8Array, dimensions: Dimensions): never {
+  const technique = techniques[bytes[7]!] ?? `number ${bytes[7]}`;
   const reasons = [
     '',
-    `got ${bytes.length} bytes that are no snapshot, expected what snapshot() gave`,
+    `got ${bytes.length} bytes that are not a snapshot, expected those of snapshot()`,
     `got a snapshot of format ${bytes[4]}, expected at most ${newest}: it was made by a newer version of this library`,
-    `got ${bytes.length} bytes, expected another number of them: the snapshot was cut off, or something is behind it`,
+    `got ${bytes.length} bytes, which is not the snapshot's length: it was cut off, or something follows it`,
     'the snapshot is damaged: its checksum or its header is wrong',
     `got a snapshot of a space with ${bytes[5]! & 15} dimensions, expected ${dimensions}`,
-    `got a snapshot of a space with the technique ${technique}, expected one that there is: 'broadphase/all' has all`,
-    'the snapshot holds what no space holds, so it was not made by snapshot()',
+    `got a snapshot of a space with the technique ${technique}, which is not available here: 'broadphase/all' has all`,
+    'the snapshot has contents that no space can have, so snapshot() did not make it',
   ];
   throw new RangeError(`restore: ${reasons[fault]}`);
 }

@@ -2,7 +2,7 @@
 // makes the index. Answers go into arrays that are kept. Where boxes move, all pairs are found anew: they move by so little
 // that nothing else is like a game.
 import { BroadPhase } from '../../build/bench/library.mjs';
-import { most, reach } from '../questions.mjs';
+import { most, reach } from '../harness/questions.mjs';
 
 export const npm = null;
 export const dimensions = [2, 3];

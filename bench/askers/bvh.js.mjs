@@ -1,7 +1,7 @@
 // bvh.js: built anew with every frame, or kept, with every leaf moved. It gives all that a ray may meet, of which the
 // first is kept. In 2D the third axis is 0.
 import { BVH, HybridBuilder } from 'bvh.js';
-import { lengthOf, rayEntry, reach } from '../questions.mjs';
+import { lengthOf, rayEntry, reach } from '../harness/questions.mjs';
 
 export const dimensions = [2, 3];
 export const answers = ['queryBox', 'rayCast'];

@@ -1,6 +1,6 @@
 // planck: its dynamic tree of fat boxes, with what is found tested; the tree that its worlds cast rays with.
 import { AABB, internal, Vec2 } from 'planck';
-import { lengthOf, overlap, rayEntry, reach } from '../questions.mjs';
+import { lengthOf, overlap, rayEntry, reach } from '../harness/questions.mjs';
 
 export const dimensions = [2];
 export const answers = ['queryBox', 'rayCast'];

@@ -1,6 +1,6 @@
-// rapier2d: see ../rapier-rays.mjs.
+// rapier2d: see kit/rapier-rays.mjs.
 import RAPIER from '@dimforge/rapier2d-compat';
-import { rapierRays } from '../rapier-rays.mjs';
+import { rapierRays } from './kit/rapier-rays.mjs';
 
 export const npm = '@dimforge/rapier2d-compat';
 export const dimensions = [2];

@@ -1,6 +1,6 @@
-// rapier3d: see ../rapier-rays.mjs.
+// rapier3d: see kit/rapier-rays.mjs.
 import RAPIER from '@dimforge/rapier3d-compat';
-import { rapierRays } from '../rapier-rays.mjs';
+import { rapierRays } from './kit/rapier-rays.mjs';
 
 export const npm = '@dimforge/rapier3d-compat';
 export const dimensions = [3];

@@ -1,8 +1,8 @@
 // rbush, loaded anew with every frame, as its authors advise when all moves; and rbush-knn on it.
 import RBush from 'rbush';
 import knn from 'rbush-knn';
-import { most } from '../questions.mjs';
-import { fill, objects } from '../tutorial.mjs';
+import { most } from '../harness/questions.mjs';
+import { fill, objects } from '../peers/kit/tutorial.mjs';
 
 export const dimensions = [2];
 export const answers = ['queryBox', 'nearest'];

@@ -1,5 +1,5 @@
 // Who answers questions, as a contender: what it finds are pairs of a box and the number of a question.
-import { asking, makeQuestions } from '../questions.mjs';
+import { asking, makeQuestions } from '../harness/questions.mjs';
 
 export async function create({ variant, row, scene, ...rest }) {
   const { create: createAsker } = await import(`../askers/${variant}.mjs`);

@@ -1,7 +1,7 @@
 // A frame as a game has it: objects with x, y, width and height in doubles. This library, given the boxes in three ways, and
 // what one writes oneself. All find every pair and look at both of its objects.
 import { BroadPhase } from '../../build/bench/library.mjs';
-import { PairList } from '../pair-list.mjs';
+import { PairList } from '../peers/kit/pair-list.mjs';
 import { everyPair, Grid, SortAndSweep } from './by-hand.mjs';
 
 export const byHand = ['brute force', 'sort and sweep', 'grid in a Map'];

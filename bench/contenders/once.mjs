@@ -1,7 +1,7 @@
 // Who finds all pairs of boxes in one call. In two colours, the first half are red, and pairs of both colours count; their
 // numbers are those of all boxes, so that they can be compared.
 import { findPairs, findPairsBetween } from '../../build/bench/library.mjs';
-import { PairList } from '../pair-list.mjs';
+import { PairList } from '../peers/kit/pair-list.mjs';
 
 export async function create({ boxes, count, variant, row }) {
   const list = new PairList();

@@ -1,5 +1,5 @@
-import type { Plan } from './frames.mts';
-import type { Notes } from './player.mts';
+import type { Plan } from './frames.mjs';
+import type { Notes } from './player.mjs';
 
 export interface Difference {
   frame: number;

@@ -21,7 +21,11 @@ export function judge(row, entrants) {
 }
 
 /** What is written down of a row beside its figures. */
-const facts = ({ plan, recording: _, budget: __, ...row }) => ({ ...row, frames: plan.timed, warmUp: plan.warmUp });
+const facts = ({ plan, recording: _, part: __, budget: ___, ...row }) => ({
+  ...row,
+  frames: plan.timed,
+  warmUp: plan.warmUp,
+});
 
 const problem = ({ name, peer, error, slow }) => ({ name, peer, ...(error ? { error } : { slow }) });
 

@@ -1,4 +1,4 @@
-import type { Plan } from './frames.mts';
+import type { Plan } from './frames.mjs';
 
 export interface BenchScene {
   boxes: Float32Array | Float64Array;

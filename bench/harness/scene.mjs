@@ -2,26 +2,30 @@
 // is played forth and back. A row says { scene | motion | recording, dimensions, count, numbers, seed }.
 import { readFileSync } from 'node:fs';
 import { gunzipSync } from 'node:zlib';
-import { createJitter, createMotion, createScene, readRecording } from '../../build/bench/library.mjs';
+import { createJitter, createMotion, createScene, framesOf, openPlain } from '../../build/bench/library.mjs';
 
 export function openScene(row) {
   const opened = open(row);
   return row.objects ? withThings(opened) : opened;
 }
 
-function open({ scene, motion, recording, dimensions, count, seed, speed, numbers, still, movers }) {
+function open({ scene, motion, recording, part, dimensions, count, seed, speed, numbers, still, movers }) {
   if (motion) return createMotion(motion, dimensions, count, seed);
   if (movers !== undefined) return createJitter(count, movers, seed);
-  if (recording) return play(recording);
+  if (recording) return play(recording, part);
   const made = createScene(scene, count, { seed, numbers, ...(speed !== undefined && { speed }) });
   const { boxes, fixed, world } = made;
   const step = still ? () => {} : () => made.step();
   return { dimensions: made.dimensions, count, boxes, fixed, world, step };
 }
 
-function play(path) {
+/** `part`: the first frame, and that before which to stop. */
+function play(path, part = []) {
   const bytes = readFileSync(path);
-  const { dimensions, count, frames, frame } = readRecording(path.endsWith('.gz') ? gunzipSync(bytes) : bytes);
+  const { dimensions, count, frames, frame } = framesOf(
+    openPlain(path.endsWith('.gz') ? gunzipSync(bytes) : bytes),
+    ...part,
+  );
   const boxes = frame(0).slice();
   const period = Math.max(1, 2 * (frames - 1));
   return {

@@ -1,4 +1,4 @@
-import type { Figures } from './judge.mts';
+import type { Figures } from './judge.mjs';
 
 export function mean(values: readonly number[]): number;
 export function median(values: readonly number[]): number;

@@ -6,7 +6,7 @@ import { homedir } from 'node:os';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
-import { loadCases } from '../cases.mjs';
+import { loadCases } from '../cases/index.mjs';
 import { techniques } from '../contenders/techniques.mjs';
 import { race } from '../harness/race.mjs';
 import { openScene } from '../harness/scene.mjs';

@@ -45,7 +45,9 @@ export async function rows({ names, counts: wanted = counts, full }) {
 /** The packages that find pairs in so many dimensions, each way to use one by itself. */
 export async function packagesOf(dimensions) {
   const found = [];
-  for (const file of readdirSync(path('../peers')).sort()) {
+  for (const file of readdirSync(path('../peers'))
+    .filter((name) => name.endsWith('.mjs'))
+    .sort()) {
     const peer = file.slice(0, -'.mjs'.length);
     const module = path(`../peers/${file}`);
     const { dimensions: able, variants = [undefined], npm } = await import(module);

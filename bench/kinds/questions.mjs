@@ -34,7 +34,9 @@ export async function rows({ names, counts, dimensions = [2, 3], full }) {
 
 /** Ours is the first. */
 async function askersThereAre() {
-  const files = readdirSync(path('../askers')).map((file) => file.slice(0, -'.mjs'.length));
+  const files = readdirSync(path('../askers'))
+    .filter((file) => file.endsWith('.mjs'))
+    .map((file) => file.slice(0, -'.mjs'.length));
   const names = ['broadphase', ...files.filter((name) => name !== 'broadphase').sort()];
   const found = [];
   for (const name of names) {

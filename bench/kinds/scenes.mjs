@@ -1,7 +1,7 @@
 // Scenes: all boxes are given at once, and all pairs found; against packages, and in doubles. With few boxes, and with
 // --full everywhere, every technique takes part.
 import { BroadPhase } from '../../build/bench/library.mjs';
-import { loadCases } from '../cases.mjs';
+import { loadCases } from '../cases/index.mjs';
 import { techniques } from '../contenders/techniques.mjs';
 import { framesFor } from '../harness/frames.mjs';
 import { packagesOf } from './objects.mjs';
@@ -18,9 +18,9 @@ const tooMany = 500_000;
 export async function rows({ names, counts, full }) {
   const packages = { 2: await packagesOf(2), 3: await packagesOf(3) };
   const chosen = [...loadCases().values()].filter(({ name }) => !names || names.includes(name));
-  return chosen.flatMap(({ name, scene, recording, counts: usual = [0] }) => {
+  return chosen.flatMap(({ name, scene, recording, part, counts: usual = [0] }) => {
     const dimensions = name.includes('3d') ? 3 : 2;
-    const of = recording ? { recording } : { scene };
+    const of = recording ? { recording, part } : { scene };
     const wanted = recording ? [0] : (counts ?? usual.filter((count) => full || count >= fewer));
     return wanted.flatMap((count) => {
       const plan = framesFor(count || fewer);

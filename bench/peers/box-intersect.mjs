@@ -1,6 +1,6 @@
 // box-intersect: takes an array of arrays, which is kept and filled anew each frame, and calls back with each pair.
 import boxIntersect from 'box-intersect';
-import { PairList } from '../pair-list.mjs';
+import { PairList } from './kit/pair-list.mjs';
 
 export const dimensions = [2, 3];
 

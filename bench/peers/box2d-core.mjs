@@ -1,6 +1,6 @@
 // @box2d/core: its dynamic tree of fat boxes. What moved is moved in it and searched again.
 import core from '@box2d/core';
-import { movingPairs } from '../moving-pairs.mjs';
+import { movingPairs } from './kit/moving-pairs.mjs';
 
 export const npm = '@box2d/core';
 export const dimensions = [2];

@@ -1,8 +1,8 @@
 // box2d3-wasm: Box2D v3 as a whole. Bodies are put in place, then a step of hardly any time updates its trees and
 // its contacts, and moves nothing to speak of; its events tell which pairs begin and cease to touch.
 import load from 'box2d3-wasm';
-import { Contacts } from '../contacts.mjs';
-import { resized } from '../resized.mjs';
+import { Contacts } from './kit/contacts.mjs';
+import { resized } from './kit/resized.mjs';
 
 export const dimensions = [2];
 

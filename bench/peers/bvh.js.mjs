@@ -1,7 +1,7 @@
 // bvh.js: a bounding volume hierarchy for three.js, either built anew each frame or kept, with what moved moved in it:
 // without a margin, since with a margin of 1 pairs of dense3d were missing, for a reason not found.
 import { BVH, HybridBuilder } from 'bvh.js';
-import { movingPairs } from '../moving-pairs.mjs';
+import { movingPairs } from './kit/moving-pairs.mjs';
 
 export const dimensions = [2, 3];
 export const variants = ['build', 'move'];

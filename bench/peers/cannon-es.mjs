@@ -1,8 +1,8 @@
 // cannon-es: its sweep and prune by bounding boxes, on bodies whose boxes are written in place. They are added in
 // sorted order, so that its insertion sort does not begin with the worst there is.
 import { Body, SAPBroadphase, World } from 'cannon-es';
-import { orderAlongX } from '../order.mjs';
-import { PairList } from '../pair-list.mjs';
+import { orderAlongX } from './kit/order.mjs';
+import { PairList } from './kit/pair-list.mjs';
 
 export const dimensions = [3];
 

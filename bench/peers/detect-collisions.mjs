@@ -1,7 +1,7 @@
 // detect-collisions: bodies in its own R-tree, tested by their polygons. What moved is moved, and then all are checked.
 import { System } from 'detect-collisions';
-import { PairList } from '../pair-list.mjs';
-import { resized } from '../resized.mjs';
+import { PairList } from './kit/pair-list.mjs';
+import { resized } from './kit/resized.mjs';
 
 export const dimensions = [2];
 

@@ -1,6 +1,6 @@
 // flatbush: a packed R-tree cannot be changed, so it is built anew each frame and searched once per box.
 import Flatbush from 'flatbush';
-import { PairList } from '../pair-list.mjs';
+import { PairList } from './kit/pair-list.mjs';
 
 export const dimensions = [2];
 

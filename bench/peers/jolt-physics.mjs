@@ -1,8 +1,8 @@
 // jolt-physics: its broad phase, a tree with four boxes to a node, brought into shape each frame; then one search for each
 // box that moved, answered through a collector written in JavaScript.
 import load from 'jolt-physics';
-import { movingPairs } from '../moving-pairs.mjs';
-import { resized } from '../resized.mjs';
+import { movingPairs } from './kit/moving-pairs.mjs';
+import { resized } from './kit/resized.mjs';
 
 export const dimensions = [3];
 

@@ -1,7 +1,7 @@
 // matter-js: its Detector sorts bodies by their bounds, sweeps, and tests the polygons of each pair. Bodies are
 // rectangles whose corners and bounds are written in place, which is what Body.setPosition does, and less.
 import Matter from 'matter-js';
-import { PairList } from '../pair-list.mjs';
+import { PairList } from './kit/pair-list.mjs';
 
 export const dimensions = [2];
 

@@ -1,7 +1,7 @@
 // phaser-box2d: Box2D v3's dynamic tree in JavaScript. What moved is moved in it and searched again. The package cannot
 // be imported by its name, so its file is.
 import * as box2d from 'phaser-box2d/dist/PhaserBox2D.js';
-import { movingPairs } from '../moving-pairs.mjs';
+import { movingPairs } from './kit/moving-pairs.mjs';
 
 export const dimensions = [2];
 

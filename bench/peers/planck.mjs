@@ -1,6 +1,6 @@
 // planck: its dynamic tree of fat boxes. What moved is moved in it and searched again.
 import { AABB, internal, Vec2 } from 'planck';
-import { movingPairs } from '../moving-pairs.mjs';
+import { movingPairs } from './kit/moving-pairs.mjs';
 
 export const dimensions = [2];
 

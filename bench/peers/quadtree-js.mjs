@@ -1,7 +1,7 @@
 // quadtree-js: cleared and filled anew each frame, as it asks for; what it retrieves are candidates. Its leaves hold
 // up to 10, and it may be as deep as the number of boxes needs.
 import Quadtree from '@timohausmann/quadtree-js';
-import { PairList } from '../pair-list.mjs';
+import { PairList } from './kit/pair-list.mjs';
 
 export const npm = '@timohausmann/quadtree-js';
 export const dimensions = [2];

@@ -1,6 +1,6 @@
-// rapier2d: see ../rapier.mjs.
+// rapier2d: see kit/rapier.mjs.
 import RAPIER from '@dimforge/rapier2d-compat';
-import { rapier } from '../rapier.mjs';
+import { rapier } from './kit/rapier.mjs';
 
 export const npm = '@dimforge/rapier2d-compat';
 export const dimensions = [2];

@@ -1,6 +1,6 @@
-// rapier3d: see ../rapier.mjs.
+// rapier3d: see kit/rapier.mjs.
 import RAPIER from '@dimforge/rapier3d-compat';
-import { rapier } from '../rapier.mjs';
+import { rapier } from './kit/rapier.mjs';
 
 export const npm = '@dimforge/rapier3d-compat';
 export const dimensions = [3];

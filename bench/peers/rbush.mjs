@@ -1,8 +1,8 @@
 // rbush: an R-tree of objects. Either loaded anew each frame, which its authors advise when all moves, or kept, with
 // every box that moved removed and inserted.
 import RBush from 'rbush';
-import { movingPairs } from '../moving-pairs.mjs';
-import { PairList } from '../pair-list.mjs';
+import { movingPairs } from './kit/moving-pairs.mjs';
+import { PairList } from './kit/pair-list.mjs';
 
 export const dimensions = [2];
 export const variants = ['load', 'remove + insert'];

@@ -1,6 +1,6 @@
 // What every tutorial begins with, in plain JavaScript: an array of objects, each tested against all after it.
-import { PairList } from '../pair-list.mjs';
-import { fill, objects } from '../tutorial.mjs';
+import { PairList } from './kit/pair-list.mjs';
+import { fill, objects } from './kit/tutorial.mjs';
 
 export const npm = null;
 export const dimensions = [2, 3];

@@ -1,7 +1,7 @@
 // The grid of a tutorial, in plain JavaScript: a Map from cell to the objects in it, built anew each frame; cells twice
 // as wide as the average box; a Set of the pairs seen, since two boxes may share several cells.
-import { PairList } from '../pair-list.mjs';
-import { fill, objects } from '../tutorial.mjs';
+import { PairList } from './kit/pair-list.mjs';
+import { fill, objects } from './kit/tutorial.mjs';
 
 export const npm = null;
 export const dimensions = [2, 3];

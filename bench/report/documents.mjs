@@ -26,52 +26,52 @@ export function figuresPage(record) {
   const part = (kind, ...text) => has(kind) && joined(...text);
   return joined(
     '# Figures',
-    'What `npm run bench` has measured, from `bench/results/`; the command writes this page. [How it is measured](../bench/README.md): all contenders of a row are timed in the same frames, in turns, and their pairs are compared in each. Read ratios: the machine itself is faster at some hours than at others.',
+    'Measured with `npm run bench`, which writes this page from `bench/results/`. [How it is measured](../bench/README.md): all contenders of a row are timed in the same frames, in turns, and their pairs are compared in each. Read the ratios, since the speed of the machine varies from hour to hour.',
     originOf(record),
     '## Goals',
     goalTable(goals(record)),
     part(
       'objects',
       '## A whole frame, from objects',
-      'A game holds things with x, y, width and height in doubles. In a frame it gives the boxes, finds all pairs, and looks at both things of each. "Slow" is who cannot be timed in five frames within a second.',
+      'A game has things with x, y, width and height in doubles. In a frame it gives the boxes, finds all pairs, and reads both things of each pair. A contender that cannot be timed in five frames within a second is "slow".',
       objectsTable(record),
-      'All move: how many times the time of `set` each package takes.',
+      'All move: the time of each package divided by that of `set`.',
       objectsOthers(record),
     ),
     part(
       'motions',
       '## Motions',
-      '`update` of `auto`, in the same frames as `strip-sweep`, which finds all pairs anew. Positions are doubles: given by `set`, or written in place as float32. Of three playings the least time of each frame counts. "Start" is the frames before those that are timed.',
+      '`update` of `auto`, in the same frames as `strip-sweep`, which does a full rebuild in each. Positions are doubles: given by `set`, or written in place as float32. Each motion runs three times, and the fastest time of each frame counts. "Start" is the frames before the timed ones.',
       motionsTable(record, 'motions'),
     ),
     part(
       'movers',
       '## Few movers',
-      'So many boxes jitter by up to half their side and are set; all others rest.',
+      'A given number of boxes jitter by up to half their side and are set; all others are at rest.',
       motionsTable(record, 'movers'),
     ),
     part(
       'once',
       '## One-shot',
-      'The first call in a fresh process, and the tenth (the fourth, where a call takes more than 300 ms).',
+      'Milliseconds of the first call in a fresh process, and of the tenth (the fourth, if a call takes more than 300 ms).',
       onceTable(record),
     ),
     part(
       'cold',
       '## Cold',
-      'From the start of the process, or of the page, to the first pair of two boxes; and whole frames of 1,000 things in a fresh process.',
+      'Milliseconds from the start of the process, or of the page, to the first pair of two boxes; and of whole frames of 1,000 things in a fresh process.',
       coldTable(record),
     ),
     part(
       'scenes',
       '## Scenes',
-      'All boxes are given at once, as float32 in place, or as doubles by `setAll`; a frame is giving and finding.',
+      'All boxes are given at once, as float32 in place, or as doubles by `setAll`; a frame includes giving the boxes and finding the pairs.',
       scenesTable(record),
       '### Techniques',
-      '`update` alone; the best in bold.',
+      '`update` alone; the fastest is in bold.',
       techniquesTable(record),
     ),
-    part('questions', '## Questions', '1,000 a frame.', questionsTable(record)),
+    part('questions', '## Questions', '1,000 queries per frame.', questionsTable(record)),
     part('native', '## Native libraries, side by side', versionsOf(record), nativeTable(record)),
   );
 }
@@ -115,9 +115,9 @@ export function headlineOf(record) {
     });
   return joined(
     originOf(record),
-    'A whole frame of a game: its things are objects, their boxes are given, all pairs found, and both things of each looked at.',
+    'A whole frame of a game: its things are objects, their boxes are given, all pairs found, and both things of each pair read.',
     worthTable(record, headlineThings),
-    'The kernel alone, boxes written in place as float32. `uniform`: all move; `mixed`: sizes from 2 to 2,000; `static`: 5 % move; `rain`: a recorded game of Box2D.',
+    'The kernel alone, with boxes written in place as float32. `uniform`: all move; `mixed`: sizes from 2 to 2,000; `static`: 5 % move; `rain`: a recorded Box2D game.',
     markdownTable(['scene', 'boxes', 'pairs', '`auto`', 'the fastest npm package', 'that is'], cells),
   );
 }
@@ -127,7 +127,7 @@ export const worthOf = (record) =>
   joined(
     originOf(record),
     worthTable(record),
-    'All move: how many times the time of `set` each package takes.',
+    'All move: the time of each package divided by that of `set`.',
     objectsOthers(record),
   );
 

@@ -78,7 +78,7 @@ export function goals(record) {
   const byHand = (row) => fastest(row, ({ peer }) => peer === 'by hand')?.total.median;
   return [
     inAll(
-      'a whole frame from objects by `set`: ahead of what one writes oneself',
+      'a whole frame from objects by `set`: ahead of hand-written code',
       objects,
       (row) => over(byHand(row), totalOf(row, 'set')),
       1,
@@ -116,7 +116,12 @@ export function goals(record) {
       true,
     ),
     atMost('1,000,000 moving boxes, 2D: 16.6 ms', update(scene('uniform2d', 1_000_000), 'auto'), 16.6, 'ms'),
-    atMost('100,000 resting and 1,000 moving, update: 0.1 ms', update(scene('tile-map', 101_000), 'auto'), 0.1, 'ms'),
+    atMost(
+      '100,000 boxes at rest and 1,000 moving, update: 0.1 ms',
+      update(scene('tile-map', 101_000), 'auto'),
+      0.1,
+      'ms',
+    ),
     inAll(
       '`auto` never more than 10 % and 20 microseconds slower than the best technique',
       scenes.filter(autoAgainstBest),
@@ -125,14 +130,14 @@ export function goals(record) {
       times,
     ),
     inAll(
-      'motions to tune on: `auto` against finding all anew, each within its limit',
+      'motions for tuning: `auto` against a full rebuild, each within its limit',
       held.filter(({ set }) => set === 'tune'),
       (row) => ratiosOf(row).median,
       limitOf,
       times,
     ),
     inAll(
-      'motions to judge by: each within its limit',
+      'motions for validation: each within its limit',
       held.filter(({ set }) => set === 'check'),
       (row) => ratiosOf(row).median,
       limitOf,
@@ -146,13 +151,13 @@ export function goals(record) {
       times,
     ),
     inAll(
-      'all motions: the first frames cost no more than 1.15 times all anew',
+      'all motions: the first frames cost no more than 1.15 full rebuilds',
       held,
       (row) => ratiosOf(row).start,
       1.15,
       times,
     ),
-    inAll('few movers: never above 1.05 times all anew', movers, (row) => ratiosOf(row).median, 1.05, times),
+    inAll('few movers: never above 1.05 full rebuilds', movers, (row) => ratiosOf(row).median, 1.05, times),
     inAll(
       '`findPairs`, first call: ahead of every package',
       once,
@@ -170,7 +175,7 @@ export function goals(record) {
       true,
     ),
     inAll(
-      'every question: ahead of every npm package',
+      'every query: ahead of every npm package',
       questions,
       (row) => over(fastest(row, isPackage)?.total.median, totalOf(row, 'broadphase')),
       1,

@@ -5,7 +5,7 @@ export const motionTitles = [
   'motion',
   'boxes',
   'given',
-  'pairs: mean, least–most',
+  'pairs: mean, min–max',
   'kept',
   'strip-sweep',
   '`auto`: median',
@@ -17,7 +17,7 @@ export const motionTitles = [
   'of p95',
   'start: of means',
   'give',
-  'bytes a box',
+  'bytes per box',
 ];
 
 /** How many times the time of `strip-sweep` that of `auto` is, by the medians, means and p95s of `update`. A slow one was

@@ -59,7 +59,7 @@ export function scenesTable(record) {
   const titles = [
     'scene',
     'boxes',
-    'pairs: mean (least–most)',
+    'pairs: mean (min–max)',
     '`auto`',
     'in doubles',
     'the fastest npm package',
@@ -107,7 +107,7 @@ export function techniquesTable(record) {
 export const motionsTable = (record, kind) => {
   const rows = ofKind(record, kind);
   const sets = [...new Set(rows.map(({ set }) => set))];
-  const titled = { tune: 'To tune on:', check: 'To judge by:' };
+  const titled = { tune: 'For tuning:', check: 'For validation:' };
   return sets
     .map((set) => {
       const table = markdownTable(motionTitles, rows.filter((row) => row.set === set).map(motionCells));
@@ -117,7 +117,7 @@ export const motionsTable = (record, kind) => {
 };
 
 export function questionsTable(record) {
-  const titles = ['question', 'boxes', '`broadphase`', 'the fastest npm package', 'that is', 'answers'];
+  const titles = ['query', 'boxes', '`broadphase`', 'the fastest npm package', 'that is', 'answers'];
   const cells = ofKind(record, 'questions').map((row) => {
     const [ours, peer] = [named(row, 'broadphase'), fastest(row, isPackage)];
     const when = row.still ? '' : ' after an update of all';
@@ -160,7 +160,7 @@ export function coldTable(record) {
         ]),
   );
   return markdownTable(
-    ['', 'who', 'first', 'mean of ten frames', 'of 120', 'of first: import to pairs', 'script, kB gzipped'],
+    ['', 'contender', 'first', 'mean of ten frames', 'of 120', 'of first: import to pairs', 'script, kB gzipped'],
     cells,
   );
 }
@@ -178,5 +178,5 @@ export function nativeTable(record) {
       `${each.timed}${each.wrong ? '; WRONG' : ''}`,
     ]);
   });
-  return markdownTable(['scene', 'boxes', 'who', 'ms', 'of strip-sweep', 'frames'], cells);
+  return markdownTable(['scene', 'boxes', 'contender', 'ms', 'of strip-sweep', 'frames'], cells);
 }

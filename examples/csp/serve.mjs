@@ -1,5 +1,5 @@
 // Serves the page with a policy that allows its own files and nothing else:
-//   node serve.mjs, then open the address it prints
+//   npm i && npm start, then open the address it prints
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { fileURLToPath } from 'node:url';

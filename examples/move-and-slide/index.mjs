@@ -1,5 +1,5 @@
 // A walker in a world of tiles, drawn as text: it falls along a wall, lands, walks, jumps a step and stops in a corner.
-// node index.mjs
+// npm i && npm start
 import { BroadPhase } from 'broadphase';
 import { moveAndSlide } from './move-and-slide.mjs';
 

@@ -6,7 +6,7 @@ const balls = 200;
 
 class Bouncing extends Phaser.Scene {
   create() {
-    const ball = this.make.graphics({ x: 0, y: 0 }, false).fillStyle(0x93a6ff).fillCircle(6, 6, 6);
+    const ball = this.make.graphics({ x: 0, y: 0 }, false).fillStyle(0x5f78e8).fillCircle(6, 6, 6);
     ball.generateTexture('ball', 12, 12);
     const moving = this.physics.add.group({ collideWorldBounds: true, bounceX: 1, bounceY: 0.9 });
     for (let k = 0; k < balls; k++) {
@@ -28,8 +28,8 @@ class Bouncing extends Phaser.Scene {
 new Phaser.Game({
   type: Phaser.CANVAS,
   parent: 'game',
-  width: 640,
-  height: 400,
+  scale: { mode: Phaser.Scale.FIT, autoCenter: Phaser.Scale.CENTER_BOTH, width: 640, height: 400 },
+  transparent: true,
   banner: false,
   audio: { noAudio: true },
   physics: { default: 'arcade', arcade: { gravity: { x: 0, y: 200 } } },

@@ -1,4 +1,4 @@
-// node index.mjs: 1,000 players without a network, and what telling everybody everything
+// npm i && npm start: 1,000 players without a network, and what telling everybody everything
 // would cost instead. With --serve it listens on port 8080, 20 ticks a second.
 import { Interest } from './interest.mjs';
 import { startServer } from './server.mjs';

@@ -1,4 +1,4 @@
-// Tests of one box against another, as they stand in the scene.
+// Tests of one box against another, in the scene's layout.
 #pragma once
 #include "base/simd.hpp"
 

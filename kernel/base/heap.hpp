@@ -1,9 +1,9 @@
 // Memory: growable arrays over one heap that never asks twice for the same bytes.
-// Idea: sizes are rounded up to quarter octaves (waste at most 25 %); a block given back waits in the list of
-// its size class; the last block grows in place, so the pair list, the one array whose size nobody knows
-// beforehand, costs no copy. Natively the same arrays stand on malloc, where AddressSanitizer sees them.
-// Running out: nothing has been changed yet when `fail` is called; it does not return (wasm: a trap that the
-// JavaScript side turns into an error; natively: an exception).
+// Idea: sizes are rounded up to quarter octaves (waste at most 25 %); a block given back waits in the list of its size
+// class; the last block grows in place, so the pair list, the one array of unpredictable size, costs no copy. Natively
+// the same arrays use malloc, where AddressSanitizer sees them. Running out of memory: nothing has been changed yet
+// when `fail` is called; it does not return (wasm: a trap that the JavaScript side turns into an error; natively: an
+// exception).
 #pragma once
 #include "base/simd.hpp"
 

@@ -1,5 +1,5 @@
-// Doubles to float32, outward, for what has to contain them: what is rounded down is never above, what is rounded up
-// never below.
+// Rounds doubles outward to float32, for bounds that must contain them: rounded down is never above, rounded up never
+// below.
 #pragma once
 #include "base/heap.hpp"
 

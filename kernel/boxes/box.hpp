@@ -177,13 +177,13 @@ inline void transpose(f32x4 (&row)[4]) {
 }
 
 /// Items as structure of arrays, for tests of one against four: lo and hi per axis, and the tags.
-/// Followed by `padding` NaN boxes, which overlap nothing: reading past the end is harmless.
+/// Followed by `spare_lanes` NaN boxes, which overlap nothing: reading past the end is harmless.
 template <int D> class Lanes {
   Buffer<f32> values_;
   size_t stride_ = 0;
 
  public:
-  static constexpr u32 padding = 16;
+  static constexpr u32 spare_lanes = 16;
 
   f32* lo(int axis) const { return values_.data() + size_t(axis) * stride_; }
   f32* hi(int axis) const { return values_.data() + size_t(D + axis) * stride_; }
@@ -200,7 +200,7 @@ template <int D> class Lanes {
   }
 
   void reserve(u32 n) {
-    size_t stride = (size_t(n) + padding + 3) & ~size_t(3);
+    size_t stride = (size_t(n) + spare_lanes + 3) & ~size_t(3);
     if (stride <= stride_) return;
     values_.reserve(stride * (2 * D + 1));
     stride_ = values_.capacity() / (2 * D + 1) & ~size_t(3);
@@ -217,7 +217,7 @@ template <int D> class Lanes {
       Item<D> four[4] = {items[k], items[k + 1], items[k + 2], items[k + 3]};
       put4(k, four);
     }
-    for (; k < n + padding; k += 4) {
+    for (; k < n + spare_lanes; k += 4) {
       Item<D> four[4];
       ROLLED  // once or twice in a list
           for (u32 lane = 0; lane < 4; lane++) four[lane] = k + lane < n ? items[k + lane] : nothing();

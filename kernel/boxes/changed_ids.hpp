@@ -1,8 +1,8 @@
-// Which ids have changed with the updates, for those who ask now and then.
-// Idea: a list of them, update after update, with the slots in which their boxes stand since; or, where all may have
-// changed, or the list has become as long as there are boxes, a new epoch. Who asks remembers the epoch and how much of
-// the list it has read.
-// Cost: about 1 ns for each box that an update has changed, once somebody has asked.
+// Which ids the updates have changed, for readers that look now and then.
+// Idea: a list of them, update after update, with the slots of their boxes since then. If all may have changed, or the
+// list is as long as there are boxes, a new epoch begins. Each reader remembers the epoch and how much of the list it
+// has read.
+// Cost: about 1 ns for each box that an update has changed, once there is a reader.
 #pragma once
 #include "base/heap.hpp"
 

@@ -1,8 +1,8 @@
 // Which boxes have changed since the last update.
-// Idea: a list of slots and a mark for each, so that a slot enters once; or, where memory was written past our eyes,
-// "all may have". What is not in it is what it was, so an update of a world at rest costs nothing.
-// A mark is a byte: bits of neighbours would be read and written one after the other.
-// Cost: about 1 ns for each that is noted; 5 bytes for each box.
+// Idea: a list of slots and a mark for each, so that a slot enters once; or, if memory was written without a call, "all
+// may have changed". A slot that is not in it is unchanged, so an update of a world at rest costs nothing. A mark is a
+// byte: neighbouring bits would form a dependency chain of reads and writes.
+// Cost: about 1 ns for each recorded change; 5 bytes for each box.
 #pragma once
 #include "base/heap.hpp"
 

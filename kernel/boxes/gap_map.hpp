@@ -1,19 +1,22 @@
-// Where boxes that float32 cannot hold are searched: the numbers given, with what is far away brought near.
-// Idea: what overlaps is still in the same order after any map that keeps order, along each axis by itself. So the search
-// may see other numbers than those given, if they are rounded to float32 by one such map: what overlaps overlaps in them
-// too, and what is strictly apart, or strictly overlaps, in them is so in the numbers given. Only where two bounds are
-// equal in float32 the numbers given decide.
-// The map subtracts a number of each piece of an axis, and leaves out the wide gaps between pieces. So a world far from
-// the origin, or in clusters far from one another, has all of float32's steps for itself. It is chosen from a sample, and
-// is right whatever it is: a box in a gap that no sample saw is put at the gap's end.
-// Cost: 0.3 ns a box without pieces, then a comparison each; 64 samples an axis when it is chosen.
-// From: coordinate compression; rounding that keeps order, as interval arithmetic uses it.
+// A monotone map from the doubles given to numbers that float32 can hold, without the wide gaps between them.
+// Idea: a monotone map along each axis keeps the order of bounds. So the search may use mapped numbers, rounded to
+// float32: boxes that overlap still overlap in them, and boxes that are strictly apart, or strictly overlap, in them do
+// so in the numbers given. Only if two bounds are equal in float32 do the numbers given decide. The map subtracts a
+// constant from each piece of an axis, and removes the wide gaps between pieces. So a world far from the origin, or in
+// distant clusters, has the full precision of float32. It is chosen from a sample, and any choice is correct: a box in
+// a gap that no sample saw is put at the gap's end.
+// Cost: 0.3 ns per box without pieces, then a comparison for each piece; 64 samples per axis when it is chosen.
+// From: coordinate compression; monotone rounding as in interval arithmetic.
 #pragma once
 #include "boxes/scene_sample.hpp"
 
 template <int D> class GapMap {
   static constexpr u32 width = 2 * D, most_cuts = 7;
-  static constexpr u32 regular = 64, most_samples = 512;
+  static constexpr u32 regular = 64, most_others = 512;
+  // Float32's steps have to get so many times as fine for another map, or another gap, to be worth it.
+  static constexpr f64 worth = 16;
+  // A gap that is taken out stays as wide as so many boxes of ordinary size, or a share of what is left.
+  static constexpr f64 gap_boxes = 4, gap_share = 4;
   static constexpr f32 largest = 3.40282347e38f;
 
   // Piece p of an axis begins at from[p]; less[p] is subtracted in it, and what comes out ends where the next begins.
@@ -53,6 +56,57 @@ template <int D> class GapMap {
     last = load<f32x4>(to + width - 4);
   }
 
+  /// Rounds a box; gives whether it collapses. `plain`: of this map, in a register of the caller.
+  bool round(bool plain, const f64* box, f32* to) const {
+    f32x4 first, last;
+    narrowed(box, first, last);
+    // What has a size in float32, and an end, needs no second look.
+    if (!plain || !is_sized(first, last)) return round_slowly(box, to);
+    store(to, first);
+    if constexpr (D == 3) store(to + width - 4, last);
+    return false;
+  }
+
+  /// What came of rounding many boxes.
+  struct Rounded {
+    i32 bad = -1;  // the first that is none: what follows it is not rounded
+    bool inexact = false;  // float32 does not hold all numbers
+    u32 collapsed = 0;  // boxes that are points then, along an axis, but were none
+  };
+
+  /// Boxes as float32, one after the other: as they are if float32 holds all of them, otherwise as `round` has them.
+  NOINLINE Rounded round_all(const f64* from, u32 count, f32* to) const {
+    const bool plain = plain_;
+    bool mapped = !plain, inexact = false;
+    u32 collapsed = 0;
+    for (u32 s = 0; s < count; s++, from += width, to += width) {
+      f32x4 pairs[D], first, last;
+      for (u32 k = 0; k < D; k++) pairs[k] = narrow(load<f64x2>(from + 2 * k));
+      join(pairs, first, last);
+      inexact = inexact || !are_floats(from, pairs);
+      // What has a size in float32, and an end, is a box, and needs no second look.
+      if (plain && is_sized(first, last)) {
+        store(to, first);
+        if constexpr (D == 3) store(to + width - 4, last);
+        continue;
+      }
+      if (!is_box(from)) return {i32(s), inexact, collapsed};
+      collapsed += round_slowly(from, to);
+      mapped = true;
+    }
+    if (inexact) return {-1, true, collapsed};
+    for (u64 k = u64(count) * width; mapped && k > 0; k--) *--to = f32(*--from);
+    return {};
+  }
+
+  /// Whether rounding has made a point of a box along an axis.
+  static bool collapses(const f64* box, f32x4 first, f32x4 last) {
+    u32 axes = bitmask(i32x4(first == upper(first, last))) & ((1 << D) - 1);
+    bool is = false;
+    for (u32 a = 0; axes != 0 && a < D; a++) is |= (axes >> a & 1) && box[a] < box[D + a];
+    return is;
+  }
+
   /// The number that is searched where this one was given, before it is rounded.
   f64 map(f64 x, u32 axis) const {
     if (plain_) return x;
@@ -74,7 +128,7 @@ template <int D> class GapMap {
     GapMap other;
     bool better = false;
     for (u32 a = 0; a < D; a++) {
-      f64 low[most_samples + regular], size[most_samples + regular];
+      f64 low[most_others + regular], size[most_others + regular];
       u32 n = 0;
       auto look_at = [&](u32 slot) {
         f64 lo = boxes[u64(slot) * width + a], hi = boxes[u64(slot) * width + D + a];
@@ -84,11 +138,11 @@ template <int D> class GapMap {
       };
       detail::Sampling sampling(count, smaller(count, regular));
       for (u32 k = 0; k < smaller(count, regular); k++) look_at(sampling.next());
-      for (u32 k = 0; k < smaller(more_count, most_samples); k++) look_at(more[k]);
+      for (u32 k = 0; k < smaller(more_count, most_others); k++) look_at(more[k]);
       sort(low, n);
       sort(size, n);
       f64 now = n ? larger(__builtin_fabs(map(low[0], a)), __builtin_fabs(map(low[n - 1], a))) : 0;
-      if (n && now > 16 * other.cut(low, n, size[n / 2], a)) better = true;
+      if (n && now > worth * other.cut(low, n, size[n / 2], a)) better = true;
       else other.take(*this, a);
     }
     if (better) *this = other;
@@ -104,6 +158,40 @@ template <int D> class GapMap {
   static void join(const f32x4 (&pairs)[D], f32x4& first, f32x4& last) {
     first = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 4, 5);
     last = __builtin_shufflevector(pairs[D - 2], pairs[D - 1], 0, 1, 4, 5);
+  }
+
+  /// The maxima of a box in the lanes of its minima.
+  static f32x4 upper(f32x4 first, f32x4 last) {
+    if constexpr (D == 2) return __builtin_shufflevector(first, first, 2, 3, 2, 3);
+    else return __builtin_shufflevector(last, last, 1, 2, 3, 3);
+  }
+
+  NOINLINE bool round_slowly(const f64* box, f32* to) const {
+    f32x4 first, last;
+    round(box, first, last);
+    store(to, first);
+    if constexpr (D == 3) store(to + width - 4, last);
+    return collapses(box, first, last);
+  }
+
+  /// Whether the box has a size along each axis that is neither 0 nor endless.
+  static bool is_sized(f32x4 first, f32x4 last) {
+    constexpr u32 axes = (1 << D) - 1;
+    f32x4 size = upper(first, last) - first;
+    return (bitmask((size > splat(0.0f)) & (size <= splat(largest))) & axes) == axes;
+  }
+
+  /// Whether these pairs are still the numbers that they were rounded from.
+  static bool are_floats(const f64* numbers, const f32x4 (&pairs)[D]) {
+    i32x4 rounded = {};
+    for (u32 k = 0; k < D; k++) rounded |= bits<i32x4>(widen(pairs[k]) != load<f64x2>(numbers + 2 * k));
+    return !any(rounded);
+  }
+
+  static bool is_box(const f64* box) {
+    bool good = at_most(load<f64x2>(box), load<f64x2>(box + D)) == 3;
+    if constexpr (D == 3) good &= box[2] <= box[5];
+    return good;
   }
 
   NOINLINE f64x2 shifted(f64x2 x, u32 number) const {
@@ -162,8 +250,8 @@ template <int D> class GapMap {
       cuts[found] = widest;
       left[found + 1] = larger(0.0, left[found] - (low[widest] - low[widest - 1]));
     }
-    f64 room = 4 * size;
-    while (best < found && left[best] > 16 * (left[found] + room)) best++;
+    f64 room = gap_boxes * size;
+    while (best < found && left[best] > worth * (left[found] + room)) best++;
     for (u32 c = 1; c < best; c++) {  // in ascending order
       for (u32 k = c; k > 0 && cuts[k - 1] > cuts[k]; k--) {
         u32 other = cuts[k];
@@ -171,7 +259,7 @@ template <int D> class GapMap {
         cuts[k - 1] = other;
       }
     }
-    f64 gap = larger(left[best] / 4, room), all = left[best] + 2 * f64(best) * gap, half = all / 2;
+    f64 gap = larger(left[best] / gap_share, room), all = left[best] + 2 * f64(best) * gap, half = all / 2;
     // A multiple of a power of two: what stands on a grid stays on it.
     f64 grid = bits<f64>(bits<u64>(larger(half, 1e-290)) >> 52 << 52) / 16;
     f64 at = -half;  // where the piece begins that comes next

@@ -1,10 +1,9 @@
-// The user's ids and the kernel's slots.
-// Boxes stand densely in slots 0 … count - 1; deleting moves the last one into the gap. As long as the ids are
-// just 0 … count - 1 in order (an array's indices), slot and id are the same and nothing is stored. From the
-// first gap on, the id of each slot is kept, and the slot of each id in pages of 4,096, so that an id near the
-// limit of 2^24 costs a page, not a table of 2^24.
-// Slots stand in the order in which boxes came, until one takes the place of another. From then on each has a number
-// that says it; a sort by these gives the ids as a Map would.
+// The user's ids and the kernel's slots. Boxes are stored densely in slots 0 … count - 1; deleting moves the last one
+// into the gap. As long as the ids are just 0 … count - 1 in order (an array's indices), slot and id are the same and
+// nothing is stored. From the first gap on, the id of each slot is kept, and the slot of each id in pages of 4,096, so
+// that an id near the limit of 2^24 costs a page, not a table of 2^24. Slots are in the order in which boxes were
+// added, until one takes the place of another. From then on each has a sequence number; a sort by these gives the ids
+// in the order of a Map.
 #pragma once
 #include "base/radix_sort.hpp"
 

@@ -1,6 +1,6 @@
-// A number of each box that most spaces never give: 0 until it is given, and it belongs to the id.
-// Idea: nothing is kept, and nothing costs anything, until the first box has one; then one for each slot.
-// Cost: its size, for each box there is room for.
+// A number per box that most spaces never use: 0 by default, and it belongs to the id.
+// Idea: nothing is stored, at no cost, until the first box has one; then one is stored for each slot.
+// Cost: its size, for the capacity in boxes.
 #pragma once
 #include "boxes/ids.hpp"
 
@@ -35,7 +35,7 @@ template <class T> class PerBox {
     some_ = changed_ = true;
   }
 
-  // The slots' doings, as in Space.
+  // The slots' doings, as in Store.
   SMALL void make_room(u64 count, u32 keep) {
     if (some_) values_.grow(count, keep);
   }

@@ -1,8 +1,8 @@
 // What a frame looks like, from a sample of it: extents, sizes and crowding.
-// Idea: a few hundred boxes at jittered strides (fixed strides alias with structured input). Where the extents
-// have a heavy tail (one box at 1e9 must not stretch the grid) the 2nd and 98th percentiles take their place.
-// Crowding is measured by a coarse histogram: how many times more neighbours a box has than if all were spread
-// evenly. Depends on the boxes alone, never on the frames before, so that a restored space acts the same.
+// Idea: a few hundred boxes at jittered strides (fixed strides alias with structured input). If the extents have a
+// heavy tail (one box at 1e9 must not stretch the grid), the 2nd and 98th percentiles take their place. Crowding is
+// measured by a coarse histogram: the ratio of a box's neighbours to those it would have if all were spread evenly. It
+// depends on the boxes alone, never on earlier frames, so that a restored space behaves the same.
 // Cost: about 10 ns for each of at most 1,024 sampled boxes.
 #pragma once
 #include "boxes/box.hpp"

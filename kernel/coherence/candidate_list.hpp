@@ -1,13 +1,14 @@
-// The list: candidates, the regions in which they hold, and what is done for boxes that leave theirs.
+// The list of candidates: the regions in which they hold, and how boxes that leave theirs are served.
 //
-// Idea: each box has a region, which is the box when the list was made and a margin on all sides. Two boxes whose regions
-// touch are a candidate. While boxes stay in their regions, an update looks at all boxes and tests the candidates.
-//   - Late: a box that has left its region gets another, and the candidates that come with it. Its base, which is the
-//     region it had first, still says which candidates are listed.
-//   - Rest: a box that has not moved while a list lived, or in the update before the first one, is its own region. Pairs
-//     of two at rest are settled: they stand at the head of the list of pairs, and nobody tests them.
-// Cost: about 1 ns a box and 2 ns a candidate; 0.4 µs a late box; to make it, one and a half to two strip sweeps.
-// Memory, beside that of strip sweep: about 55 (2D) or 71 (3D) bytes a box, and 8 a candidate.
+// Idea: each box has a region, which is the box as it was when the list was made, with a margin on all sides. Two boxes
+// whose regions touch are a candidate. While boxes stay in their regions, an update checks all boxes and tests the
+// candidates.
+//   - Late: a box that has left its region gets another, and the candidates that follow from it. Its base, which is its
+//     first region, still determines which candidates are listed.
+//   - At rest: a box that has not moved during the life of a list, or in the update before the first list, is its own
+//     region. Pairs of two such boxes are settled: they are at the head of the list of pairs, and are not tested again.
+// Cost: about 1 ns per box and 2 ns per candidate; 0.1 (2D) to 0.6 µs per late box; 1.5 to two strip sweeps to make the
+// list. Memory, in addition to that of strip sweep: about 55 (2D) or 71 (3D) bytes per box, and 8 per candidate.
 // From: L. Verlet, "Computer Experiments on Classical Fluids", 1967.
 #pragma once
 #include "coherence/places.hpp"
@@ -16,6 +17,8 @@
 
 template <int D> class CandidateList {
   static constexpr u32 width = 2 * D;
+  static constexpr u32 room_step = 4096;  // candidates between two looks whether there is room for their pairs
+  static constexpr u32 doubt_step = 32;  // candidates whose pairs are in doubt together
   static constexpr u32 padding = 4;  // vector loads may read this many floats past the last box
   static constexpr Tuning<D> tuning = {};
   // In a tag, below the exclusion bits:
@@ -28,11 +31,10 @@ template <int D> class CandidateList {
   bool grouped_ = false;  // some have a group
   // Per slot:
   Buffer<f32> regions_;
-  Buffer<f32> bases_;  // the regions when the list was made, from when the first box was late
   Buffer<u32> tags_;  // exclusion bits, and ours below them
   Buffer<u32> groups_;  // while `grouped_`: two of one group are no candidate
   Buffer<u32> late_;  // slots; and behind them those that a search has met
-  Places<D> places_;  // of the regions, likewise
+  Places<D> places_;  // of the regions, and those when the list was made: from when the first box was late
   bool placed_ = false;
   u32 late_count_ = 0, resting_ = 0;
   u64 met_ = 0;  // regions that a search for the late has met in this update
@@ -76,7 +78,6 @@ template <int D> class CandidateList {
   SMALL void release() {
     forget();
     regions_.release();
-    bases_.release();
     tags_.release();
     groups_.release();
     late_.release();
@@ -133,10 +134,9 @@ template <int D> class CandidateList {
     if (!placed_) place();
     for (u32 slot = n; slot < had; slot++) {
       resting_ -= tags_[slot] & rests;
-      places_.remove(slot);
+      places_.remove(region(slot), slot);
     }
     make_room(n, both);
-    bases_.grow(u64(n) * width + padding, u64(both) * width);
     if (grouped_) groups_.grow(n, both);
     places_.make_room(n, both);
     for (u32 slot = had; slot < n; slot++) {
@@ -164,7 +164,6 @@ template <int D> class CandidateList {
 
  private:
   f32* region(u32 slot) const { return regions_.data() + u64(slot) * width; }
-  f32* base(u32 slot) const { return bases_.data() + u64(slot) * width; }
 
   // --- a list is made ---
 
@@ -295,11 +294,7 @@ template <int D> class CandidateList {
   NOINLINE void place() {
     f64 low[D], high[D], sizes[D];
     anew_.bounds(low, high, sizes);
-    places_.divide(low, high, count_);
-    places_.make_room(count_, 0);
-    for (u32 slot = 0; slot < count_; slot++) places_.put(region(slot), slot);
-    u64 numbers = u64(count_) * width;
-    __builtin_memcpy(bases_.reserve(numbers + padding), regions_.data(), numbers * sizeof(f32));
+    places_.fill(regions_.data(), count_, low, high);
     placed_ = true;
   }
 
@@ -323,11 +318,11 @@ template <int D> class CandidateList {
       list[many++] = slot;
       were |= tag;
       resting_ -= tag & rests;
-      if (slot < had) places_.remove(slot);
+      if (slot < had) places_.remove(region(slot), slot);
       if (tag & fresh) {  // no candidate of it is listed
         tag = fresh | scene.excluded_of(slot);
         if (grouped_) groups_[slot] = scene.group_of(slot);
-        for (u32 k = 0; k < width; k++) base(slot)[k] = __builtin_nanf("");
+        places_.forget_base(slot);
       }
       tags_[slot] = (tag & ~rests) | late;
     }
@@ -371,19 +366,14 @@ template <int D> class CandidateList {
     u32 tag = tags_[slot];
     shifted(scene.box(slot), box);
     widen(box, aside, larger_one);
-    u32 found = 0;
-    places_.each_near(larger_one, [&](u32 other) {
-      near[found] = other;
-      found += boxes_touch<D>(larger_one, region(other));
-      met_++;
-    });
+    u32 found = places_.near(larger_one, regions_.data(), near, met_);
     u64* out = extra_.room(extra_.list.data() + extra_.count, found);
-    const f32* its_base = base(slot);
+    const f32* its_base = places_.base(slot);
     for (u32 k = 0; k < found; k++) {
       u32 other = near[k];
       *out = pair_of(slot, other);
       u32 together = grouped_ && one_group(groups_[slot], groups_[other]);
-      out += !(boxes_touch<D>(its_base, base(other)) | together | (tag & tags_[other] & ~slot_mask));
+      out += !(boxes_touch<D>(its_base, places_.base(other)) | together | (tag & tags_[other] & ~slot_mask));
     }
     extra_.count = Pairs::between(extra_.list.data(), out);
     __builtin_memcpy(region(slot), larger_one, width * sizeof(f32));
@@ -405,10 +395,10 @@ template <int D> class CandidateList {
     const f32* boxes = scene.boxes;
     u64* out = pairs.list.data() + pairs.count;
     for (u64 k = 0; k < candidates.count;) {
-      u64 until = smaller(candidates.count, k + 4096);
+      u64 until = smaller(candidates.count, k + room_step);
       out = pairs.room(out, until - k);
       while (k < until) {
-        u64 few = watch ? smaller(until, k + 32) : until;
+        u64 few = watch ? smaller(until, k + doubt_step) : until;
         const u64* begin = out;
         i32x4 touching = {};
         for (; k < few; k++) {

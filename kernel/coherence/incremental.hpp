@@ -1,11 +1,12 @@
-// Incremental: a list of the pairs that may come to overlap is tested in each update, instead of finding all pairs anew.
+// Incremental: each update tests a list of pairs that may come to overlap, instead of a full rebuild.
 //
-// Idea: candidate_list.hpp has the list; here it is decided when one is made, with which margin, and when it ends.
-//   - The margin is measured, not foreseen: see watch.hpp. Where none promises to pay, strip sweep answers, and it is
-//     tried again after 8 to 512 updates.
-//   - A list ends when being late has cost more than a new list would, on average. Motion with bounds never ends one.
-// Nothing here looks at a clock: work is counted, so the order of the pairs depends on the calls alone.
-// Wins where boxes rest, tremble, turn, or move by less than a tenth of their size. Is strip sweep where they jump.
+// Idea: candidate_list.hpp has the list; this file decides when one is made, with which margin, and when it ends.
+//   - The margin comes from measured displacements, not predictions: see watch.hpp. If no margin is expected to pay,
+//     strip sweep runs, and a list is tried again after 8 to 512 updates.
+//   - A list ends when late boxes have cost more than a new list would, on average. Bounded motion never ends one.
+// Nothing here reads a clock: work is counted, so the order of the pairs depends on the calls alone.
+// Wins when boxes are at rest, jitter, turn, or move by less than a tenth of their size. Equals strip sweep when they
+// jump.
 #pragma once
 #include "coherence/candidate_list.hpp"
 #include "pairs/pair_order.hpp"
@@ -25,6 +26,9 @@ template <int D> class Incremental {
   u32 pause_ = 0, pauses_ = tuning.watched;
 
  public:
+  static constexpr bool notes_doubts = true;
+  static constexpr bool follows_changes = true;
+
   constexpr explicit Incremental(StripSweep<D>& anew) : anew_(anew), list_(anew) {}
 #if !defined(__wasm__)
   ~Incremental() { release(); }
@@ -112,13 +116,14 @@ template <int D> class Incremental {
     f64 n = larger(1u, scene.count);
     prospect_.fresh = (tuning.entry * stats.entries + stats.tests) / n;
     prospect_.tests = stats.tests / n;
-    prospect_.pairs = larger(pairs.count / n, 0.02);
+    prospect_.pairs = larger(pairs.count / n, tuning.least_pairs);
     if (scene.count >= tuning.few) learn_sizes(scene.count, 0);
   }
 
   SMALL void build(const Scene<D>& scene, const Plan& plan) {
     f64 n = scene.count, growth = plan.growth;
-    u64 most = u64(1.25 * n * prospect_.pairs * prospect_.widening(growth));  // it will hardly have more candidates
+    u64 most = u64(tuning.spare * n * prospect_.pairs *
+                   prospect_.widening(growth));  // it will hardly have more candidates
     list_.build(scene, plan.margin, most, watch_.resting() > 0, watch_.common());
     ended_ = false;
     age_ = 0;
@@ -130,16 +135,16 @@ template <int D> class Incremental {
     prospect_.tests = smaller(prospect_.tests, built.tests / n / prospect_.more_tests(growth));
     prospect_.fresh = smaller(prospect_.fresh, tuning.entry * built.entries / n + prospect_.tests);
     f64 settled = list_.found() - list_.tested();
-    prospect_.pairs = larger((settled + list_.tested() / growth) / n, 0.02);
+    prospect_.pairs = larger((settled + list_.tested() / growth) / n, tuning.least_pairs);
     learn_sizes(scene.count, plan.margin * (1 - prospect_.rest));
   }
 
-  /// Of boxes on average, whose regions have this margin; or an eighth of what they are apart.
+  /// Of boxes on average, whose regions have this margin; or a share of what they are apart.
   SMALL void learn_sizes(u32 boxes, f64 margin) {
     f64 low[D], high[D], sizes[D], across = D == 2 ? __builtin_sqrt(f64(boxes)) : cube_root(boxes);
     anew_.bounds(low, high, sizes);
     for (int a = 0; a < D; a++) {
-      prospect_.least[a] = (high[a] - low[a]) / across / 8;
+      prospect_.least[a] = (high[a] - low[a]) / across / tuning.apart;
       prospect_.sizes[a] = larger(sizes[a] - 2 * margin, prospect_.least[a]);
     }
   }
@@ -163,7 +168,7 @@ template <int D> class Incremental {
     f64 n = scene.count;
     f64 late = list_.late_work() / n;
     f64 looked = scene.listed() ? scene.changes->count() : scene.count;
-    smooth_ += 0.4 * (late - smooth_);
+    smooth_ += tuning.smoothing * (late - smooth_);
     lateness_ += late;
     f64 least = list_.least_work(looked) / n;
     life_ += late + least;
@@ -173,7 +178,7 @@ template <int D> class Incremental {
     // Boxes have come to rest: a new list will not test their pairs.
     bool judged = (age_ & (age_ - 1)) == 0 || watch_.is_new();
     ended_ |= judged && age_ >= tuning.watched && list_.tested() > 0 && watch_.more_rest(list_.resting() / n);
-    ended_ |= age_ % 32 == 0 && !has_paid();
+    ended_ |= age_ % tuning.judged_every == 0 && !has_paid();
   }
 
   /// Whether the list has cost less than rebuilds would have.

@@ -1,8 +1,8 @@
-// How far boxes get from where they were, by a sample of them, and which margin is worth it.
+// How far boxes move, measured on a sample, and the margin that costs least.
 // Idea: for each box of the sample, the largest displacement after 1, 2, 4 … 64 updates is measured. Nothing is
-// extrapolated. A list with a margin m that lives for so many updates then costs: its candidates, the share of its
-// making, and whatever it takes to serve the boxes that were further away than m. The cheapest is chosen.
-// Motion that most boxes have in common (a world that scrolls or zooms) is taken out first.
+// extrapolated. For a list with margin m that lives for that many updates, the cost per update is: testing its
+// candidates, its share of making the list, and serving the boxes that moved further than m. The cheapest margin is
+// chosen. Motion common to most boxes (a world that scrolls or zooms) is subtracted first.
 #pragma once
 #include "base/box_tests.hpp"
 #include "boxes/scene_sample.hpp"
@@ -63,7 +63,12 @@ struct Plan {
 };
 
 template <int D> class Watch {
-  static constexpr u32 width = 2 * D, most = 256, horizons = 7, buckets = 24, voters = 31;
+  // One box in so many is watched, within these limits.
+  static constexpr u32 watched_share = 16, least_watched = 32, most_watched = 256;
+  // Common motion is taken out once no more than this share of all motion is left without it, until more than that is.
+  static constexpr f64 common_from = 0.6, common_until = 0.9;
+  static constexpr f32 farthest = 4;  // of a box's size: motion beyond counts as that much, so that one jump is not all
+  static constexpr u32 width = 2 * D, horizons = 7, buckets = 24, voters = 31;
 
   struct Sample {
     f32x4 at[2], last[2], far;  // the minima and the maxima of the box, and what stands behind them
@@ -71,8 +76,8 @@ template <int D> class Watch {
   };
   /// How far the samples got in so many updates, and how often they jumped.
   struct Horizon {
-    f32 reach[most];
-    u32 jumps[most];
+    f32 reach[most_watched];
+    u32 jumps[most_watched];
   };
 
   Buffer<Sample> samples_;
@@ -177,9 +182,9 @@ template <int D> class Watch {
   }
 
   SMALL void begin(const Scene<D>& scene) {
-    samples_.reserve(most);
+    samples_.reserve(most_watched);
     horizons_.reserve(horizons);
-    many_ = smaller(most, larger(scene.count / 16, 32u));
+    many_ = smaller(most_watched, larger(scene.count / watched_share, least_watched));
     smallest_ = 0;
     detail::Sampling sampling(scene.count, many_);
     for (u32 k = 0; k < many_; k++) {
@@ -245,14 +250,14 @@ template <int D> class Watch {
   SMALL bool judge(const Scene<D>& scene, const Shift& shift, f32 size) {
     f64 with = 0, without = 0;
     for (u32 k = 0; k < many_; k++) {
-      f32x4 at = samples_[k].at[0], now = load<f32x4>(scene.box(samples_[k].slot)), most = splat(4 * size);
+      f32x4 at = samples_[k].at[0], now = load<f32x4>(scene.box(samples_[k].slot)), most = splat(farthest * size);
       f32x4 all = min(magnitude(now - at), most), own = min(magnitude(now - shift(at)), most);
       for (int a = 0; a < D; a++) {
         without += all[a];
         with += own[a];
       }
     }
-    bool wish = with < (common_ ? 0.9 : 0.6) * without;
+    bool wish = with < (common_ ? common_until : common_from) * without;
     if (wish == common_) return false;
     common_ = wish;
     known_ = 0;

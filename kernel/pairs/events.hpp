@@ -1,9 +1,9 @@
 // Which pairs began and ended with an update.
-// Idea: from one update to the next most pairs stay, and many in their order, so the new list is read beside the old
-// one. Where they differ, a table says where in the old list the pair stands, and reading goes on from there. What is
-// not in the old list has begun, what has not been met in it has ended. The pairs of boxes that were deleted in
+// Idea: from one update to the next most pairs stay, and many in their order, so the old and the new list are read side
+// by side. Where they differ, a table finds the pair in the old list, and reading continues from there. Pairs that are
+// not in the old list have begun; pairs of the old list that were not found have ended. The pairs of boxes deleted in
 // between have ended, whatever is found now.
-// Cost: 2 ns a pair while nothing changes, else about 10 ns; 25 to 33 bytes a pair.
+// Cost: 2 ns per pair while nothing changes, otherwise about 10 ns; 25 to 33 bytes per pair.
 #pragma once
 #include "pairs/pair_table.hpp"
 

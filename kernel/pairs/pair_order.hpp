@@ -1,9 +1,9 @@
-// Puts pairs in the order of their slots, for techniques that keep something from one update to the next.
-// Idea: what they keep depends on the updates before, and so would the order of what they find. Sorted, it depends on
-// the boxes alone, and a space restored from a snapshot goes on as the one that was never interrupted. They keep their
-// pairs in order too, so that only new ones are sorted, and read beside the old.
-// Cost: a few pairs are inserted; more are sorted by digits, the least significant first, for about 2 ns a pair and
-// digit, of which there are two or four; as much memory as the pairs sorted.
+// Sorts pairs by their slots, for techniques that retain something between updates.
+// Idea: what they retain depends on earlier updates, and so would the order of what they find. Sorted, it depends on
+// the boxes alone, and a restored space continues like the uninterrupted one. They keep their pairs sorted too, so that
+// only new ones are sorted, and merged with the old.
+// Cost: a few pairs are inserted; more are radix-sorted, at about 2 ns per pair and digit, of which there are two or
+// four; as much memory as the sorted pairs.
 #pragma once
 #include "pairs/pairs.hpp"
 

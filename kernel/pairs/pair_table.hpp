@@ -1,6 +1,6 @@
-// Where in a list a pair stands: a hash table of places with linear probing, made anew for each list.
-// It holds places, not pairs, so that it fits in the cache; the list itself tells whether the pair is the right one.
-// Cost: about 5 ns a pair to make, the same to find one; 8 to 16 bytes a pair.
+// Where in a list a pair is: a hash table of positions with linear probing, rebuilt for each list. It holds positions,
+// not pairs, so that it fits in the cache; the pair itself is compared in the list.
+// Cost: about 5 ns per pair to build, the same for a lookup; 8 to 16 bytes per pair.
 #pragma once
 #include "pairs/pairs.hpp"
 

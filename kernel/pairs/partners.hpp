@@ -1,7 +1,7 @@
-// Who is in a pair with whom: the pairs of the last update, by id.
-// Idea: each pair stands twice, once under each of its ids, in buckets by a hash of the id that keeps neighbouring ids
-// apart; put there by one counting sort. Made at the first question after an update.
-// Cost: about 10 ns a pair to make, 16 bytes a pair and 4 to 8 a bucket; an answer reads one bucket.
+// The partners of each id: the pairs of the last update, by id.
+// Idea: each pair is stored twice, once under each of its ids, in buckets by a hash of the id that keeps neighbouring
+// ids apart. One counting sort fills them, at the first query after an update.
+// Cost: about 10 ns per pair to build, 16 bytes per pair and 4 to 8 per bucket; an answer reads one bucket.
 #pragma once
 #include "pairs/pairs.hpp"
 

@@ -1,8 +1,8 @@
-// Many questions in one call.
-// Idea: the questions stand one behind the other, as doubles, and are asked in that order. The answers of all stand in
-// one list, and beside it where those of each question end.
-// Cost: that of the questions asked alone, less the calls. To ask them in the order of the Hilbert curve was slower in all
-// but a few cases: see docs/decisions/many-questions.md.
+// Many queries in one call.
+// Idea: the queries are stored one after the other, as doubles, and run in that order. All answers go into one list,
+// with the end of each query's answers beside it.
+// Cost: that of the single queries, less the calls. Running them in Hilbert order was slower in all but a few cases:
+// see docs/decisions/0011-many-questions.md.
 #pragma once
 #include "questions/queries.hpp"
 

@@ -1,16 +1,15 @@
-// What the last update saw, packed so that it can be asked where things are.
-// Idea: boxes in the order of their centres along the Hilbert curve, eight to a block, and blocks of eight blocks above them, to one root:
-// an R-tree without pointers. A block is read as vectors, eight boxes at a time. The order is laid over the extents
-// without outliers, so that one far box does not spoil it.
-// Boxes that are off have no place in it.
-// Where an update knows which few boxes changed, the index follows: a box that stays within the bounds of its block is
-// written there, and one that leaves them, or is new, goes to the spare blocks behind the others. What it left is a
-// hole. When no place is spare any more, or many boxes changed, the next question builds anew: in the order of before,
-// while boxes that stood together still do, and while the blocks that were looked at since the last sort have cost less
-// than a sort. So one question a frame, among boxes that all move, does not pay for an order it hardly uses.
-// Cost: about 27 (2D) or 30 (3D) ns a box to build, less than half of it in the order of before; 0.1 us for each box
-// that is followed; 28 (2D) or 38 (3D) bytes a box, and as much as the boxes themselves for the copy that keeps answers
-// to what the update saw.
+// The index for queries: the boxes of the last update in a packed tree.
+// Idea: boxes in the order of their centres along the Hilbert curve, eight to a block, and blocks of eight blocks above
+// them, to one root: an R-tree without pointers. A block is read as vectors, eight boxes at a time. The order is laid
+// over the extents without outliers, so that one far box does not spoil it. Boxes that are off are not in it. If an
+// update knows that few boxes changed, the index is updated in place: a box that stays within the bounds of its block
+// is written there, and one that leaves them, or is new, goes to the spare blocks at the end. It leaves a hole. When
+// there is no spare place left, or many boxes changed, the next query rebuilds the index. It retains the previous order
+// while boxes in one block are still close together, and while the blocks visited since the last sort have cost less
+// than a sort. So one query per frame, among boxes that all move, does not pay for an order it hardly uses.
+// Cost: about 27 (2D) or 30 (3D) ns per box to build, less than half of it with the previous order; 0.1 us for each box
+// updated in place; 28 (2D) or 38 (3D) bytes per box, plus a copy of the boxes, so that queries see those of the last
+// update.
 // From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993.
 #pragma once
 #include "base/rounding.hpp"

@@ -1,24 +1,24 @@
-// When a moving box meets a box that stands, and on which side: the rule of rays and sweeps.
-// Idea: along each axis the moving box is before the other, past it, or over it. A hit needs a way that leads into a
-// face, so that the two overlap from then on. Along a face or away from it is no hit. Over it on all axes is inside.
-// A ray is a moving box without size. What has no size along an axis also meets the edges there: else it would slip
-// between two boxes that touch.
-// Rounding: who stops at a hit computes its corners anew, and may come to lie inside by a rounding. So overlaps up to
-// `touch` of the coordinates count as touching, and a time is such that no rounding leads deeper: that of a corner
-// is never beyond the face, and where the roundings on the way may be more than `touch` at its end, it is earlier
-// by as much. Those are of adding a size to a corner, which numbers that float32 holds have not seen.
+// When a moving box hits a box at rest, and on which side: the rule of rays and sweeps.
+// Idea: along each axis the moving box is before the other, past it, or over it. A hit needs a path that leads into a
+// face, so that the two overlap from then on. A path along a face or away from it is no hit. Over it on all axes is
+// inside. A ray is a moving box of zero size. A box of zero size along an axis also hits the edges there: otherwise it
+// would slip between two boxes that touch. Rounding: a caller that stops at a hit computes its corners again, and may
+// end up inside by a rounding error. So overlaps up to `touch` of the coordinates count as touching, and times are
+// chosen so that no rounding leads deeper. A corner never ends beyond the face, and if the roundings on the way may
+// exceed `touch` at its end, the time is earlier by as much. These roundings come from adding a size to a corner, which
+// float32 numbers have not undergone.
 #pragma once
 #include "base/rounding.hpp"
 
 struct Meeting {
-  f64 time;     // share of the way
-  i32 side;     // axis + 1 of the face, negative where its normal is; 0: inside
+  f64 time;  // share of the way
+  i32 side;  // axis + 1 of the face, negative where its normal is; 0: inside
   bool corner;  // more than one face is met at that time
 };
 
 namespace detail {
 
-inline constexpr f64 touch = 0x1p-48;      // of the coordinates: what still counts as touching
+inline constexpr f64 touch = 0x1p-48;  // of the coordinates: what still counts as touching
 inline constexpr f64 roundings = 0x1p-51;  // of all numbers on the way: what they may add up to
 
 inline f64 size_of(f64 x) { return __builtin_isinf(x) ? 0 : __builtin_fabs(x); }

@@ -1,11 +1,10 @@
-// The questions: what is in a box or a circle, what does a ray or a moving box meet, what is near.
-// Idea: two walks through the index. The one for areas goes through the boxes in their order, eight at a time, takes
-// what lies within the area without looking closer, and can go on from any place, so that an answer may be read in
-// parts. The one for rays, moving boxes and neighbours has a number to rank boxes by, a time or a distance: for eight
-// at once it estimates, in float32, the least that it can be, takes what promises the least first, and keeps the best
-// found, whose worst is the limit for all that follows. A ray is a moving box without size.
-// All is decided in double precision, by the numbers that were given; the index, in float32 rounded outward, only says
-// where to look. What ranks the same is ordered by id, so that answers do not depend on the index.
+// The queries: what is in a box or a circle, what a ray or a moving box hits, what is near.
+// Idea: two traversals of the index. The one for areas visits the boxes in their order, eight at a time, takes blocks
+// wholly within the area without further tests, and can resume anywhere, so that an answer may be read in parts. The
+// one for rays, moving boxes and neighbours ranks boxes by a time or a distance: it computes a lower bound for eight at
+// once, in float32, visits the smallest first, and keeps the best found, the worst of which limits the rest of the
+// search. A ray is a moving box of zero size. Everything is decided in double precision, by the numbers given; the
+// index, in float32 rounded outward, only prunes. Ties are ordered by id, so that answers do not depend on the index.
 // Cost, among 10,000 boxes: 0.4 us for a box with 20 in it, 0.5 us for a ray that goes far, 1.4 us for the 10 nearest.
 #pragma once
 #include "questions/meeting.hpp"

@@ -1,17 +1,17 @@
-// Where a question meets boxes in a world that wraps around.
+// Queries in a world that wraps around.
 // Idea: the index has each box once, moved by whole worlds so that its minimum is inside, and so up to two worlds wide.
-// The question is moved by whole worlds, a turn each, and asked again: by one world back and forth along each axis, and
-// along the way of what moves as often as it comes through boxes. A box that is met at several turns is taken from the
-// one where it is met first, or nearest: so nothing comes twice, and nothing has to be remembered.
-// Exact: whether boxes touch is found as for pairs. Distances and times are those to the copy of a box whose numbers are
-// min + k * world and max + k * world, as doubles have them.
+// The query is shifted by whole worlds, one turn each, and repeated: by one world back and forth along each axis, and
+// along the path of a ray or sweep for as long as it may hit boxes. A box found in several turns is taken from the turn
+// of its first or nearest hit: so nothing comes twice, and nothing has to be remembered. Exact: touching is decided as
+// for pairs. Distances and times are those to the copy of a box with the numbers min + k * world and max + k * world,
+// computed in doubles.
 // Cost: up to 9 (2D) or 27 (3D) searches, most of which end at the root.
 // One copy for 2D and 3D, since it is small code that counts here.
 #pragma once
 #include "rules/wrap.hpp"
 
 class Copies {
-  static constexpr f64 slack = 0x1p-48;  // of all numbers: what roundings may amount to
+  static constexpr f64 rounding_share = 0x1p-48;  // of all numbers: what roundings may amount to
 
   const f64 *world_, *lo_, *hi_;
   int axes_ = 0;
@@ -153,7 +153,9 @@ class Copies {
   /// By how many worlds the n-th turn of an axis is.
   static f64 number_of(u32 n) { return n == 2 ? -1.0 : f64(n); }
 
-  static f64 slack_of(f64 lo, f64 hi, f64 world) { return slack * (world + __builtin_fabs(lo) + __builtin_fabs(hi)); }
+  static f64 slack_of(f64 lo, f64 hi, f64 world) {
+    return rounding_share * (world + __builtin_fabs(lo) + __builtin_fabs(hi));
+  }
 
   SMALL static f64 worlds_of(f64 lo, const Span& span, f64 world) {
     if (span.full) return 0;

@@ -1,9 +1,9 @@
-// Who may meet whom: layers, masks and exclusion bits, turned into as little search as possible.
+// Which boxes may meet: layers, masks and exclusion bits, turned into as little search as possible.
 // Idea: boxes with the same layer, mask and bits are one class, and games have a handful of classes. Which classes
-// ignore each other is looked up once after a change, and spares the search three ways. Boxes that can meet nobody
-// are not searched at all; boxes that are off are one such class. Classes of which each ignores itself and all the others
-// share an exclusion bit, which every technique tests along with the boxes. What is left, say two classes that meet
-// themselves but not each other, is taken out of the pairs found.
+// ignore each other is computed once after a change, and saves search in three ways. Boxes that can meet nobody are not
+// searched at all; boxes that are off are one such class. A set of classes that ignore themselves and each other shares
+// an exclusion bit, which every technique tests along with the boxes. Other forbidden pairs, say of two classes that
+// meet themselves but not each other, are removed from the pairs found.
 // Cost: nothing while no box has a filter; O(boxes + classes squared) in the update after a change; a copy of the
 // boxes that are searched where some are not.
 #pragma once
@@ -85,7 +85,7 @@ class Filters {
     return rules_[slot];
   }
 
-  // The slots' doings, as in Space; only while active.
+  // The slots' doings, as in Store; only while active.
   SMALL void make_room(u64 count, u32 keep) { rules_.grow(count, keep); }
   u64 room() const { return rules_.capacity(); }
   SMALL void insert(u32 slot) { change(slot) = everybody; }

@@ -10,7 +10,10 @@ template <int D> struct Grid {
   static constexpr f64 boxes_per_cell = 3;  // aimed at; measured to be nearly flat from 2 to 5
   // A cell size so small that boxes would have more entries than this is doubled until they do not: 64 each and some
   // for few boxes, 16 each for very many.
-  static u64 most_entries(u64 count) { return larger(16 * count, smaller(64 * count + (1 << 16), u64(1) << 22)); }
+  static constexpr u64 entries_each = 64, entries_more = 1 << 16, few_entries = 1 << 22, entries_of_many = 16;
+  static u64 most_entries(u64 count) {
+    return larger(entries_of_many * count, smaller(entries_each * count + entries_more, few_entries));
+  }
 
   Axis axis[D];
   u32 cells[D] = {};

@@ -47,15 +47,15 @@ template <class Unite> SHARED void unite(const f32* from, u32 size, f32* to, u32
 }  // namespace detail
 
 template <int D> class PackedTree {
-  static constexpr u32 most_levels = 13;
+  static constexpr u32 most_depth = 13;
   static constexpr u32 chunk = 128;                             // pairs that go down a level together
   static constexpr u32 list_size = 4 * chunk + 2 * Pairs::slack;
 
   HilbertOrder<D> order_;
   Lanes<D> lanes_;
   Buffer<u64> lists_;             // per level two: pairs of its nodes, and of its nodes with those below
-  u32 first_[most_levels] = {};   // per level, its first lane
-  u32 sizes_[most_levels] = {};   // and how many
+  u32 first_[most_depth] = {};   // per level, its first lane
+  u32 sizes_[most_depth] = {};   // and how many
   u32 levels_ = 0;
 
  public:

@@ -1,7 +1,7 @@
 // Sweeps in which each item meets hundreds that start before it ends, few of which overlap it.
-// Idea: on the axes that are not swept, the items' bounds are also written down as cells of a 65,536th of the world,
-// in 16 bits. What does not even touch in cells cannot overlap, so sixteen items pass at a time, with two comparisons of
-// eight an axis; where one may overlap is noted, without a branch, and tested when many are.
+// Idea: on the axes that are not swept, the items' bounds are also stored as cells of a 65,536th of the world, in 16
+// bits. Items whose cells do not touch cannot overlap, so sixteen are rejected at a time, with two comparisons of eight
+// per axis. Items that may overlap are collected without a branch, and tested in batches.
 // Cost: about 2.5 (2D) or 4 (3D) ns for sixteen tests; 4 (2D) or 8 (3D) bytes an item.
 #pragma once
 #include "boxes/cell_map.hpp"
@@ -10,7 +10,7 @@
 
 template <int D> class QuantizedSweep {
   static constexpr u32 block = 16, cells = 1 << 16;
-  static_assert(Lanes<D>::padding >= block);
+  static_assert(Lanes<D>::spare_lanes >= block);
   // Blocks are looked at closer when there are this many.
   static constexpr u32 enough = 512;
 

@@ -1,4 +1,4 @@
-// What the options of the constructor say about the techniques.
+// The constructor's options for the techniques.
 #pragma once
 #include "base/simd.hpp"
 

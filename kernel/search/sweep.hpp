@@ -1,14 +1,13 @@
 // The one inner loop that every technique ends in.
-// Idea: a technique puts items in an order and says, for each, how far behind it an item can still overlap it
-// (`end`). Everything up to there is tested, four at a time, on all axes, both ways, so the order need not be a sorted
-// one: four items in a row against the four that stand one further, then two, and so on; or one item against four,
-// where one of the four looks much further than the others. Reading past `end` is harmless as long as what stands there
-// cannot overlap.
-// Where boxes are rounded, bounds may be equal that were not: `watch`. Then it is seen how deep items overlap instead of
-// whether they do, at the same cost: what is above 0 on all sides is sure, what is 0 on some side is noted as in doubt.
-// Bounds are such that their difference is a number: see GapMap::round.
-// Cost: one test of four against four for each candidate of the one of four items that has most, about 2 (2D) or 3
-// (3D) ns, pairs included; no branch depends on what is hit, and the loop ends once for four items.
+// Idea: a technique puts items in an order and gives, for each, the end of the range after it that can still overlap it
+// (`end`). Everything up to there is tested, four at a time, on all axes, both ways, so the order need not be sorted:
+// four items in a row against the four that are one further, then two, and so on; or one item against four, if one of
+// the four has a much longer range than the others. Reading past `end` is harmless as long as the items there cannot
+// overlap. If boxes are rounded, bounds may be equal that were not: `watch`. Then the loop computes the depth of the
+// overlap instead of a yes or no, at the same cost: above 0 on all sides is certain, 0 on some side is recorded as in
+// doubt. Bounds are such that their difference is a number: see GapMap::round.
+// Cost: one test of four against four for each candidate of that of four items with the most, about 2 (2D) or 3 (3D)
+// ns, pairs included; no branch depends on the hits, and the loop ends once for four items.
 #pragma once
 #include "pairs/pairs.hpp"
 

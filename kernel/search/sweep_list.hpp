@@ -1,8 +1,8 @@
 // One list of items, ordered along axis 0 and swept.
-// Idea: items are put into as many cells along the sweep axis as there are items, by one counting sort; they are
-// not sorted further, since the sweep tests four at a time and a few candidates more cost nothing, while branches
-// of a sort do. Where the cells turn out uneven (outliers, clusters) the list is radix-sorted instead.
-// Cost: about 10 ns an item, then the tests; 40 (2D) or 64 (3D) bytes an item of the longest list.
+// Idea: items are put into as many cells along the sweep axis as there are items, by one counting sort; they are not
+// sorted further, since the sweep tests four at a time and a few more candidates cost nothing, while the branches of a
+// sort do. If the cells turn out uneven (outliers, clusters), the list is radix-sorted instead.
+// Cost: about 10 ns per item, then the tests; 40 (2D) or 64 (3D) bytes an item of the longest list.
 #pragma once
 #include "base/radix_sort.hpp"
 #include "search/quantized_sweep.hpp"
@@ -10,6 +10,8 @@
 template <int D> class SweepList {
   // Cells hold one item on average; above this many squared they are given up for a sort.
   static constexpr u64 uneven = 6;
+  // Of the tests of so many items, so many blocks of four each, it is told which share would hit.
+  static constexpr u32 sampled_items = 32, sampled_blocks = 8;
 
   Items<D> ordered_;
   Lanes<D> lanes_;       // the same, as the sweep reads them
@@ -83,10 +85,10 @@ template <int D> class SweepList {
   SMALL f64 hits(u32 count) const {
     LaneView<D> view = lanes_.view();
     u64 hits = 0, tried = 0;
-    u32 stride = larger(1u, count / 32);
+    u32 stride = larger(1u, count / sampled_items);
     for (u32 i = stride / 2; i < count; i += stride) {
       Probe<D> probe(view, i);
-      u32 until = end_[i], step = larger(4u, (until - i) / 8);
+      u32 until = end_[i], step = larger(4u, (until - i) / sampled_blocks);
       for (u32 j = i + 1; j + 4 <= until; j += step) {
         hits += u64(step) * detail::bits_set[bitmask(probe.hits(view, j, load<u32x4>(view.tag + j)))];
         tried += u64(step) * 4;

@@ -6,17 +6,18 @@
 //     counts work, not time, to know.
 #pragma once
 #include "search/stats.hpp"
+#include "space/snapshot.hpp"
 #include "space/techniques.hpp"
 
-/// Boxes up to which all are tested against all.
+/// What a space is made with.
+inline constexpr Technique by_default = Technique::automatic;
+
+/// Boxes up to which all are tested against all: docs/decisions/0008-small-counts.md has the figures.
 inline constexpr u32 handful = 24;
 
-namespace detail {
-constexpr bool has(Technique name) { return built >> u32(name) & 1; }
-}  // namespace detail
-static_assert(!detail::has(Technique::automatic) ||
-              (detail::has(Technique::brute_force) && detail::has(Technique::strip_sweep) &&
-               detail::has(Technique::incremental)));
+static_assert(!is_built(Technique::automatic) || (is_built(Technique::brute_force) &&
+                                                  is_built(Technique::strip_sweep) && is_built(Technique::incremental)),
+              "auto stands for brute force, strip sweep and incremental: a build with it has all three");
 
 /// What a technique that was asked for stands for, given how many boxes there are, and whether no update before may show.
 inline Technique auto_choice(Technique asked, u32 boxes, bool ordered) {
@@ -32,4 +33,10 @@ SMALL inline void say_choice(Technique asked, Technique ran, Stats& stats) {
   else if (ran == Technique::brute_force) stats.reason = f64(u32(Reason::handful));
   else if (ran == Technique::strip_sweep) stats.reason = f64(u32(Reason::ordered));
   else if (stats.reason != f64(u32(Reason::kept))) stats.technique = f64(u32(Technique::strip_sweep));
+}
+
+/// The number of a technique in a snapshot, and back.
+inline u8 saved_number(Technique name) { return name == Technique::automatic ? SnapshotHeader::automatic : u8(name); }
+inline Technique saved_technique(u8 number) {
+  return number == SnapshotHeader::automatic ? Technique::automatic : Technique(number);
 }

@@ -38,18 +38,30 @@ enum class Technique : u32 {
 #endif
 inline constexpr u32 built = TECHNIQUES & ((2u << u32(Technique::automatic)) - 1);
 
-/// Those that note which of their pairs are in doubt: see Pairs::watch. Of the others all are.
-inline constexpr u32 watching = 1u << u32(Technique::brute_force) | 1u << u32(Technique::strip_sweep) |
-                                1u << u32(Technique::incremental);
+constexpr bool is_built(Technique name) { return built >> u32(name) & 1; }
+
+/// What a technique is: it finds all pairs of a scene, says where its cells stand, and gives its memory back.
+template <class Kind, int D>
+concept FindsPairs = requires(Kind kind, const Kind same, const Scene<D>& scene, const Settings& settings, Pairs& pairs,
+                              Stats& stats, Buffer<f32>& cells, u32& cell_count) {
+  kind.update(scene, settings, pairs, stats);
+  same.structure(cells, cell_count, stats);
+  kind.release();
+};
 
 /// Stands in the place of a technique that is not built: nobody asks for it.
 struct LeftOut {
   template <class... Any> constexpr LeftOut(Any&...) {}
 };
 
-template <Technique name, class Kind> using IfBuilt = std::conditional_t<(built >> u32(name) & 1) != 0, Kind, LeftOut>;
+template <Technique name, class Kind, int D> struct OrLeftOut {
+  static_assert(FindsPairs<Kind, D>, "a technique has update, structure and release");
+  using type = std::conditional_t<is_built(name), Kind, LeftOut>;
+};
 
 template <int D> class Techniques {
+  template <Technique name, class Kind> using IfBuilt = typename OrLeftOut<name, Kind, D>::type;
+
   IfBuilt<Technique::brute_force, BruteForce<D>> brute_force_;
   IfBuilt<Technique::spatial_grid, SpatialGrid<D>> spatial_grid_;
   IfBuilt<Technique::retained_grid, RetainedGrid<D>> retained_grid_;
@@ -83,6 +95,20 @@ template <int D> class Techniques {
       case Technique::incremental: return call(what, incremental_);
       default: return call(what, strip_sweep_);
     }
+  }
+
+  /// Whether it asks which boxes have changed, and may answer by what it found before.
+  bool follows_changes(Technique name) {
+    bool follows = false;
+    with(name, [&]<class Kind>(Kind&) { follows = requires { Kind::follows_changes; }; });
+    return follows;
+  }
+
+  /// Whether it notes which of its pairs are in doubt (see Pairs::watch). Of the others all are.
+  bool notes_doubts(Technique name) {
+    bool notes = false;
+    with(name, [&]<class Kind>(Kind&) { notes = requires { Kind::notes_doubts; }; });
+    return notes;
   }
 };
 

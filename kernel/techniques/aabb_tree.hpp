@@ -1,14 +1,14 @@
-// AABB tree: a packed tree of fat boxes, kept between updates, and the pairs of fat boxes with it.
+// AABB tree: a packed tree of fat boxes and the pairs of fat boxes, both retained between updates.
 //
-// Idea: each box is kept in a fat one that reaches ahead of it, as far as its motion will take it in a few
-// updates. While it stays inside, the tree and the candidates, which are the pairs of fat boxes that overlap, hold
-// as they are, and an update only tests each candidate again. Boxes that left get new fat ones: their candidates
-// go, the nodes above them are fitted again, and the tree is joined with itself where something moved: all that
-// rests has one exclusion bit in common. When boxes have wandered far from the places they had on the curve, only
-// the order is made anew; when most moved at once, everything is, which costs what the r-tree costs.
-// Cost: about 2 ns a box that rests, 6 ns a candidate, 60 ns a box that left; build and pairs as the r-tree;
-// about 140 (2D) or 200 (3D) bytes a box.
-// Wins where most boxes rest or move slowly and steadily. Loses where all jump: fat boxes are then useless.
+// Idea: each box is enclosed in a fat one that extends ahead of it, as far as its motion will take it in a few updates.
+// While it stays inside, the tree and the candidates, which are the overlapping pairs of fat boxes, remain valid, and
+// an update only tests each candidate again. Boxes that left get new fat ones: their candidates are dropped, the nodes
+// above them are refitted, and the tree is joined with itself where something moved; boxes at rest share an exclusion
+// bit. When boxes have moved far from their places on the curve, the order is rebuilt; when most moved at once,
+// everything is, at the cost of the r-tree.
+// Cost: about 2 ns per box at rest, 6 ns per candidate, 60 ns per box that left; build and pairs as the r-tree; about
+// 140 (2D) or 200 (3D) bytes per box.
+// Wins when most boxes are at rest or move slowly and steadily. Loses when all jump: fat boxes are then useless.
 // From: fat boxes and moved sets as in the dynamic trees of Bullet (N. Presson) and Box2D (E. Catto); candidates
 // kept with a margin from L. Verlet, "Computer Experiments on Classical Fluids", 1967.
 #pragma once
@@ -22,7 +22,7 @@ template <int D> class AabbTree {
   static constexpr u32 rests = continues_1;  // the exclusion bit of all that did not move
   static constexpr f32 horizon = 8;      // updates that a fat box reaches ahead, at most: fewer in a crowd
   static constexpr u32 crowd_size = 64;
-  static constexpr f32 slack = 0.5f;     // and to all sides, in motions of one update
+  static constexpr f32 aside_share = 0.5f; // and to all sides, in motions of one update
   static constexpr u32 bulk_share = 2;   // all is built anew when one box in so many moved
   // The order is, when each box has moved so many times; a little earlier where an update has little else to do.
   static constexpr u32 worn = 4, worn_early = 2, little_share = 8;
@@ -31,27 +31,30 @@ template <int D> class AabbTree {
   // fitting its node, moving it, testing a candidate; a test in the tree.
   static constexpr f64 build_cost = 30, look_cost = 4, fit_cost = 5, move_cost = D == 2 ? 30 : 50, candidate_cost = 8;
   static constexpr f64 test_cost = D == 2 ? 2 : 4;
-  static constexpr u32 longest_pause = 256;
+  // A pause begins when keeping has cost more than so many updates that keep nothing; each is twice as long as the one
+  // before, in updates.
+  static constexpr f64 most_loss = 2;
+  static constexpr u32 first_pause = 16, longest_pause = 256;
 
   PackedTree<D> tree_;
-  Pairs candidates_;       // in the order of their slots
-  Buffer<u64> merged_;     // where they go with each update, and what they are swapped with
+  Pairs candidates_;  // in the order of their slots
+  Buffer<u64> merged_;  // where they go with each update, and what they are swapped with
   PairOrder pair_order_;
-  Buffer<f32> fat_;      // per slot its fat box, as in a scene
-  Buffer<f32> origin_;   // per slot its minima when it was fattened, and in which update that was
-  Buffer<u32> tags_;     // per slot its exclusion bits, and whether it rests
-  Buffer<u32> place_;    // per slot its place in the tree
-  Buffer<u32> free_;     // places without a box
-  Buffer<u32> moved_;    // slots that moved
-  u32 count_ = 0;        // boxes in the tree; 0: nothing is kept
+  Buffer<f32> fat_;  // per slot its fat box, as in a scene
+  Buffer<f32> origin_;  // per slot its minima when it was fattened, and in which update that was
+  Buffer<u32> tags_;  // per slot its exclusion bits, and whether it rests
+  Buffer<u32> place_;  // per slot its place in the tree
+  Buffer<u32> free_;  // places without a box
+  Buffer<u32> moved_;  // slots that moved
+  u32 count_ = 0;  // boxes in the tree; 0: nothing is kept
   u32 free_count_ = 0;
   u64 wear_ = 0;  // boxes moved since the order was made
-  u32 now_ = 0;   // updates, counted
-  f32 reach_ = 0;    // updates that fat boxes reach ahead, on average
-  f64 fresh_ = 0;    // what an update costs that keeps nothing
-  f64 loss_ = 0;     // what keeping has cost more than that
-  u32 pause_ = 0;    // updates left in which nothing is kept
-  u32 pauses_ = 0;   // how many the last pause had
+  u32 now_ = 0;  // updates, counted
+  f32 reach_ = 0;  // updates that fat boxes reach ahead, on average
+  f64 fresh_ = 0;  // what an update costs that keeps nothing
+  f64 loss_ = 0;  // what keeping has cost more than that
+  u32 pause_ = 0;  // updates left in which nothing is kept
+  u32 pauses_ = 0;  // how many the last pause had
 
  public:
   void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
@@ -60,52 +63,18 @@ template <int D> class AabbTree {
     stats.entries = n;
     if (pause_ > 0) {
       pause_--;
-      tree_.build(scene, 0);
-      tree_.join(pairs, stats);
-      pair_order_.sort(pairs.list.data(), pairs.count, n);
-      stats.cells = tree_.nodes();
-      return;
+      return keep_nothing(scene, pairs, stats);
     }
-    u32 most = larger(n, had);
-    fat_.grow(u64(most) * width + padding, u64(had) * width);
-    origin_.grow(u64(most) * (D + 1), u64(had) * (D + 1));
-    tags_.grow(most, had);
-    place_.grow(most, had);
-    moved_.reserve(n);
+    make_room(n, had);
     now_++;
     u32 moved = look(scene, had, f32(options.margin));
-    bool order = had == 0 || n > had + free_count_, all = u64(moved) * bulk_share > n;
-    if (n < had) {
-      free_.grow(free_count_ + had - n, free_count_);
-      for (u32 slot = n; slot < had; slot++) {
-        tags_[slot] = 0;
-        tree_.clear(place_[slot]);
-        free_[free_count_++] = place_[slot];
-      }
-      drop_candidates_from(n);
-    }
+    bool order = had == 0 || n > had + free_count_;
+    if (n < had) remove_from(n, had);
     u64 kept = candidates_.count;
     f64 cost = look_cost * n;
     if (moved > 0 || n != had) {
-      wear_ += moved;
-      cost += fit_cost * n + move_cost * moved;
-      if (all) {
-        for (u32 slot = 0; slot < n; slot++) tags_[slot] &= ~u32(rests);
-        candidates_.count = kept = 0;
-      }
-      u32 limit = moved * little_share > n ? worn : worn_early;
-      if (order || all || wear_ > u64(n) * limit) {
-        plant(n);
-        cost += build_cost * n;
-      } else {
-        tree_.mark(rests);
-        for (u32 slot = had; slot < n; slot++) place_[slot] = free_[--free_count_];
-        for (u32 k = 0; k < moved; k++) {
-          u32 slot = moved_[k];
-          tree_.put(place_[slot], fat_.data() + u64(slot) * width, slot | tags_[slot]);
-        }
-        tree_.refit();
-      }
+      cost += follow(n, had, moved, order);
+      kept = smaller(kept, candidates_.count);
       count_ = n;
       tree_.join(candidates_, stats);
     }
@@ -142,12 +111,64 @@ template <int D> class AabbTree {
   }
 
  private:
+  /// An update by a new tree.
+  void keep_nothing(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
+    tree_.build(scene, 0);
+    tree_.join(pairs, stats);
+    pair_order_.sort(pairs.list.data(), pairs.count, scene.count);
+    stats.cells = tree_.nodes();
+  }
+
+  void make_room(u32 n, u32 had) {
+    u32 most = larger(n, had);
+    fat_.grow(u64(most) * width + padding, u64(had) * width);
+    origin_.grow(u64(most) * (D + 1), u64(had) * (D + 1));
+    tags_.grow(most, had);
+    place_.grow(most, had);
+    moved_.reserve(n);
+  }
+
+  /// Takes the boxes of slots n … had - 1 out of the tree.
+  void remove_from(u32 n, u32 had) {
+    free_.grow(free_count_ + had - n, free_count_);
+    for (u32 slot = n; slot < had; slot++) {
+      tags_[slot] = 0;
+      tree_.clear(place_[slot]);
+      free_[free_count_++] = place_[slot];
+    }
+    drop_candidates_from(n);
+  }
+
+  /// Has the tree hold what moved and what is new; `order`: its order is to be made anew. Gives what that costs.
+  f64 follow(u32 n, u32 had, u32 moved, bool order) {
+    bool all = u64(moved) * bulk_share > n;
+    wear_ += moved;
+    f64 cost = fit_cost * n + move_cost * moved;
+    if (all) {
+      for (u32 slot = 0; slot < n; slot++) tags_[slot] &= ~u32(rests);
+      candidates_.count = 0;
+    }
+    u32 limit = moved * little_share > n ? worn : worn_early;
+    if (order || all || wear_ > u64(n) * limit) {
+      plant(n);
+      return cost + build_cost * n;
+    }
+    tree_.mark(rests);
+    for (u32 slot = had; slot < n; slot++) place_[slot] = free_[--free_count_];
+    for (u32 k = 0; k < moved; k++) {
+      u32 slot = moved_[k];
+      tree_.put(place_[slot], fat_.data() + u64(slot) * width, slot | tags_[slot]);
+    }
+    tree_.refit();
+    return cost;
+  }
+
   /// Where keeping things costs more than it saves, update after update, it is left for a while.
   void reckon(f64 cost) {
     loss_ = larger(0.0, loss_ + cost - fresh_);
-    if (loss_ < 2 * fresh_) return;
+    if (loss_ < most_loss * fresh_) return;
     loss_ = 0;
-    pause_ = pauses_ = smaller(longest_pause, 2 * pauses_ + 16);
+    pause_ = pauses_ = smaller(longest_pause, 2 * pauses_ + first_pause);
     count_ = free_count_ = 0;
     candidates_.count = 0;
   }
@@ -181,7 +202,7 @@ template <int D> class AabbTree {
       f32 motion = is_new ? 0 : (box[a] - origin[a]) / updates;
       f32 size = box[D + a] - box[a];
       if (!(motion <= size && -motion <= size)) motion = 0;  // a jump
-      f32 aside = margin > 0 ? margin : slack * larger(motion, -motion);
+      f32 aside = margin > 0 ? margin : aside_share * larger(motion, -motion);
       f32 ahead = margin > 0 ? 0 : reach * motion;
       fat[a] = smaller(box[a], box[a] + smaller(ahead, 0.0f) - aside);
       fat[D + a] = larger(box[D + a], box[D + a] + larger(ahead, 0.0f) + aside);

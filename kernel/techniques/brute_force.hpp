@@ -1,8 +1,8 @@
 // Brute force: every box against every other, four at a time.
 //
-// Idea: the article's first approach: the inner loop starts behind the outer one's box, so no pair is met twice.
+// Idea: the article's first approach: the inner loop starts after the outer one's box, so no pair is met twice.
 // Cost: n (n - 1) / 2 tests, nothing to build, 20 (2D) or 28 (3D) bytes a box.
-// Wins for a handful of boxes. Loses for all else; kept as the answer that every other technique must give.
+// Wins for a handful of boxes. Loses otherwise; it serves as the reference for all other techniques.
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, approach 1.
 #pragma once
 #include "search/settings.hpp"
@@ -15,6 +15,8 @@ template <int D> class BruteForce {
   Buffer<u32> end_;
 
  public:
+  static constexpr bool notes_doubts = true;
+
   void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     if (n < 2) return;

@@ -1,15 +1,15 @@
-// BSP tree: the world cut in two again and again along its axes (a k-d tree), built anew each update.
+// BSP tree: the world cut in two again and again along its axes (a k-d tree), rebuilt each update.
 //
-// Idea: each cut stands at the median of a sample, across the axis along which the boxes are spread furthest,
-// measured in boxes. A box that a cut crosses goes to both sides and is marked as continuing on the right one;
-// two boxes with a common mark have met further left, so every pair is found once, in the leaf that holds the
-// larger of the two minimum corners. Two stacks of items are all that is kept: a cut pushes its left side onto
-// the other stack and closes the gaps of the right one in place, without a branch. A cut is made while it saves
-// more tests in the sweep of the leaves than its copies cost.
-// Cost: build O(n log(n / leaf)), about 3 ns an item and level; pairs O(n + candidates); about 100 (2D) or 160
-// (3D) bytes a box. Nothing to update.
-// Wins on clusters within clusters, where no one grid or strip width is right. Loses to the strips elsewhere: it
-// passes over the items once for each level where they pass twice.
+// Idea: each cut is at the median of a sample, across the axis along which the boxes are spread furthest, measured in
+// boxes. A box that a cut crosses goes to both sides and is marked as continuing on the right one; two boxes with a
+// common mark have met further left, so every pair is found once, in the leaf that contains the larger of the two
+// minimum corners. Two stacks of items are the only storage: a cut pushes its left side onto the other stack and closes
+// the gaps of the right one in place, without a branch. Cuts continue while they save more tests in the sweep of the
+// leaves than their copies cost.
+// Cost: build O(n log(n / leaf)), about 3 ns an item and level; pairs O(n + candidates); about 100 (2D) or 160 (3D)
+// bytes a box. Nothing is updated.
+// Wins on clusters within clusters, where no one grid or strip width is right. Otherwise loses to strip sweep: it
+// passes over the items once per level, strip sweep twice in all.
 // From: J. L. Bentley, "Multidimensional Binary Search Trees Used for Associative Searching", 1975; cuts and
 // leaves as in Serpa & Rodrigues, "Broadmark: A Testing Framework for Broad-Phase Collision Detection", 2019.
 #pragma once
@@ -22,8 +22,8 @@ template <int D> class BspTree {
   static constexpr f32 copy_cost = D == 2 ? 32 : 80, pass_cost = 12;
   static constexpr u32 fewest = 32;  // items of a node that is cut
   // A crowd of copies is cut off: a node may make this many for each of its items, all its cuts together.
-  static constexpr f32 most_copies = 3;
-  static constexpr u32 deepest = 40;
+  static constexpr f32 copies_each = 3;
+  static constexpr u32 deepest_cut = 40;
   static constexpr u32 samples = 15;
 
   struct Region {
@@ -48,7 +48,7 @@ template <int D> class BspTree {
       everywhere.low[a] = -__builtin_inff();
       everywhere.high[a] = __builtin_inff();
     }
-    node(0, 0, 0, scene.count, most_copies * f32(scene.count), everywhere, 0, pairs);
+    node(0, 0, 0, scene.count, copies_each * f32(scene.count), everywhere, 0, pairs);
   }
 
   /// The leaves of the last update; unbounded sides are infinite.
@@ -73,7 +73,7 @@ template <int D> class BspTree {
   /// Works off the top `count` items of a stack, which begin at `first`; on the other one `free` is.
   void node(u32 stack, u32 first, u32 free, u32 count, f32 spare, const Region& region, u32 depth, Pairs& pairs) {
     ItemsAt<D> items(stacks_[stack], first);
-    Cut cut = depth < deepest && count > fewest ? choose(items, count, spare) : Cut{-1, 0};
+    Cut cut = depth < deepest_cut && count > fewest ? choose(items, count, spare) : Cut{-1, 0};
     u32 left = 0, right = 0;
     if (cut.axis >= 0) {
       stacks_[1 - stack].grow(u64(free) + count, free);

@@ -1,15 +1,15 @@
 // Hierarchical grid: a grid for each size of box, each box in one cell of the grid that fits it.
 //
-// Idea: cells are powers of two, and a box stands in the cell of its minimum corner, at a level whose cells are larger
-// than it; what it overlaps then starts in the same cell or in one next to it. Within a level it looks only at cells
-// that it reaches into, so that every pair is met from one side; besides it looks at the cells around it in the
-// levels of larger boxes, never of smaller ones. A level whose cells would be nearly empty is merged into the next:
-// cells are no finer than the boxes are apart, and there are few levels to look at. The grids are endless: cells are
-// counted round and round, modulo a power of two that follows the number of boxes in the level, and those that fall
-// together are told apart by the boxes. Rows of cells are contiguous, so neighbours along a row are one run.
+// Idea: cell sizes are powers of two, and a box is in the cell of its minimum corner, at a level whose cells are larger
+// than it; boxes it overlaps then start in the same cell or in one next to it. Within a level it searches only cells
+// that it extends into, so that every pair is found from one side; it also searches the cells around it in the levels
+// of larger boxes, never of smaller ones. A level whose cells would be nearly empty is merged into the next: cells are
+// no finer than the spacing of boxes, and there are few levels to search. The grids are unbounded: cells wrap around,
+// modulo a power of two that depends on the number of boxes in the level, and boxes tell apart cells that coincide.
+// Rows of cells are contiguous, so neighbours along a row are one run.
 // Cost: update O(n), pairs O(n * levels * 3^(D - 1) + candidates); memory about 60 (2D) or 90 (3D) bytes a box.
 // Wins on boxes of mixed sizes in any world, clustered and endless ones too. Loses a little to grids of one level on
-// boxes of one size, and where boxes are long and thin: their cells are as wide as they are long.
+// boxes of one size, and when boxes are long and thin: their cells are as wide as they are long.
 // From: F. Schornbaum, "Hierarchical Hash Grids for Coarse Collision Detection", 2009.
 #pragma once
 #include "search/cell_table.hpp"

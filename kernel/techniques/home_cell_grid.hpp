@@ -1,14 +1,14 @@
-// Home-cell grid: each box in one cell of one grid; neighbours are visited when pairs are looked for.
+// Home-cell grid: each box in one cell of one grid; the search visits neighbouring cells.
 //
-// Idea: a box stands in the cell of its minimum corner and so moves in memory as a point would; those that it can
-// overlap start in its cell or in one beside it. A box looks only at cells that it reaches into, so that every pair
-// is met from one side. The few boxes that are larger than a cell do not make the cells larger for all: they stand
-// apart, ordered along one axis; each looks at the cells under it, row by row, and at the other large ones by a sweep.
-// Cells are as large as 98 % of the boxes, larger where boxes are far apart, and may be longer along one axis.
+// Idea: a box is in the cell of its minimum corner, and is sorted like a point; boxes it can overlap start in its cell
+// or in one beside it. A box searches only cells that it extends into, so that every pair is found from one side. The
+// few boxes larger than a cell do not enlarge the cells for all: they are kept separately, sorted along one axis; each
+// searches the cells under it, row by row, and a sweep finds the pairs among them. Cells are as large as 98 % of the
+// boxes, larger if boxes are far apart, and may be longer along one axis.
 // Cost: update O(n), pairs O(n * 3^(D - 1) + candidates + rows of cells under large boxes); memory about 75 (2D) or
 // 100 (3D) bytes a box.
 // Wins on boxes of one size, dense ones above all: nothing is stored twice. Loses on boxes of all sizes at once, and
-// where boxes are long and thin along different axes.
+// when boxes are long and thin along different axes.
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, future expansion; the cell
 // lists of molecular dynamics (R. Hockney & J. Eastwood, "Computer Simulation Using Particles", 1981).
 #pragma once

@@ -1,14 +1,13 @@
-// Quadtree, in 3D an octree: loose, built anew each update over the extent of the boxes seen.
+// Quadtree, in 3D an octree: loose, rebuilt each update over the extent of the boxes.
 //
-// Idea: a box stands in the cell that holds its centre, on the finest level whose cells are no smaller than it,
-// and may stick out of it by half a cell; a cell with few boxes is not divided. A node is not stored by its
-// cell but by the bounds of what is in it. Nodes stand in one flat array, each before those below it, with the
-// place behind its last: from each node all later ones are walked in order, and what does not overlap it is
-// jumped over whole.
+// Idea: a box is in the cell that contains its centre, on the finest level whose cells are no smaller than it, and may
+// extend beyond it by half a cell; a cell with few boxes is not divided. A node stores not its cell but the bounds of
+// its boxes. Nodes are in one flat array, each before its descendants, with the index after the last of them: from each
+// node all later ones are visited in order, and a subtree that does not overlap it is skipped.
 // Cost: build O(n), one radix sort; pairs O(nodes log nodes + candidates); about 80 (2D) or 110 (3D) bytes a box.
-// Nothing to update.
-// Wins nowhere by much; steady on all sizes, since large boxes stay on top. Loses where many large boxes do: each
-// is tested against all that is below.
+// Nothing is updated.
+// Wins nowhere by much; steady on all sizes, since large boxes stay near the root. Loses when there are many of these:
+// each is tested against everything below it.
 // From: R. Finkel and J. L. Bentley, "Quad Trees", 1974; loose cells from T. Ulrich, "Loose Octrees", Game
 // Programming Gems, 2000.
 #pragma once

@@ -1,11 +1,11 @@
-// R-tree: packed along the Hilbert curve, built anew each update, joined against itself.
+// R-tree: packed along the Hilbert curve, rebuilt each update, joined with itself.
 //
-// Idea: boxes next to each other on the curve share a node, so nodes are small and full, and nothing is ever
-// inserted. The tree walks through itself: two nodes that overlap send only those of their children on that do.
-// Cost: build O(n), one radix sort of the places on the curve; pairs O(n + pairs of nodes that overlap); about 63
-// (2D) or 86 (3D) bytes a box. Nothing to update.
-// Wins where sizes and crowding vary widely: it has no cell to choose. Loses to the strips otherwise, whose order
-// is cheaper to make, and where long boxes make its nodes overlap.
+// Idea: boxes next to each other on the curve share a node, so nodes are small and full, and nothing is ever inserted.
+// In the self-join, two nodes that overlap pass on only their overlapping children.
+// Cost: build O(n), one radix sort of the places on the curve; pairs O(n + pairs of nodes that overlap); about 63 (2D)
+// or 86 (3D) bytes a box. Nothing is updated.
+// Wins when sizes and density vary widely: it has no cell size to choose. Otherwise loses to strip sweep, whose order
+// is cheaper to build, and when long boxes make its nodes overlap.
 // From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993; the join from Brinkhoff, Kriegel & Seeger,
 // "Efficient Processing of Spatial Joins Using R-trees", SIGMOD 1993.
 #pragma once

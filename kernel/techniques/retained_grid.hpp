@@ -1,13 +1,13 @@
-// Retained grid: the cells of the spatial grid, kept from one update to the next.
+// Retained grid: the cells of the spatial grid, retained between updates.
 //
-// Idea: each box is compared with the copy of it from the update before. One that has not changed costs nothing
-// more; one that has, makes its cells dirty, and only where it has come into other cells it is taken out of the old
-// ones and put into the new. Then the dirty cells are searched for pairs of boxes that have changed; those of boxes
-// that have not stay what they were. A cell is a short list of slots with room to grow. When much has changed at once,
-// or boxes have drifted until the cells fit them badly, all is built anew.
+// Idea: each box is compared with its copy from the previous update. An unchanged box costs nothing more; a changed one
+// makes its cells dirty, and only if it overlaps other cells than before is it removed from the old ones and added to
+// the new. Then the dirty cells are searched for pairs with a changed box; pairs of unchanged boxes are retained. A
+// cell is a short list of slots with room to grow. When much has changed at once, or boxes have drifted until the cells
+// fit them badly, the grid is rebuilt.
 // Cost: update O(n + entries of the boxes that changed cells), pairs O(dirty cells * their squared number of boxes);
-// memory about 100 (2D) or 200 (3D) bytes a box, and the pairs, which are kept too.
-// Wins where most boxes rest. Loses where all move: then looking what has changed saves little.
+// memory about 100 (2D) or 200 (3D) bytes per box, and the pairs, which are retained too.
+// Wins when most boxes are at rest. Loses when all move: then change detection saves little.
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, future expansion.
 #pragma once
 #include "pairs/pair_order.hpp"
@@ -17,7 +17,10 @@
 
 template <int D> class RetainedGrid {
   // Entries that may be looked at for each box before building anew is the better way.
-  static constexpr u32 patience = 8;
+  static constexpr u32 most_effort = 8;
+  // All is built anew when there are so many times the entries, or the tests, that there were when it was built, and
+  // when there is room for so many times the entries that are in use.
+  static constexpr u32 most_worse = 2, most_room = 4, worse_anyway = 64;
 
   struct Cell {
     u32 at, size, room;  // its entries
@@ -162,10 +165,11 @@ template <int D> class RetainedGrid {
         put(grid_.range(axes, item), k);
       }
       keep(scene, k);
-      if (effort_ > patience * n || entries_end_ > larger(2 * built_placed_, f64(n)) * 4) return false;
+      if (effort_ > most_effort * n || entries_end_ > larger(most_worse * built_placed_, f64(n)) * most_room)
+        return false;
     }
     count_ = n;
-    return placed_ <= 2 * built_placed_ + 64 && tests_ <= 2 * built_tests_ + n;
+    return placed_ <= most_worse * built_placed_ + worse_anyway && tests_ <= most_worse * built_tests_ + n;
   }
 
   /// Puts a slot into its cells.

@@ -5,7 +5,7 @@
 // minimum corners, so no table of tested pairs is needed: a box is marked, per axis, in the cells it continues
 // into, and two boxes with a common mark have met in an earlier cell.
 // Cost: build O(n + entries + cells), pairs O(sum over cells of their squared number of boxes).
-// Wins where boxes are of one size and evenly spread. Loses on mixed sizes: no cell size is right for them.
+// Wins when boxes are of one size and evenly spread. Loses on mixed sizes: no cell size is right for them.
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, approach 2; the
 // reference cell is from Dittrich & Seeger, "Data Redundancy and Duplicate Detection in Spatial Join
 // Processing", ICDE 2000.

@@ -1,12 +1,12 @@
 // Strip sweep: cut the world into strips (2D) or columns (3D), order each along the remaining axis, sweep.
 //
-// Idea: an item enters every strip it touches and is marked "continues" in all but its first (3D: one mark per
-// axis). Two items that both continue into a strip have already met, so their shared mark keeps them from being
-// tested again: every pair is found once, with no table. Where a strip has too many candidates that are not
-// hits, it is cut again, along the same axes, by its own statistics.
+// Idea: an item enters every strip it touches and is marked "continues" in all but its first (3D: one mark per axis).
+// Two items that both continue into a strip have already met, so their shared mark keeps them from being tested again:
+// every pair is found once, with no table. If a strip has too many candidates that are not hits, it is divided again,
+// along the same axes, by its own statistics.
 // Cost: build O(n), pairs O(n + candidates); memory about 48 (2D) or 80 (3D) bytes for each entry.
 // Wins nearly always when everything moves: box size costs almost nothing, there is no cell size to choose.
-// Loses when few boxes move: it starts anew each time.
+// Loses when few boxes move: each update is a full rebuild.
 // From: two-layer partitioning, Tsitsigkos et al., "A Two-layer Partitioning for Non-point Spatial Data",
 // ICDE 2021; the sweep in strips goes back to Güting & Schilling 1987.
 #pragma once
@@ -22,7 +22,8 @@ template <int D> class StripSweep {
   // Strips longer than this leave the cache near the core.
   static constexpr f64 cached_items = 8192;
   static constexpr f64 least_items = 100;  // in a strip, on average: shorter ones cost more than they save
-  static constexpr u32 few = 2000;  // boxes that are one strip where they have no more candidates than a strip may have
+  static constexpr u32
+      one_strip_below = 2000;  // boxes that are one strip where they have no more candidates than a strip may have
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
   static constexpr u32 deepest = 6;
   // A strip is cut again where it has this many candidates an item, and this many in all.
@@ -86,6 +87,8 @@ template <int D> class StripSweep {
   Stats* stats_ = nullptr;
 
  public:
+  static constexpr bool notes_doubts = true;
+
   SMALL void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     stats_ = &stats;
     boxes_ = entered_ = scene.count;
@@ -198,7 +201,7 @@ template <int D> class StripSweep {
   SMALL bool cut_up(const Scene<D>& scene) {
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     SceneSample<D> world;
-    bool one_strip = scene.count < few;
+    bool one_strip = scene.count < one_strip_below;
     if (one_strip) {
       world = glance<D>(plain, scene.count);
       int a = world.longest();

@@ -1,15 +1,15 @@
 // Sweep and prune: boxes in order of their minima along one axis; each meets those that start before it ends.
 //
-// Idea: the axis along which the world is longest, measured in boxes, is swept. The order is kept: from one update
-// to the next boxes move little, so it is nearly right and an insertion sort repairs it in one pass. Where too much
-// has changed that is given up after a few moves; boxes are then dealt into as many cells as there are boxes, those of
-// a cell in the order they had, which is repaired; and where cells are crowded, it is a radix sort. Boxes that start
-// together stand in the order of their slots, so that what the order is depends on the boxes alone. Few of the boxes
-// that meet on one axis overlap, so sixteen are tested at a time (quantized_sweep.hpp).
+// Idea: the axis along which the world is longest, measured in boxes, is swept. The order is retained: boxes move
+// little between updates, so it is nearly right, and an insertion sort repairs it in one pass. If too much has changed,
+// that is given up after a few moves: a counting sort then distributes the boxes over as many cells as there are boxes,
+// and an insertion sort repairs each cell. If cells are crowded, a radix sort is used. Boxes with equal minima are in
+// the order of their slots, so that the order depends on the boxes alone. Few of the boxes that meet on one axis
+// overlap, so sixteen are tested at a time (quantized_sweep.hpp).
 // Cost: update O(n + moves in the order), at most that of one radix sort; pairs O(n * boxes that one meets along the
 // axis), which grows with the square root (2D) or the power 2/3 (3D) of n; memory about 65 (2D) or 75 (3D) bytes a box.
-// Wins in sparse and long worlds, and where few boxes move. Loses in large square ones, and most of all in cubes:
-// all but one axis are ignored.
+// Wins in sparse and long worlds, and when few boxes move. Loses in large square worlds, and most of all in cubes: it
+// uses only one axis.
 // From: D. Baraff, "Dynamic Simulation of Non-Penetrating Rigid Bodies", 1992; the sweep along one axis with the
 // tests of the others at once is C. Ericson, "Real-Time Collision Detection", 2005, 7.5.
 #pragma once

@@ -24,7 +24,7 @@ template <int D> void check_ring() {
   auto ring = std::make_unique<Ring<D>>();
   std::vector<Box<D>> expected;
   for (u32 round = 1; round < rounds; round++) {
-    u32 count = smaller(round, Ring<D>::most);
+    u32 count = smaller(round, Ring<D>::most_entries);
     for (u32 k = 0; k < count; k++) {
       f64* entry = ring->entries + k * Ring<D>::step;
       u32 id = k * 7 % slots;
@@ -36,13 +36,13 @@ template <int D> void check_ring() {
       if (id >= expected.size()) expected.resize(id + 1);
       expected[id] = box;
     }
-    space.take(*ring, count);
+    space.store.take(*ring, count);
     if (instance->ids.same()) CHECK(ring->dense == instance->ids.count() && ring->pages == 0);
     else CHECK(ring->dense == 0 && ring->room == 0 && ring->pages > 0);
     for (u32 id = 0; id < expected.size(); id++) {
       Box<D> held;
       if (instance->ids.slot(id) == Ids::none) continue;
-      CHECK(space.get(id, held.data()) && held == expected[id]);
+      CHECK(space.store.get(id, held.data()) && held == expected[id]);
     }
   }
 }

@@ -12,7 +12,7 @@ TEST("behind the lanes there is padding that overlaps nothing, whatever stood th
   for (u32 count = 60; count < 80; count++) {
     lanes.fill(items, 100);
     lanes.fill(items, count);
-    for (u32 k = 0; k < count + Lanes<2>::padding; k++) CHECK((lanes.lo(0)[k] == lanes.lo(0)[k]) == (k < count));
+    for (u32 k = 0; k < count + Lanes<2>::spare_lanes; k++) CHECK((lanes.lo(0)[k] == lanes.lo(0)[k]) == (k < count));
   }
   lanes.release();
   store.release();

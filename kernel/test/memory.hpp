@@ -38,7 +38,7 @@ template <int D> struct Fixture {
     bool same = space.validate(detail) == 0 && instance->ids.count() == model.count();
     for (u32 id : model.ids()) {
       Box<D> held;
-      same &= space.get(id, held.data()) && held == model.at(id);
+      same &= space.store.get(id, held.data()) && held == model.at(id);
     }
     CHECK(same);
   }
@@ -65,7 +65,7 @@ template <int D> void check_changes() {
       if (state & 4) {
         for (u32 id : fixture->model.ids()) {
           if (id % 3) continue;
-          fixture->space.exclude(fixture->instance->ids.slot(id), is_static, true);
+          fixture->space.store.exclude(fixture->instance->ids.slot(id), is_static, true);
           fixture->model.exclude(id, is_static, true);
         }
       }
@@ -92,14 +92,15 @@ template <int D> void check_changes() {
     fixture->works();
     CHECK(failures > 20);
 
-    change([&](auto& f) { CHECK(f.space.remove(f.model.ids()[7])); },
+    change([&](auto& f) { CHECK(f.space.store.remove(f.model.ids()[7])); },
            [&](auto& model) { model.remove(model.ids()[7]); });
-    change([&](auto& f) { f.space.reserve(5000); }, [](auto&) {});
-    CHECK(change([&](auto& f) { f.space.expose(250); }, [](auto& model) { model.expose(250); }) > 0);
-    change([&](auto& f) { f.space.expose(10); }, [](auto& model) { model.expose(10); });
+    change([&](auto& f) { f.space.store.reserve(5000); }, [](auto&) {});
+    CHECK(change([&](auto& f) { f.space.store.expose(250); }, [](auto& model) { model.expose(250); }) > 0);
+    change([&](auto& f) { f.space.store.expose(10); }, [](auto& model) { model.expose(10); });
     CHECK(change([&](auto& f) { replace(f.space, doubles, true); }, [&](auto& model) { model.replace(doubles); }) > 0);
     CHECK(change([&](auto& f) { replace(f.space, floats, false); }, [&](auto& model) { model.replace(floats); }) > 0);
-    change([&](auto& f) { f.space.exclude(0, is_blue, true); }, [](auto& model) { model.exclude(0, is_blue, true); });
+    change([&](auto& f) { f.space.store.exclude(0, is_blue, true); },
+           [](auto& model) { model.exclude(0, is_blue, true); });
   }
 }
 
@@ -207,7 +208,7 @@ template <int D> void check_too_many_pairs() {
     }
     for (u32 id = 0; id < 3000; id++) {
       if (id % 10 == 0) continue;
-      CHECK(f.space.remove(id));
+      CHECK(f.space.store.remove(id));
       f.model.remove(id);
     }
     f.works();

@@ -184,20 +184,20 @@ template <int D> void set(Space<D>& space, u32 id, const f64* box) {
   Ring<D> ring;
   ring.entries[0] = id;
   __builtin_memcpy(ring.entries + 1, box, 2 * D * sizeof(f64));
-  space.take(ring, 1);
+  space.store.take(ring, 1);
 }
 
 /// Stages boxes and puts them in place of all; as float32 where `doubles` is false. Returns the first bad one.
 template <int D> i32 replace(Space<D>& space, const Boxes<D>& boxes, bool doubles) {
   u32 count = u32(boxes.size());
   if (doubles) {
-    f64* to = space.stage_exact(count);
+    f64* to = space.store.numbers.stage_exact(count);
     for (u32 k = 0; k < count; k++) std::copy(boxes[k].begin(), boxes[k].end(), to + size_t(k) * 2 * D);
   } else {
-    f32* to = space.stage(count);
+    f32* to = space.store.numbers.stage(count);
     for (u32 k = 0; k < count; k++) {
       for (u32 n = 0; n < 2 * D; n++) to[size_t(k) * 2 * D + n] = f32(boxes[k][n]);
     }
   }
-  return space.replace(count, doubles);
+  return space.store.replace(count, doubles);
 }

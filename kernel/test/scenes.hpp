@@ -1,4 +1,4 @@
-// Boxes that broad phases get wrong, as in test/hostile.ts: everything in one place, nothing near anything, no
+// Boxes that broad phases get wrong, as in test/support/hostile-boxes.ts: everything in one place, nothing near anything, no
 // size, no end, numbers at the limits of float32 and beyond; and ordinary random ones.
 #pragma once
 #include <cmath>

@@ -207,7 +207,7 @@ template <int D> void check_order() {
       testing::Where where(scene.name);
       for (auto* space : {&one->space, &other->space}) {
         replace(*space, scene.boxes, true);
-        space->remove(3);
+        space->store.remove(3);
         space->update();
       }
       const u64 *first = one->space.pairs.list.data(), *second = other->space.pairs.list.data();
@@ -230,18 +230,18 @@ template <int D> void check_rounding() {
     if (x != x) continue;
     Box<D> box = cube<D>(x, x), held;
     set(space, 3, box.data());
-    CHECK(space.get(3, held.data()));
+    CHECK(space.store.get(3, held.data()));
     CHECK(held == box);
     u32 detail;
     CHECK(space.validate(detail) == 0);
-    f32* floats = space.expose(4) + 3 * 2 * D;
+    f32* floats = space.store.expose(4) + 3 * 2 * D;
     for (u32 n = 0; n < 2 * D; n++) CHECK(bits<u32>(floats[n]) == bits<u32>(f32(x)));
   }
   for (u32 k = 0; k < 1000; k++) {
     Box<D> box;  // no two numbers alike
     for (u32 n = 0; n < 2 * D; n++) box[n] = f32(n) + (random.bits64() % 3 ? 0 : random.fraction() / 2);
     set(space, 3, box.data());
-    f32* floats = space.expose(4) + 3 * 2 * D;
+    f32* floats = space.store.expose(4) + 3 * 2 * D;
     for (u32 n = 0; n < 2 * D; n++) CHECK(floats[n] == f32(box[n]));
   }
 }
@@ -251,7 +251,7 @@ template <int D> void check_exposed() {
   auto instance = open<D>(Technique::automatic);
   Space<D>& space = instance->space;
   u32 detail;
-  f32* boxes = space.expose(5);
+  f32* boxes = space.store.expose(5);
   for (u32 k = 0; k < 5 * 2 * D; k++) CHECK(boxes[k] == 0);
   CHECK(space.update() == -1);
   CHECK(space.pairs.count == 10);
@@ -260,7 +260,7 @@ template <int D> void check_exposed() {
   CHECK(space.pairs.count == 10);
   CHECK(space.validate(detail) == 0);
 
-  CHECK(space.remove(1));  // box 4 moves to the slot of box 1
+  CHECK(space.store.remove(1));  // box 4 moves to the slot of box 1
   CHECK(space.update() == 4);
 
   Box<D> rounded = cube<D>(0.1, 0.1);
@@ -286,14 +286,15 @@ template <int D> void check_bad_boxes() {
   bad[5][D] = std::nan("");
   for (bool doubles : {false, true}) {
     CHECK(replace(space, bad, doubles) == 3);
-    CHECK(space.staged_number(3 * 2 * D, doubles) == 0 && space.staged_number(3 * 2 * D + 1, doubles) == 2);
+    CHECK(space.store.numbers.staged_number(3 * 2 * D, doubles) == 0 &&
+          space.store.numbers.staged_number(3 * 2 * D + 1, doubles) == 2);
     bad[3][1] = 0.1;
     CHECK(replace(space, bad, doubles) == 5);
     bad[3][1] = 2;
   }
   Box<D> held;
-  CHECK(space.get(3, held.data()) && held == boxes[3]);
-  CHECK(!space.get(6, held.data()));
+  CHECK(space.store.get(3, held.data()) && held == boxes[3]);
+  CHECK(!space.store.get(6, held.data()));
   CHECK(space.pairs.count == 15);
 }
 
@@ -312,8 +313,8 @@ template <int D> void check_colours() {
     auto instance = open<D>(technique);
     replace(instance->space, boxes, true);
     for (u32 id = 0; id < 500; id++) {
-      instance->space.exclude(id, id < 200 ? is_red : is_blue, true);
-      if (id % 3 == 0) instance->space.exclude(id, is_static, true);
+      instance->space.store.exclude(id, id < 200 ? is_red : is_blue, true);
+      if (id % 3 == 0) instance->space.store.exclude(id, is_static, true);
     }
     check_pairs(instance->space, expected);
   });

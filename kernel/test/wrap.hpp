@@ -88,27 +88,28 @@ template <int D> void check_views() {
     for (bool doubles : {false, true}) {
       auto instance = open<D>(Technique::brute_force);
       Space<D>& space = instance->space;
+      auto& questions = space.questions;
       for (u32 a = 0; a < D; a++) instance->settings.wrap[a] = world[a];
       replace(space, boxes, doubles);
       CHECK(space.update() == -1);
       for (u32 asked = 0; asked < 40; asked++) {
-        space.question.mask = space.question.ignored = ~0u;
-        space.planes.count = random.below(5);
-        for (u32 p = 0; p < space.planes.count; p++) {
-          for (f64& normal : space.planes.normal[p]) normal = f64(random.below(5)) - 2;
-          space.planes.offset[p] = f64(random.below(120)) - 40;
+        questions.asked.mask = questions.asked.ignored = ~0u;
+        questions.planes.count = random.below(5);
+        for (u32 p = 0; p < questions.planes.count; p++) {
+          for (f64& normal : questions.planes.normal[p]) normal = f64(random.below(5)) - 2;
+          questions.planes.offset[p] = f64(random.below(120)) - 40;
         }
         std::vector<u32> found(count, 0);
         u32 from = 0, part;
         do {
-          part = space.ask_planes(from, 64);
+          part = questions.ask_planes(from, 64);
           for (u32 k = 0; k < part; k++) {
-            u32 id = space.answers[k] & ~PlaneQuery<D>::inside;
+            u32 id = questions.answers[k] & ~PlaneQuery<D>::inside;
             CHECK(found[id] == 0);
-            found[id] = space.answers[k] & PlaneQuery<D>::inside ? 2 : 1;
+            found[id] = questions.answers[k] & PlaneQuery<D>::inside ? 2 : 1;
           }
         } while (part == 64);
-        for (u32 id = 0; id < count; id++) CHECK(found[id] == seen<D>(boxes[id], space.planes, world));
+        for (u32 id = 0; id < count; id++) CHECK(found[id] == seen<D>(boxes[id], questions.planes, world));
       }
     }
   }

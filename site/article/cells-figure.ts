@@ -1,9 +1,9 @@
 // What figures 6 to 8 have in common: boxes on a grid, a slider for the cell size, the cells that have to be visited
 // shaded, and the work that comes of it beside that of brute force.
 import { ro } from 'broadphase/ro';
-import { type Box, bestCellSize, countWork, place } from '../demos/cells.ts';
-import source from '../demos/cells.ts?raw';
 import { demoColumns } from './demo.ts';
+import { type Box, bestCellSize, countWork, place } from './demos/cells.ts';
+import source from './demos/cells.ts?raw';
 import { button, counters, createView, element, excerpt, listing, row, sayer, slider } from './kit/index.ts';
 
 /** The world of these figures. */
@@ -108,7 +108,7 @@ export function cellsFigure(root: HTMLElement, { boxes, cellSize, what }: CellsF
     ),
   );
   const say = sayer(right);
-  listing(right, 'site/demos/cells.ts', excerpt(source, 'export function countWork'));
+  listing(right, 'site/article/demos/cells.ts', excerpt(source, 'export function countWork'));
   show();
 
   function choose(cellSize: number): void {

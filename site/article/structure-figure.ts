@@ -4,9 +4,9 @@
 import type { TechniqueName } from 'broadphase';
 import { ro } from 'broadphase/ro';
 import coltechSource from '../../src/ro/coltech/broad-phase.ts?raw';
-import { type Crowd, crowd } from '../demos/crowd.ts';
-import source from '../demos/crowd.ts?raw';
 import { demoColumns } from './demo.ts';
+import { type Crowd, crowd } from './demos/crowd.ts';
+import source from './demos/crowd.ts?raw';
 import { choice, excerpt, listing, slider } from './kit/index.ts';
 import { createStage } from './stage.ts';
 
@@ -63,7 +63,7 @@ export function structureFigure(root: HTMLElement, { techniques, unit, most, ...
   }
 
   listing(right, 'src/ro/coltech/broad-phase.ts', excerpt(coltechSource, 'draw(ctx: CanvasRenderingContext2D)'));
-  listing(right, 'site/demos/crowd.ts', excerpt(source, 'const world = new ro.World(canvas, {'));
+  listing(right, 'site/article/demos/crowd.ts', excerpt(source, 'const world = new ro.World(canvas, {'));
   return stage.rest;
 }
 

@@ -1,4 +1,4 @@
-// Files of results, as bench/run.mjs writes them and as this page's own run does, and what can be read out of them.
+// Files of results, as bench/harness/run.mjs writes them and as this page's own run does, and what can be read out of them.
 import type { Contender, Figures, Judged } from '../../bench/harness/judge.mjs';
 
 /** Who has taken part in a race: with `total`, the milliseconds of a frame; too slow; or failed. */

@@ -1,16 +1,21 @@
 // What the lab can show: every generator of src/scenes, and the recorded traces that come with the page.
+import junkyard from '../../recordings/junkyard.trace.gz?url';
+import rain from '../../recordings/rain.trace.gz?url';
+import gravity from '../../recordings/rapier3d-gravity8k.trace.gz?url';
+import smash from '../../recordings/smash.trace.gz?url';
+import tumbler from '../../recordings/tumbler.trace.gz?url';
 import { gameNames, type SceneName, sceneNames } from '../../src/scenes/index.ts';
 
 export const fewestBoxes = 2;
 export const mostBoxes = 200_000;
 
-/** Recorded traces, by their file in site/public/traces. */
-export const traces: Readonly<Record<string, { file: string; label: string }>> = {
-  rain: { file: 'rain.bin.gz', label: 'Rain (Box2D)' },
-  smash: { file: 'smash.trace.gz', label: 'Smash (Box2D)' },
-  junkyard: { file: 'junkyard.trace.gz', label: 'Junkyard (Box2D)' },
-  tumbler: { file: 'tumbler.trace.gz', label: 'Tumbler (Box2D)' },
-  gravity: { file: 'gravity.trace.gz', label: 'Turning gravity, 3D (Rapier)' },
+/** Recordings that come with the page. */
+export const traces: Readonly<Record<string, { label: string; url: string }>> = {
+  rain: { label: 'Rain (Box2D)', url: rain },
+  smash: { label: 'Smash (Box2D)', url: smash },
+  junkyard: { label: 'Junkyard (Box2D)', url: junkyard },
+  tumbler: { label: 'Tumbler (Box2D)', url: tumbler },
+  gravity: { label: 'Turning gravity, 3D (Rapier)', url: gravity },
 };
 
 /** What the scenes are called where their own name does not say it. */

@@ -7,19 +7,27 @@ import { numberPanel } from '../shared/numbers.ts';
 import type { RendererKind } from '../shared/renderer.ts';
 import { Timings } from '../shared/timings.ts';
 import { isTrace, mostBoxes, traces } from './catalog.ts';
-import { createCellSize } from './cell-size.ts';
-import { createCharts } from './charts.ts';
-import { arrange, fillControls, layersChosen, racersChosen, rateMenu, sceneMenu, techniqueMenu } from './controls.ts';
-import { createCountSlider } from './count-slider.ts';
 import { save, takeFiles } from './files.ts';
-import { createInspector } from './inspector.ts';
-import type { Opened, Picture, Requests, Source, Wanted } from './messages.ts';
-import { Pilot, TooSlow } from './pilot.ts';
-import { Playback } from './playback.ts';
+import { createCellSize } from './panels/cell-size.ts';
+import { createCharts } from './panels/charts.ts';
+import {
+  arrange,
+  fillControls,
+  layersChosen,
+  racersChosen,
+  rateMenu,
+  sceneMenu,
+  techniqueMenu,
+} from './panels/controls.ts';
+import { createCountSlider } from './panels/count-slider.ts';
+import { createInspector } from './panels/inspector.ts';
+import { Playback } from './panels/playback.ts';
 import { createRace, type Race } from './race.ts';
 import { defaults, type LabState, type Layer, latestFrame, type Rate, readState, writeState } from './state.ts';
-import { type LabView, onClick } from './view.ts';
-import { createFlatView } from './view-2d.ts';
+import { type LabView, onClick } from './views/view.ts';
+import { createFlatView } from './views/view-2d.ts';
+import type { Opened, Picture, Requests, Source, Wanted } from './worker/messages.ts';
+import { Pilot, TooSlow } from './worker/pilot.ts';
 
 /** Milliseconds that a worker may take for an answer. */
 const patience = 10_000;
@@ -98,7 +106,7 @@ async function revive({ message }: TooSlow): Promise<void> {
   techniqueMenu.value = 'auto';
   try {
     await open(0);
-    say(`${what} was stopped: ${message}. Here are the same boxes with auto.`, true);
+    say(`${what} was stopped: ${message}. The same boxes now run with auto.`, true);
   } finally {
     reviving = false;
   }
@@ -157,7 +165,7 @@ const boxesWanted = () => {
 function sourceOf(): Source {
   if (ownFile) return { kind: 'file', file: ownFile };
   if (isTrace(state.scene)) {
-    return { kind: 'trace', url: new URL(`../traces/${traces[state.scene].file}`, location.href).href };
+    return { kind: 'trace', url: new URL(traces[state.scene].url, location.href).href };
   }
   return { kind: 'scene', name: state.scene, boxes: boxesWanted() };
 }
@@ -234,7 +242,7 @@ async function change(next: { scene: string; own?: File }): Promise<void> {
 async function useView(dimensions: 2 | 3): Promise<void> {
   if (dimensions === 3) {
     // The library for it is fetched only by those who look at a solid scene.
-    solid ??= import('./view-3d.ts').then(({ createSolidView }) => {
+    solid ??= import('./views/view-3d.ts').then(({ createSolidView }) => {
       find('solid').hidden = false;
       const made = createSolidView(find('solid'), () => remember());
       listen(made);
@@ -267,7 +275,7 @@ function explain(): void {
   slider.show(opened!.boxes, asked > 0);
   write('boxes', formatCount(opened!.boxes));
   if (fewer && state.race)
-    say(`A race stops at ${formatCount(opened!.boxes)} boxes: every racer has all of them in its memory.`);
+    say(`A race stops at ${formatCount(opened!.boxes)} boxes: every racer keeps its own copy of them.`);
   else if (fewer) say(`Brute force stops here at ${formatCount(opened!.boxes)} boxes.`);
   else if (opened!.frames)
     say(`${ownFile?.name ?? traces[state.scene].label}: ${formatCount(opened!.frames)} frames, again and again.`);
@@ -384,7 +392,7 @@ async function toggleRecording(): Promise<void> {
     } else {
       recording = false;
       save(await ask('recording'), `${ownFile ? 'recording' : state.scene}.trace`);
-      find('recording').textContent = 'Saved. Now: npx broadphase tune on that file.';
+      find('recording').textContent = 'Saved. Next: npx broadphase tune on that file.';
     }
   } catch (error) {
     recording = false;
@@ -399,7 +407,7 @@ async function share(): Promise<void> {
     await navigator.clipboard.writeText(location.href);
     say(`Link copied.${held}`);
   } catch {
-    say(`The address of this page is the link: copy it from there.${held}`);
+    say(`The address of this page is the link: copy it from the address bar.${held}`);
   }
 }
 

@@ -6,8 +6,8 @@ import { Camera, type World } from '../shared/camera.ts';
 import { formatCount, formatMilliseconds } from '../shared/format.ts';
 import { makePalette } from '../shared/palette.ts';
 import { createRenderer } from '../shared/renderer.ts';
-import type { Opened, Picture, Source } from './messages.ts';
-import { Pilot, TooSlow } from './pilot.ts';
+import type { Opened, Picture, Source } from './worker/messages.ts';
+import { Pilot, TooSlow } from './worker/pilot.ts';
 
 /** Milliseconds that a frame may take in a race. */
 const patience = 3000;
@@ -176,8 +176,8 @@ export async function createRace(
     const pairs = running[0]?.picture?.stats.pairs ?? 0;
     note.textContent =
       digests.size > 1
-        ? 'They do not agree on the pairs: that is a fault of the library. Please report it.'
-        : `Median of ${kept} frames, logarithmic. They take turns, and all find the same ${formatCount(pairs)} pairs.`;
+        ? 'They disagree on the pairs: that is a bug in the library. Please report it.'
+        : `Median of ${kept} frames, on a logarithmic scale. They take turns, and all find the same ${formatCount(pairs)} pairs.`;
   };
 
   return {

@@ -40,19 +40,19 @@ const kinds: Record<string, Kind> = {
   shapes: {
     make: shapes,
     hint: 'In colour: shapes that touch. Grey: boxes in a pair.',
-    word: 'Separating axes, by SAT.js: two convex shapes are apart exactly where some line parts them. The answer has the way out, so that what touches can be pushed apart.',
+    word: 'Separating axes, with SAT.js: two convex shapes are apart exactly if some line separates them. The answer contains the way out, so that shapes that touch can be pushed apart.',
     code: '// for each pair a, b:\nconst contact = contactOf(a, b);\nif (contact) pushApart(a, b, contact);',
   },
   masks: {
     make: masks,
     hint: 'In colour: pictures with a pixel in common. Grey: boxes in a pair.',
-    word: 'Pixel masks: two pictures touch where both have a solid pixel. Only what both boxes share is looked at.',
+    word: 'Pixel masks: two pictures touch where both have a solid pixel. Only the overlap of the two boxes is checked.',
     code: '// for each pair a, b:\nif (masksTouch(a.mask, a.x, a.y, b.mask, b.x, b.y)) {\n  hit(a, b);\n}',
   },
   fast: {
     make: fastBoxes,
-    hint: 'Grey: bounds of a bullet’s way, and its pairs. In colour: its way until it meets a box, and that box.',
-    word: 'Swept boxes: a bullet that flies 40 times its width in a frame is kept as the bounds of its way, so its pairs are all that it may meet; when it does is reckoned exactly.',
+    hint: 'Grey: bounds of a bullet’s path, and its pairs. In colour: its path until it hits a box, and that box.',
+    word: 'Swept boxes: a bullet that flies 40 times its width in a frame is stored as the bounds of its path, so its pairs are everything it may hit; the time of the hit is computed exactly.',
     code: 'space.setSwept(id, ...box, dx, dy);\n// for each pair a, b:\nconst met = meeting(a.box, a.way, b.box, b.way);\nif (met) hit(a, b, met.time);',
   },
 };

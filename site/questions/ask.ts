@@ -1,5 +1,5 @@
 // What a question of the page is, what it works with, and what all of them share.
-import type { BroadPhase } from 'broadphase';
+import type { BroadPhase, TechniqueName } from 'broadphase';
 import { hues, shades } from '../shared/groups.ts';
 import type { Pen } from './pen.ts';
 
@@ -34,6 +34,8 @@ export interface Ask {
   /** What the number of answers counts. */
   readonly counts: string;
   readonly options: readonly OptionName[];
+  /** How pairs are found meanwhile, where it is to be a certain one. */
+  readonly technique?: TechniqueName;
   /** Asks, and marks what it found. This alone is timed. */
   ask(desk: Desk): number;
   /** Draws what was asked and found. */

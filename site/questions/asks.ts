@@ -4,7 +4,7 @@
 import type { BroadPhase, RayHit, SweepHit } from 'broadphase';
 import { shades } from '../shared/groups.ts';
 import { type Ask, first, flash, found, fresh, gone, hueSlot, join, list, maskText, short } from './ask.ts';
-import { fan, spaces, view } from './more-asks.ts';
+import { debug, fan, spaces, view } from './more-asks.ts';
 
 const ids: number[] = [];
 const idsOptions = { out: ids, mask: 7 };
@@ -24,7 +24,7 @@ function mark(slots: Uint8Array, slot: number): number {
 const box: Ask = {
   name: 'box',
   label: 'Box',
-  hint: 'Drag across the view: what touches the box is found, or what is wholly inside.',
+  hint: 'Drag across the view to find the boxes that touch yours, or lie wholly inside it.',
   counts: 'Boxes found',
   options: ['within', 'mask'],
   ask({ space, aim, mask, within, slots }) {
@@ -48,8 +48,8 @@ const box: Ask = {
 const point: Ask = {
   name: 'point',
   label: 'Point',
-  hint: 'Put the point on a box, or where boxes lie over one another.',
-  counts: 'Boxes that hold it',
+  hint: 'Put the point on a box, or where boxes overlap.',
+  counts: 'Boxes that contain it',
   options: ['mask'],
   ask({ space, aim, mask, slots }) {
     idsOptions.mask = mask;
@@ -68,7 +68,7 @@ const point: Ask = {
 const circle: Ask = {
   name: 'circle',
   label: 'Circle',
-  hint: 'Drag the circle: an explosion, or how far someone hears.',
+  hint: 'Drag the circle: an explosion, or how far someone can hear.',
   counts: 'Boxes that it touches',
   options: ['radius', 'mask'],
   ask({ space, aim, radius, mask, slots }) {
@@ -89,7 +89,7 @@ const rayCast: Ask = {
   name: 'ray',
   label: 'Ray',
   hint: 'Drag from where the ray begins to where it aims.',
-  counts: 'Boxes that it meets',
+  counts: 'Boxes that it hits',
   options: ['all', 'mask'],
   ask({ space, aim, all, mask, slots }) {
     const [x, y, toX, toY] = aim;
@@ -137,7 +137,7 @@ const sweptSide = 0.05;
 const sweep: Ask = {
   name: 'sweep',
   label: 'Sweep',
-  hint: 'Drag from where the box is to where it goes within one frame: it stops at what it meets first.',
+  hint: 'Drag from where the box is to where it goes within one frame: it stops at the first box it hits.',
   counts: 'Boxes met first',
   options: ['mask'],
   ask({ space, aim, mask, slots, world }) {
@@ -207,7 +207,7 @@ let chosen = -1;
 const partners: Ask = {
   name: 'partners',
   label: 'Partners',
-  hint: 'Choose a box: who is in a pair with it?',
+  hint: 'Choose a box: which boxes is it in a pair with?',
   counts: 'Boxes in a pair with it',
   options: [],
   ask({ space, aim, aimed, slots }) {
@@ -266,7 +266,7 @@ const layerHue = [8, 2, 10];
 const filters: Ask = {
   name: 'filters',
   label: 'Filters',
-  hint: 'Three layers: say which of them meet. Boxes in a pair are deep, the others pale.',
+  hint: 'Three layers: choose which of them meet. Boxes in a pair are dark, the others pale.',
   counts: 'Pairs',
   options: ['meet'],
   ask({ space, slots }) {
@@ -304,4 +304,5 @@ export const asks: readonly Ask[] = [
   spaces,
   events,
   filters,
+  debug,
 ];

@@ -184,6 +184,7 @@ function choose(name: string): void {
   canvas.setAttribute('aria-label', `${scene.count} boxes. ${ask.label}: ${ask.hint}`);
   find<HTMLInputElement>(`ask-${ask.name}`).checked = true;
   desk.aimed = true;
+  space.technique = ask.technique ?? 'auto';
   layers();
   update();
   for (let n = 0; n < warmUp; n++) ask.ask(desk);

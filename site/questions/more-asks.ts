@@ -1,4 +1,4 @@
-// More questions of the page: what a camera sees, many rays in one call, and the pairs of two spaces.
+// More questions of the page: what a camera sees, many rays in one call, the pairs of two spaces, and what a space holds.
 import { BroadPhase, type ManyRayHits } from 'broadphase';
 import { type Ask, first, found, join, maskText, short } from './ask.ts';
 
@@ -34,7 +34,7 @@ const viewOptions = {
 export const view: Ask = {
   name: 'view',
   label: 'View',
-  hint: 'Drag from the camera to where it looks. Boxes wholly in view are blue, those that its sides cut are red.',
+  hint: 'Drag from the camera to where it looks. Boxes wholly in view are blue, those cut by its sides are red.',
   counts: 'Boxes in view',
   options: ['mask'],
   ask({ space, aim, mask, slots }) {
@@ -72,7 +72,7 @@ export const fan: Ask = {
   name: 'fan',
   label: 'Many rays',
   hint: 'Move the point: 90 rays are cast from it, in one call. What a robot sees, or where light falls.',
-  counts: 'Rays that meet a box',
+  counts: 'Rays that hit a box',
   options: ['mask'],
   ask({ space, aim, mask, slots, world }) {
     for (let k = 0; k < rayCount; k++) {
@@ -118,7 +118,7 @@ let pairs: Uint32Array = new Uint32Array();
 export const spaces: Ask = {
   name: 'spaces',
   label: 'Two spaces',
-  hint: 'The ring is a space of its own. Move it: its pairs with the boxes are kept, at the cost of what moves.',
+  hint: 'The ring is a space of its own. Move it: its pairs with the boxes are retained, so only what moves costs time.',
   counts: 'Pairs of the two',
   options: ['radius'],
   ask({ space, aim, radius, slots, world }) {
@@ -144,5 +144,22 @@ export const spaces: Ask = {
   text() {
     const some = [...pairs.subarray(0, 12)].join(', ');
     return `ring.setAll(boxes).update();\nring.pairsWith(space); // of each pair one of the ring, then one of the boxes\n// [${some}${pairs.length > 12 ? ', …' : ''}]`;
+  },
+};
+
+export const debug: Ask = {
+  name: 'debug',
+  label: 'Debug drawing',
+  hint: 'What broadphase/draw shows of a space: boxes, pairs, the nodes of a quadtree, and a ray. Drag the ray.',
+  counts: 'Pairs',
+  options: [],
+  technique: 'quadtree',
+  ask: ({ space }) => space.pairCount,
+  draw({ pen, space, aim: [x, y, toX, toY] }) {
+    pen.space(space, { cells: true, hot: true, rays: [[x, y, toX - x, toY - y]] });
+  },
+  text({ aim: [x, y, toX, toY] }) {
+    const ray = [x, y, toX - x, toY - y].map(short).join(', ');
+    return `drawSpace(context, space, {\n  cells: true,\n  hot: true, // the fullest\n  rays: [[${ray}]],\n});`;
   },
 };

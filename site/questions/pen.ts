@@ -1,4 +1,6 @@
 // Draws on top of the boxes what was asked and what was met, in coordinates of the world, whose y axis points up.
+import type { BroadPhase } from 'broadphase';
+import { type DrawOptions, drawSpace } from 'broadphase/draw';
 import type { Camera } from '../shared/camera.ts';
 
 /** accent: what was asked; text: what was met; faint: what would be. */
@@ -53,6 +55,15 @@ export class Pen {
     context.fill();
     context.globalAlpha = 1;
     context.stroke();
+  }
+
+  /** What broadphase/draw shows of a space. */
+  space(space: BroadPhase<2 | 3>, options: DrawOptions): void {
+    const context = this.#context;
+    const { scale } = this.#camera;
+    context.setTransform(scale, 0, 0, -scale, this.#x(0), this.#y(0));
+    drawSpace(context, space, { ...options, lineWidth: this.#density });
+    context.resetTransform();
   }
 
   circle(x: number, y: number, radius: number, ink: Ink): void {

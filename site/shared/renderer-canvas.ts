@@ -21,7 +21,7 @@ const clamp = (value: number, low: number, high: number) => Math.min(high, Math.
 
 export function createCanvasRenderer(canvas: HTMLCanvasElement): BoxRenderer {
   const context = canvas.getContext('2d', { alpha: false });
-  if (!context) throw new Error('this browser gives neither a WebGL2 nor a 2D canvas');
+  if (!context) throw new Error('this browser supports neither WebGL2 nor a 2D canvas');
   const colours = new Uint32Array(slotCount);
   const alphas = new Float32Array(slotCount);
   let background = 0;

@@ -64,7 +64,7 @@ function build(gl: WebGL2RenderingContext): Program {
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
     const logs = gl.getAttachedShaders(program)!.map((shader) => gl.getShaderInfoLog(shader));
-    throw new Error(`the box shaders do not build: ${[gl.getProgramInfoLog(program), ...logs].join('\n')}`);
+    throw new Error(`the box shaders do not compile: ${[gl.getProgramInfoLog(program), ...logs].join('\n')}`);
   }
   gl.useProgram(program);
 

@@ -1,6 +1,7 @@
 // The scenes of the pages: seeded ones of any number of boxes, and a recorded one, under one interface.
 import { createScene, type SceneName } from '../../src/scenes/index.ts';
-import { type Recording, readRecording } from '../../src/scenes/recorded.ts';
+import { framesOf, type RecordedFrames } from '../../src/scenes/recorded.ts';
+import { openAny } from '../../src/trace/import.ts';
 import type { World } from './camera.ts';
 
 /** What a page runs: boxes that move by one frame at each step, in place. */
@@ -25,21 +26,17 @@ export function seededScene(name: SceneName, count: number): LiveScene {
 }
 
 /** Fetches a recording. Some servers unpack a .gz on the way, so the bytes tell whether it is still packed. */
-export async function fetchRecording(url: string): Promise<Recording> {
+export async function fetchRecording(url: string): Promise<RecordedFrames> {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
-  const bytes = new Uint8Array(await response.arrayBuffer());
-  const zipped = bytes[0] === 0x1f && bytes[1] === 0x8b;
-  if (!zipped) return readRecording(bytes);
-  const unzipped = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-  return readRecording(await new Response(unzipped).arrayBuffer());
+  return framesOf(await openAny(new Uint8Array(await response.arrayBuffer())));
 }
 
 /** Steps between two recorded frames: the short recordings are shown in slow motion. */
 const slowness = 8;
 
 /** A recording in slow motion, forth and back without end. */
-export function recordedScene(recording: Recording): LiveScene {
+export function recordedScene(recording: RecordedFrames): LiveScene {
   const { count, frames } = recording;
   const boxes = recording.frame(0).slice();
   const last = (frames - 1) * slowness;

@@ -44,8 +44,8 @@ export interface Terminal {
 
 export interface Command {
   summary: string;
-  /** The arguments without a dash, by name. */
-  operands: readonly string[];
+  /** The arguments without a dash, in order: their names, and what each is. */
+  operands: Readonly<Record<string, string>>;
   options: Readonly<Record<string, Option>>;
   /** Returns the exit code. */
   run(input: Input, terminal: Terminal): Promise<number>;

@@ -2,13 +2,13 @@
 import { BroadPhase } from 'broadphase';
 import { compare } from 'broadphase/trace';
 import { type Command, exitCode } from './arguments.ts';
-import { openSource, sourceOptions } from './files.ts';
+import { openSource, sourceOperand, sourceOptions } from './files.ts';
 import { cellSizeOption, readCellSize, techniqueHelp } from './replay.ts';
 import { bytes, complain, number, progressBar, table, time } from './terminal.ts';
 
 export const compareCommand: Command = {
   summary: 'all techniques side by side: time, tests, memory',
-  operands: ['trace'],
+  operands: sourceOperand,
   options: {
     techniques: { value: 'names', help: `some of ${techniqueHelp}, with commas (all)` },
     ...cellSizeOption,

@@ -1,11 +1,11 @@
 // `broadphase convert`: from any layout that can be read to one that can be written.
 import { type Command, exitCode } from './arguments.ts';
-import { checkWritable, openSource, sourceOptions, writeFrames } from './files.ts';
+import { checkWritable, openSource, sourceOperand, sourceOptions, writeFrames } from './files.ts';
 import { bytes, counted } from './terminal.ts';
 
 export const convertCommand: Command = {
   summary: 'to a raw recording (.bin) or a trace (any other name); .gz after it is gzipped',
-  operands: ['trace', 'file'],
+  operands: { ...sourceOperand, file: 'where to: .bin is raw, any other name a trace, .gz after it gzipped' },
   options: sourceOptions,
   async run(input, terminal) {
     const source = await openSource(input, terminal);

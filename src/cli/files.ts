@@ -17,6 +17,9 @@ import { complain, counted } from './terminal.ts';
 export class FileError extends Error {}
 
 /** The options by which each command that reads a trace lets choose what of it. */
+/** The operand that {@link openSource} takes. */
+export const sourceOperand = { trace: 'what record(space) wrote, or a raw recording; either may be gzipped' };
+
 export const sourceOptions: Record<string, Option> = {
   frames: { value: 'a..b', help: 'only these frames, both included, counted from 0' },
   salvage: { help: 'take the whole frames of a trace that was cut off, instead of refusing it' },
@@ -54,7 +57,7 @@ export async function write(path: string, data: Uint8Array | string): Promise<vo
 export async function checkWritable(option: string, path: string, read: string): Promise<void> {
   const [there, source] = await Promise.all([path, read].map((each) => stat(each).catch(() => undefined)));
   if (there && source && there.dev === source.dev && there.ino === source.ino) {
-    throw new UsageError(`${option} is ${path}, which is the trace itself: expected another file`);
+    throw new UsageError(`${option} is ${path}, which is the trace itself; expected another file`);
   }
   try {
     await (await open(path, 'a')).close();
@@ -95,7 +98,7 @@ function slice(source: FrameSource, range: string): FrameSource {
   const from = Number(first);
   const to = Number(last);
   if (!(from <= to && to < source.frames)) {
-    throw new UsageError(`--frames is ${range}, expected two from 0 to ${source.frames - 1}, such as 0..9`);
+    throw new UsageError(`--frames is ${range}, expected two numbers from 0 to ${source.frames - 1}, such as 0..9`);
   }
   return {
     dimensions: source.dimensions,

@@ -14,7 +14,7 @@ const mostInAll = 2 ** 27;
 
 export const generateCommand: Command = {
   summary: 'a trace of a seeded scene',
-  operands: ['scene', 'file'],
+  operands: { scene: names.join(', '), file: 'where to; .gz at the end gzips it' },
   options: {
     count: { value: 'n', help: 'how many boxes (10000)' },
     frames: { value: 'n', help: 'how many frames (60)' },

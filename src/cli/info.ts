@@ -1,12 +1,12 @@
 // `broadphase info`: what is in a trace.
 import { type Summary, survey } from 'broadphase/trace';
 import { type Command, exitCode } from './arguments.ts';
-import { openSource, sourceOptions } from './files.ts';
+import { openSource, sourceOperand, sourceOptions } from './files.ts';
 import { counted, histogram, number, percent, progressBar, table } from './terminal.ts';
 
 export const infoCommand: Command = {
   summary: 'what is in it: boxes, sizes, density, motion, pairs',
-  operands: ['trace'],
+  operands: sourceOperand,
   options: sourceOptions,
   async run(input, terminal) {
     const source = await openSource(input, terminal);

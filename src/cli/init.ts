@@ -1,6 +1,6 @@
 // `broadphase init`: a folder with a small game to begin from, which is in starter/.
 import { existsSync } from 'node:fs';
-import { cp, mkdir, readdir } from 'node:fs/promises';
+import { cp, mkdir, readdir, readFile } from 'node:fs/promises';
 import { basename, join, relative, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { devDependencies, version } from '../../package.json' with { type: 'json' };
@@ -28,19 +28,30 @@ const manifestOf = (folder: string, spec: string) => ({
   devDependencies: { typescript: devDependencies.typescript, vite: devDependencies.vite },
 });
 
+/** The tarball that the project around has installed, if it has one: as where the package is not on npm. */
+async function tarballHere(): Promise<string | undefined> {
+  const manifest = await readFile('package.json', 'utf8').catch(() => '{}');
+  const [, path] = /"broadphase": "file:(.+\.tgz)"/.exec(manifest) ?? [];
+  return path !== undefined && existsSync(path) ? path : undefined;
+}
+
 export const initCommand: Command = {
   summary: 'a small game to begin from: a folder with Vite and TypeScript',
-  operands: ['folder'],
+  operands: { folder: 'a new or empty one' },
   options: {
-    package: { value: 'file', help: 'a tarball of broadphase to install, instead of the version on npm' },
+    package: {
+      value: 'file',
+      help: 'a tarball of broadphase to install, instead of what the project here has, or the version on npm',
+    },
   },
   async run(input, terminal) {
     const [name] = input.operands;
     const folder = resolve(name);
-    const tarball = input.text('package');
-    if (tarball !== undefined && !existsSync(tarball)) throw new FileError(`cannot read ${tarball}: it is not there`);
+    const given = input.text('package');
+    if (given !== undefined && !existsSync(given)) throw new FileError(`cannot read ${given}: there is no such file`);
+    const tarball = given ?? (await tarballHere());
     const there = await readdir(folder).catch(() => []);
-    if (there.length > 0) throw new UsageError(`${name} has files in it, expected an empty folder or a new one`);
+    if (there.length > 0) throw new UsageError(`${name} is not empty, expected an empty or new folder`);
     const spec = tarball === undefined ? `^${version}` : `file:${relative(folder, resolve(tarball))}`;
     try {
       await mkdir(folder, { recursive: true });

@@ -36,14 +36,14 @@ function readMemory(input: Input): number {
 function readColumns(input: Input): string[] | undefined {
   const columns = input.text('columns')?.split(',');
   if (columns && columns.length !== 4 && columns.length !== 6) {
-    throw new UsageError(`--columns names ${columns.length}, expected 4 or 6 with commas: minima, then maxima`);
+    throw new UsageError(`--columns has ${columns.length} names, expected 4 or 6 with commas: minima, then maxima`);
   }
   return columns;
 }
 
 export const joinCommand: Command = {
   summary: 'every overlapping pair of a Parquet or CSV file of boxes',
-  operands: ['boxes', 'pairs'],
+  operands: { boxes: 'a Parquet or CSV file', pairs: 'the Parquet file to write' },
   options: {
     blue: {
       value: 'file',
@@ -66,10 +66,10 @@ export const joinCommand: Command = {
     const tile = input.number('tile', { least: 1, most: 2 ** 24, whole: true }) ?? mostPerTile;
     const [path, result] = input.operands;
     const paths = [path, ...(input.has('blue') ? [input.text('blue')!] : [])];
-    if (paths.includes(result)) throw new UsageError(`${result} is to be read: expected another file for the pairs`);
+    if (paths.includes(result)) throw new UsageError(`${result} is an input; expected another file for the pairs`);
     const fit = Math.floor((memory * (1 - databaseShare) - nodeBytes - threads * threadBytes) / threads / boxBytes);
     if (fit < 1000)
-      throw new UsageError(`--memory is too little for ${threads} threads: expected more, or fewer threads`);
+      throw new UsageError(`--memory is too little for ${threads} threads; expected more memory or fewer threads`);
     for (const each of paths) await mustExist(each);
 
     const work = await Work.open(loadDuckDB(), `${result}.join`, memory * databaseShare, threads);
@@ -139,7 +139,7 @@ function mustFit(work: Work, plan: Plan, perTile: number): void {
   if (most <= limit) return;
   work.forget();
   throw new DataError(
-    `${number(most)} boxes reach into one tile, expected no more than ${number(limit)}: they lie too dense, or are too large, for --memory`,
+    `${number(most)} boxes overlap one tile, expected no more than ${number(limit)}: they are too dense or too large for --memory`,
   );
 }
 

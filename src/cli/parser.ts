@@ -36,15 +36,14 @@ function addCommand(
   terminal: Terminal,
   ended: (code: number) => void,
 ): void {
-  const options = { ...command.options, json: { help: 'write the result as JSON' } };
-  const made = Object.entries(options).map(([option, what]) => [option, optionOf(option, what)] as const);
+  const made = Object.entries(command.options).map(([option, what]) => [option, optionOf(option, what)] as const);
   const parser = program.command(name).description(command.summary);
-  for (const operand of command.operands) parser.argument(`<${operand}>`);
+  for (const [operand, help] of Object.entries(command.operands)) parser.argument(`<${operand}>`, help);
   for (const [, option] of made) parser.addOption(option);
   parser.action(async () => {
     const given = parser.opts();
     const values = Object.fromEntries(made.map(([option, parsed]) => [option, given[parsed.attributeName()]]));
-    ended(await command.run(new Input(parser.args, values), terminal));
+    ended(await command.run(new Input(parser.args, { ...values, json: program.opts().json }), terminal));
   });
 }
 
@@ -63,13 +62,16 @@ export async function runLine(
   terminal: Terminal,
 ): Promise<number> {
   let code: number = exitCode.ok;
+  const shownVersion = argv.includes('--json') ? JSON.stringify({ version }) : version;
   const program = new Parser('broadphase')
     .description(about)
-    .version(version, '-v, --version', 'say which version this is')
+    .version(shownVersion, '-v, --version', 'say which version this is')
+    .option('--json', 'write the result as JSON')
     .helpOption('-h, --help', 'show this')
     .helpCommand('help [command]', 'show what a command takes')
     .configureHelp({
       minWidthToWrap: leastText,
+      showGlobalOptions: true,
       styleTitle: (title) => paint(terminal, 'bold', title),
       subcommandTerm: (each) => [each.name(), ...each.registeredArguments.map((one) => `<${one.name()}>`)].join(' '),
     })

@@ -52,14 +52,16 @@ export function linePlot(lines: readonly Line[], axes: Axes): string {
   const xs = [...new Set(all.map(({ x }) => x))].sort((a, b) => a - b);
   const ys = all.map(({ y }) => y).filter((y) => y > 0 || !axes.logarithmic);
   const most = Math.max(...ys) || 1;
-  const heights = axes.logarithmic ? [Math.min(...ys), most] : [0, 1.05 * most];
-  const across = scale(xs, left, width - right);
+  const marked = axes.logarithmic ? ticksAround(Math.min(...ys), most) : ticks(most);
+  const heights = [marked[0], marked.at(-1)!];
+  const places = axes.logarithmic ? ticksAround(xs[0], xs.at(-1)!) : some(xs, mostMarks);
+  const across = scale(places, left, width - right);
   const up = scale(heights, height - bottom, top);
-  const grid = (axes.logarithmic ? ticksBetween(heights[0], most) : ticks(heights[1])).map(
+  const grid = marked.map(
     (y) => `<line class="axis" x1="${left}" x2="${width - right}" y1="${up(y).toFixed(1)}" y2="${up(y).toFixed(1)}"/>
 <text x="${left - 8}" y="${(up(y) + 4).toFixed(1)}" text-anchor="end">${number(y)}</text>`,
   );
-  const marks = (axes.logarithmic ? ticksBetween(xs[0], xs.at(-1)!) : some(xs, mostMarks)).map(
+  const marks = places.map(
     (x) => `<text x="${across(x).toFixed(1)}" y="${height - bottom + 18}" text-anchor="middle">${number(x)}</text>`,
   );
   const paths = lines.map(({ points }, k) => {
@@ -75,7 +77,7 @@ export function linePlot(lines: readonly Line[], axes: Axes): string {
   const legend = lines.map(
     ({ name }, k) => `<li><i style="background:var(--c${k % colours})"></i>${htmlText(name)}</li>`,
   );
-  const content = [...grid, ...marks, ...paths, names, ...places(lines, some(xs, mostPlaces), across, axes)];
+  const content = [...grid, ...marks, ...paths, names, ...strips(lines, some(xs, mostPlaces), across, axes)];
   return `${svg(height, `${axes.y} over ${axes.x}`, content.join('\n'))}<ul class="legend">${legend.join('')}</ul>`;
 }
 
@@ -86,7 +88,7 @@ function some(values: readonly number[], most: number): number[] {
 }
 
 /** A strip at each place along the axis, from halfway to its neighbours, whose title has the numbers there. */
-function places(lines: readonly Line[], xs: readonly number[], across: (x: number) => number, axes: Axes): string[] {
+function strips(lines: readonly Line[], xs: readonly number[], across: (x: number) => number, axes: Axes): string[] {
   const values = lines.map(({ name, points }) => ({ name, at: new Map(points.map(({ x, y }) => [x, y])) }));
   return xs.map((x, k) => {
     const from = k > 0 ? (across(xs[k - 1]) + across(x)) / 2 : left;
@@ -97,21 +99,23 @@ function places(lines: readonly Line[], xs: readonly number[], across: (x: numbe
   });
 }
 
-/** Round numbers between two, on a logarithmic scale: 1, 2 and 5 of each power of ten. */
-function ticksBetween(low: number, high: number): number[] {
-  const powers = Array.from(
-    { length: Math.ceil(Math.log10(high / low)) + 2 },
-    (_, k) => 10 ** (Math.floor(Math.log10(low)) + k),
+/** Round numbers on a logarithmic scale, 1, 2 and 5 of each power of ten, from the last below to the first above. */
+function ticksAround(low: number, high: number): number[] {
+  const first = Math.floor(Math.log10(low));
+  const powers = Array.from({ length: Math.ceil(Math.log10(high)) - first + 2 }, (_, k) => 10 ** (first + k));
+  const all = powers.flatMap((power) => [power, 2 * power, 5 * power]);
+  return all.slice(
+    all.findLastIndex((each) => each <= low),
+    all.findIndex((each) => each > low && each >= high) + 1,
   );
-  return powers.flatMap((power) => [power, 2 * power, 5 * power]).filter((each) => each >= low && each <= high);
 }
 
-/** Four or five round numbers from 0 up to the ceiling. */
-function ticks(ceiling: number): number[] {
-  const rough = ceiling / 4;
+/** Four or five round numbers from 0 to above the most. */
+function ticks(most: number): number[] {
+  const rough = most / 4;
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 2.5, 5, 10].map((factor) => factor * power).find((each) => each >= rough)!;
-  return Array.from({ length: Math.floor(ceiling / step) + 1 }, (_, k) => k * step);
+  return Array.from({ length: Math.floor(most / step) + 2 }, (_, k) => k * step);
 }
 
 const svg = (height: number, title: string, content: string) =>

@@ -3,7 +3,7 @@ import { BroadPhase, type TechniqueName } from 'broadphase';
 import { type ReplayedFrame, type ReplayOptions, replay } from 'broadphase/trace';
 import { summarize } from '../trace/statistics.ts';
 import { type Command, exitCode, type Input, type Option, UsageError } from './arguments.ts';
-import { openSource, sourceOptions } from './files.ts';
+import { openSource, sourceOperand, sourceOptions } from './files.ts';
 import { bytes, complain, counted, number, progressBar, table, time } from './terminal.ts';
 
 export const techniqueHelp = BroadPhase.techniques.join(', ');
@@ -25,7 +25,7 @@ export function readCellSize(input: Input, dimensions: 2 | 3): Pick<ReplayOption
 
 export const replayCommand: Command = {
   summary: 'play it: time and counters of every frame',
-  operands: ['trace'],
+  operands: sourceOperand,
   options: {
     technique: { value: 'name', help: `one of ${techniqueHelp} (auto)` },
     ...cellSizeOption,

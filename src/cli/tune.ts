@@ -3,14 +3,14 @@ import { basename } from 'node:path';
 import { BroadPhase } from 'broadphase';
 import { type FrameSource, TraceError, tune } from 'broadphase/trace';
 import { type Command, exitCode } from './arguments.ts';
-import { checkWritable, openSource, sourceOptions, write } from './files.ts';
+import { checkWritable, openSource, sourceOperand, sourceOptions, write } from './files.ts';
 import { techniqueHelp } from './replay.ts';
 import { nameOf, reportOf, verdictOf } from './report.ts';
 import { progressBar, table, time, wrap } from './terminal.ts';
 
 export const tuneCommand: Command = {
   summary: 'find the options that suit it best, as code to paste',
-  operands: ['trace'],
+  operands: sourceOperand,
   options: {
     techniques: { value: 'names', help: `some of ${techniqueHelp}, with commas (all)` },
     seconds: { value: 'n', help: 'how long the finalists run against each other (8)' },
@@ -23,7 +23,7 @@ export const tuneCommand: Command = {
     const seconds = input.number('seconds', { least: 0, most: 3600 }) ?? 8;
     const source = await openSource(input, terminal);
     const [path] = input.operands;
-    if (isEmpty(source)) throw new TraceError(`${path}: there are no boxes in any frame to tune on`, -1, 0);
+    if (isEmpty(source)) throw new TraceError(`${path}: no frame has boxes to tune on`, -1, 0);
     const report = input.text('report');
     if (report !== undefined) await checkWritable('--report', report, path);
     const progress = progressBar(terminal);

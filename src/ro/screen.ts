@@ -32,7 +32,7 @@ export class Screen {
     }
     const ctx = canvas.getContext('2d');
     if (!ctx)
-      throw new Error('ro.Screen: the canvas has no 2D context; expected one that no other kind was taken from');
+      throw new Error('ro.Screen: the canvas has no 2D context; expected one without a context of another kind');
     this.canvas = canvas;
     this.ctx = ctx;
     this.scale = scale;

@@ -299,14 +299,14 @@ function findCanvas(canvas: HTMLCanvasElement | string): HTMLCanvasElement {
   const element = typeof canvas === 'string' ? byId(canvas) : canvas;
   if (typeof (element as Partial<HTMLCanvasElement> | undefined)?.getContext !== 'function') {
     const what = typeof canvas === 'string' ? `the element with the id "${canvas}"` : String(canvas);
-    throw new TypeError(`ro.World: ${what} is no canvas; expected a <canvas>, the id of one, or null for no screen`);
+    throw new TypeError(`ro.World: ${what} is not a canvas; expected a <canvas>, the id of one, or null for no screen`);
   }
   return element as HTMLCanvasElement;
 }
 
 function byId(id: string): HTMLElement {
   if (typeof document === 'undefined') {
-    throw new Error(`ro.World: there is no page to look for the canvas "${id}" on; expected null for no screen`);
+    throw new Error(`ro.World: there is no document to find the canvas "${id}" in; expected null for no screen`);
   }
   const element = document.getElementById(id);
   if (!element) throw new Error(`ro.World: no element has the id "${id}"; expected the id of a <canvas>`);

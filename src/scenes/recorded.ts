@@ -1,13 +1,8 @@
-// Scenes recorded from running physics engines. Two layouts, both a header of four little-endian int32
-// [magic, dimensions, boxes, frames] and then float32, for each frame, for each box, the minima then the maxima,
-// which is the order `BroadPhase.setAll` takes:
-// - raw: the numbers as they are;
-// - packed: the bits of each number exclusive-or those of the frame before, and all lowest bytes first, then all
-//   second bytes, and so on. Nothing is lost, and gzip makes it a third of the size: boxes at rest are all zeros.
-// Decoding raw copies nothing (one copy when the bytes do not lie on a multiple of 4); packed costs about 5 ns a number.
-import { bytesOf } from '../values.ts';
+// Recorded scenes: frames of a trace in which the same boxes stand, each to be had at any time. Tests, benchmark and pages
+// play them forth and back.
+import type { FrameSource } from '../trace/format.ts';
 
-export interface Recording {
+export interface RecordedFrames {
   readonly dimensions: 2 | 3;
   readonly count: number;
   readonly frames: number;
@@ -15,59 +10,31 @@ export interface Recording {
   frame(k: number): Float32Array;
 }
 
-export const rawMagic = 0x424f5841;
-export const packedMagic = 0x424f5850;
-const headerBytes = 16;
-
-/** Reads a recording from its bytes, gunzipped. */
-export function readRecording(bytes: ArrayBuffer | Uint8Array): Recording {
-  const source = bytesOf(bytes) ?? new Uint8Array();
-  if (source.byteLength < headerBytes) {
-    throw new RangeError(`Not a recording: ${source.byteLength} bytes, fewer than the ${headerBytes} of the header.`);
+/** The frames from `from` to `to` (not included) of a trace: all of them unless told. */
+export function framesOf(source: FrameSource, from = 0, to = source.frames): RecordedFrames {
+  const { dimensions } = source;
+  const all: Float32Array[] = [];
+  for (const { index, count, boxes } of source) {
+    if (index >= to) break;
+    if (index < from) continue;
+    const expected = all[0]?.length ?? boxes.length;
+    if (boxes.length !== expected) {
+      throw new RangeError(
+        `Frame ${index} has ${count} boxes, expected ${expected / (2 * dimensions)} as in the first.`,
+      );
+    }
+    all.push(Float32Array.from(boxes));
   }
-  const header = new DataView(source.buffer, source.byteOffset, headerBytes);
-  const [magic, dimensions, count, frames] = [0, 4, 8, 12].map((at) => header.getInt32(at, true));
-  if (magic !== rawMagic && magic !== packedMagic) {
-    const hint = (magic & 0xffff) === 0x8b1f ? ' It looks like gzip: decompress it first.' : '';
-    throw new RangeError(`Not a recording: it starts with 0x${(magic >>> 0).toString(16)}.${hint}`);
-  }
-  if (dimensions !== 2 && dimensions !== 3) {
-    throw new RangeError(`A recording with ${dimensions} dimensions: expected 2 or 3.`);
-  }
-  if (count < 0 || frames < 0) throw new RangeError(`A recording of ${count} boxes and ${frames} frames.`);
-  const stride = 2 * dimensions * count;
-  const expected = headerBytes + 4 * stride * frames;
-  if (source.byteLength !== expected) {
-    throw new RangeError(
-      `A recording of ${frames} frames of ${count} boxes in ${dimensions}D takes ${expected} bytes, not ${source.byteLength}.`,
-    );
-  }
-  const body = source.subarray(headerBytes);
-  const numbers = magic === packedMagic ? unpack(body, stride) : asFloats(body);
+  if (all.length === 0) throw new RangeError(`No frame from ${from} to ${to} among ${source.frames}.`);
   return {
     dimensions,
-    count,
-    frames,
+    count: all[0].length / (2 * dimensions),
+    frames: all.length,
     frame(k) {
-      if (!Number.isInteger(k) || k < 0 || k >= frames) {
-        throw new RangeError(`Frame ${k} of a recording of ${frames}: expected 0 to ${frames - 1}.`);
+      if (!Number.isInteger(k) || k < 0 || k >= all.length) {
+        throw new RangeError(`Frame ${k} of a recording of ${all.length}: expected 0 to ${all.length - 1}.`);
       }
-      return numbers.subarray(k * stride, (k + 1) * stride);
+      return all[k];
     },
   };
-}
-
-function asFloats(body: Uint8Array): Float32Array {
-  const aligned = body.byteOffset % 4 === 0 ? body : body.slice();
-  return new Float32Array(aligned.buffer, aligned.byteOffset, aligned.byteLength / 4);
-}
-
-function unpack(body: Uint8Array, stride: number): Float32Array {
-  const length = body.byteLength / 4;
-  const bits = new Uint32Array(length);
-  for (let i = 0; i < length; i++) {
-    const change = body[i] | (body[length + i] << 8) | (body[2 * length + i] << 16) | (body[3 * length + i] << 24);
-    bits[i] = i < stride ? change : change ^ bits[i - stride];
-  }
-  return new Float32Array(bits.buffer);
 }

@@ -240,7 +240,7 @@ export class Shard {
    * shard.exchange()[0].ids; // → Uint32Array [7]
    */
   resend(zone: number): void {
-    if (zone === this.zone) badValue('resend', zone, 'another zone than this');
+    if (zone === this.zone) badValue('resend', zone, 'another zone than this one');
     for (const seen of this.#seen.values()) {
       if (!seen.seers.includes(zone)) continue;
       seen.seers = seen.seers.filter((other) => other !== zone);
@@ -259,7 +259,7 @@ export class Shard {
    * right.update().space.size; // → 0
    */
   forget(zone: number): void {
-    if (zone === this.zone) badValue('forget', zone, 'another zone than this');
+    if (zone === this.zone) badValue('forget', zone, 'another zone than this one');
     for (const [id, { owner }] of this.#seen) if (owner === zone) this.#remove(id);
   }
 

@@ -55,7 +55,7 @@ export class FrameDecoder {
     const first = cursor.byte('the kind of frame');
     if (first === frameKind.end) {
       const frames = cursor.varint('the number of frames', 0xffffffff);
-      if (frames !== this.#index) cursor.fail(`the end counts ${frames} frames, but ${this.#index} were read`);
+      if (frames !== this.#index) cursor.fail(`the end frame counts ${frames} frames, but ${this.#index} were read`);
       this.#finish(cursor);
       return undefined;
     }
@@ -133,7 +133,7 @@ export class FrameDecoder {
 
   #take(place: number, cursor: Cursor): void {
     const id = this.#state.ids[place];
-    if (!this.#taken.add(id)) cursor.fail(`id ${id} is there twice`);
+    if (!this.#taken.add(id)) cursor.fail(`id ${id} appears twice`);
     this.#named += Number(id !== place);
   }
 
@@ -212,7 +212,7 @@ export class FrameDecoder {
         }
         for (let k = at; k < at + width / 2; k++) {
           if (before[k] <= before[k + width / 2]) continue;
-          cursor.fail(`box ${box} is [${[...before.subarray(at, at + width)].join(', ')}], which is none`);
+          cursor.fail(`box ${box} is [${[...before.subarray(at, at + width)].join(', ')}], which is not a box`);
         }
         for (let k = at; k < at + width; k++) {
           const now = before[k];
@@ -302,6 +302,6 @@ function skipRuns(cursor: Cursor, count: number, had: number): number {
     changed += end - start;
     fresh += Math.max(0, end - Math.max(start, had));
   }
-  if (fresh < count - had) cursor.fail(`${count - had} boxes are new, but ${fresh} of them are given`);
+  if (fresh < count - had) cursor.fail(`${count - had} boxes are new, but only ${fresh} of them are in runs`);
   return changed;
 }

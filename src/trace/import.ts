@@ -1,10 +1,9 @@
-// Opens whatever holds frames: traces, and recordings of physics engines in the raw and packed layouts of
-// ../scenes/recorded.ts, each gzipped or not.
+// Opens whatever holds frames: traces, and recordings of physics engines in the raw layout, each gzipped or not.
 
-import { packedMagic, type Recording, rawMagic, readRecording } from '../scenes/recorded.ts';
 import { isFloat64Array } from '../values.ts';
 import { uint32At } from './bytes.ts';
 import { type Frame, type FrameSource, headerBytes, maxBoxes, TraceError } from './format.ts';
+import { type RawRecording, rawMagic, readRecording } from './raw.ts';
 import { type OpenOptions, openTrace } from './reader.ts';
 
 /** Gzipped files that are larger than this when unpacked are refused, unless more is allowed: 1 GiB. */
@@ -30,14 +29,14 @@ export async function gunzip(bytes: Uint8Array, most = maxUnpackedBytes): Promis
   let length = 0;
   for (;;) {
     const { done, value } = await reader.read().catch((error: Error) => {
-      throw new TraceError(`the gzip around it is broken: ${error.message}`, -1, length);
+      throw new TraceError(`its gzip data is broken: ${error.message}`, -1, length);
     });
     if (done) break;
     pieces.push(value);
     length += value.length;
     if (length > most) {
       await reader.cancel();
-      throw new TraceError(`unpacked it is larger than ${most} bytes, which is not allowed`, -1, length);
+      throw new TraceError(`unpacked, it exceeds the limit of ${most} bytes`, -1, length);
     }
   }
   const all = new Uint8Array(length);
@@ -49,21 +48,18 @@ export async function gunzip(bytes: Uint8Array, most = maxUnpackedBytes): Promis
   return all;
 }
 
-/** Whether bytes are a raw or packed recording. */
-function isRecording(bytes: Uint8Array): boolean {
-  const start = bytes.length < 4 ? 0 : uint32At(bytes, 0);
-  return start === rawMagic || start === packedMagic;
-}
+/** Whether bytes are a raw recording. */
+const isRecording = (bytes: Uint8Array) => bytes.length >= 4 && uint32At(bytes, 0) === rawMagic;
 
 /**
- * The frames of a raw or packed recording, unpacked from gzip.
+ * The frames of a raw recording, unpacked from gzip.
  * @throws TraceError where it is none, or holds what is no box
  *
  * @example
  * importRecording(new Uint8Array(2)); // throws TraceError
  */
 export function importRecording(bytes: Uint8Array): FrameSource {
-  let recording: Recording;
+  let recording: RawRecording;
   try {
     recording = readRecording(bytes);
   } catch (error) {
@@ -86,6 +82,10 @@ export function importRecording(bytes: Uint8Array): FrameSource {
   };
 }
 
+/** Opens a trace or a recording that is not gzipped. */
+export const openPlain = (bytes: Uint8Array, options?: OpenOptions): FrameSource =>
+  isRecording(bytes) ? importRecording(bytes) : openTrace(bytes, options);
+
 /**
  * Opens a trace or a recording, gzipped or not.
  * @throws TraceError where it is broken
@@ -99,7 +99,7 @@ export function importRecording(bytes: Uint8Array): FrameSource {
  */
 export async function openAny(bytes: Uint8Array, options?: OpenOptions): Promise<FrameSource> {
   const plain = bytes[0] === 0x1f && bytes[1] === 0x8b ? await gunzip(bytes) : bytes;
-  return isRecording(plain) ? importRecording(plain) : openTrace(plain, options);
+  return openPlain(plain, options);
 }
 
 /**
@@ -138,7 +138,7 @@ export function exportRecording(source: FrameSource): Uint8Array<ArrayBuffer> {
   return all;
 }
 
-function checkFrame(recording: Recording, index: number): void {
+function checkFrame(recording: RawRecording, index: number): void {
   const { dimensions, count } = recording;
   const boxes = recording.frame(index);
   const width = 2 * dimensions;
@@ -147,7 +147,7 @@ function checkFrame(recording: Recording, index: number): void {
       if (boxes[k] <= boxes[k + dimensions]) continue;
       const box = boxes.subarray(at, at + width).join(', ');
       const offset = headerBytes + 4 * (index * count * width + k);
-      throw new TraceError(`box ${at / width} is [${box}], which is none`, index, offset);
+      throw new TraceError(`box ${at / width} is [${box}], which is not a box`, index, offset);
     }
   }
 }

@@ -155,7 +155,7 @@ function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; version: number; wo
   if (bytes.length < headerBytes) throw truncatedHeader(bytes.length);
   const version = bytes[8] | (bytes[9] << 8);
   if (version > formatVersion) {
-    throw new TraceError(`of format ${version}, newer than ${formatVersion}, which this version can read`, -1, 8);
+    throw new TraceError(`of format ${version}, but this version reads formats up to ${formatVersion}`, -1, 8);
   }
   const checksum = crc32(bytes, 0, headerBytes - 4);
   if (uint32At(bytes, headerBytes - 4) !== checksum) throw new TraceError('corrupted: wrong checksum', -1, 12);
@@ -204,7 +204,7 @@ const truncatedHeader = (got: number) =>
   new TraceError(`truncated: ${got} bytes, fewer than the ${headerBytes} of a header`, -1, got);
 
 const truncated = (frame: number, offset: number, got: number, expected: number) =>
-  new TraceError(`truncated: ${got} of ${expected} bytes are there`, frame, offset);
+  new TraceError(`truncated: only ${got} of ${expected} bytes`, frame, offset);
 
 const tooMany = (frame: number, offset: number) => new TraceError('more bytes after the end', frame, offset);
 

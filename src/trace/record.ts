@@ -212,11 +212,11 @@ function openSink(to: RecordOptions['to'], failed: (error: unknown) => void): Si
   const has = (name: string) => typeof (to as unknown as Record<string, unknown> | null)?.[name] === 'function';
   if (has('getWriter')) return openStream(to as WritableStream<Uint8Array>, failed);
   if (has('write') && has('end') && has('on')) return openNodeStream(to as NodeSink, failed);
-  badValue('record: to', to, 'a WritableStream or a stream of Node', true);
+  badValue('record: to', to, 'a WritableStream or a Node stream', true);
 }
 
 function openStream(to: WritableStream<Uint8Array>, failed: (error: unknown) => void): Sink {
-  if (to.locked) badValue('record: to', to, 'a stream that nobody else holds: this one is locked', true);
+  if (to.locked) badValue('record: to', to, 'an unlocked stream', true);
   const writer = to.getWriter();
   writer.closed.catch(failed);
   return {

@@ -328,6 +328,6 @@ function checkIds(ids: ArrayLike<number>, count: number, seen: IdSet): void {
     if (!(Number.isInteger(id) && id >= 0 && id < maxBoxes)) {
       throw new RangeError(`trace: an id is ${id}, expected an integer from 0 to ${maxBoxes - 1}`);
     }
-    if (!seen.add(id)) throw new RangeError(`trace: id ${id} is there twice`);
+    if (!seen.add(id)) throw new RangeError(`trace: id ${id} appears twice`);
   }
 }

@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { expect, type Page, test } from '@playwright/test';
 
-const file = fileURLToPath(new URL('../fixtures/bench-results.json', import.meta.url));
+const file = fileURLToPath(new URL('../bench/bench-results.json', import.meta.url));
 const { rows } = JSON.parse(readFileSync(file, 'utf8'));
 const scenes = rows.filter(({ kind }: { kind: string }) => kind === 'scenes');
 
@@ -25,7 +25,7 @@ test.afterEach(() => expect(faults).toEqual([]));
 
 async function openResults(page: Page): Promise<void> {
   await page.goto('/bench/');
-  await page.getByLabel('Results of your own').setInputFiles(file);
+  await page.getByLabel('Your own results').setInputFiles(file);
   await expect(page.getByLabel('Measured on')).toHaveValue('bench-results.json');
 }
 
@@ -84,7 +84,7 @@ test('growth has a line and a power for each contender, the heat map advice', as
 
 test('motions are a table, with the goals', async ({ page }) => {
   await openResults(page);
-  const part = page.getByRole('region', { name: 'As games move' });
+  const part = page.getByRole('region', { name: 'Motions from games' });
   const motions = part.getByRole('region', { name: 'Figures, motion by motion' }).locator('tbody tr');
   await expect(motions).toHaveCount(4);
   await expect(motions.first()).toContainText(/straight 2D10,000set.*0\.28x/);
@@ -93,9 +93,7 @@ test('motions are a table, with the goals', async ({ page }) => {
 
 test('a file that is none is refused in words', async ({ page }) => {
   await page.goto('/bench/');
-  await page
-    .getByLabel('Results of your own')
-    .setInputFiles({ name: 'a.json', mimeType: '', buffer: Buffer.from('{}') });
+  await page.getByLabel('Your own results').setInputFiles({ name: 'a.json', mimeType: '', buffer: Buffer.from('{}') });
   await expect(page.locator('#note')).toContainText('a.json was not read: these are no results');
 });
 
@@ -113,7 +111,7 @@ test('the race runs in the browser: all find the same pairs, and the result can 
   const saving = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Save the result' }).click();
   const saved = await (await saving).path();
-  await page.getByLabel('Results of your own').setInputFiles(saved);
+  await page.getByLabel('Your own results').setInputFiles(saved);
   await expect(charts(page)).toHaveCount(1);
 
   await page.locator('#run-scene').selectOption('uniform3d');

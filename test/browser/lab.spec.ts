@@ -183,7 +183,7 @@ test('techniques race on the same frames, and agree', async ({ page }) => {
 });
 
 test('a race goes on after a recording that was long in coming', async ({ page }) => {
-  await page.context().route('**/traces/*', async (route) => {
+  await page.context().route('**/*.trace*.gz', async (route) => {
     await new Promise((resolve) => setTimeout(resolve, 1500));
     await route.continue();
   });
@@ -237,7 +237,7 @@ test('a race whose scene is changed again and again goes on, and leaves no worke
 test('a corrupted file gives a readable message, and the page goes on', async ({ page }) => {
   await page.goto('/lab/?boxes=300');
   await solved(page);
-  const bytes = readFileSync('site/public/traces/smash.trace.gz');
+  const bytes = readFileSync('recordings/smash.trace.gz');
   const broken = Buffer.from(bytes);
   broken[broken.length >> 1] ^= 0x55;
   await drop(page, 'game.trace', broken);
@@ -254,7 +254,7 @@ test('a corrupted file gives a readable message, and the page goes on', async ({
 
 test('a dropped recording is shown, also in the race', async ({ page }) => {
   await openStill(page, 'boxes=300');
-  await drop(page, 'my-game.trace.gz', readFileSync('site/public/traces/smash.trace.gz'));
+  await drop(page, 'my-game.trace.gz', readFileSync('recordings/smash.trace.gz'));
   await expect(note(page)).toContainText('my-game.trace.gz: 20 frames');
   await expect(shown(page, 'boxes')).toHaveText('9,601');
   await expect(shown(page, 'frame')).toHaveText('0 / 19');

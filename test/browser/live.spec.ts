@@ -1,7 +1,7 @@
 // The examples run on the site, above their code: built, and as `npm start` serves them.
 import { readdirSync } from 'node:fs';
 import { expect, test } from '@playwright/test';
-import { waysTo } from '../../site/live.ts';
+import { waysTo } from '../../site/plugins/live.ts';
 import { examples, needExamples } from './example.ts';
 import { startPort } from './ports.ts';
 
@@ -11,7 +11,7 @@ test.beforeEach(() => {
 });
 
 test('how to take an example: its folder, and an editor where the repository has an address on GitHub', () => {
-  const at = (url: string) => waysTo('react', { version: '1.2.3', repository: { url } });
+  const at = (url: string) => waysTo('examples/react', { version: '1.2.3', repository: { url } });
   expect(at('git+https://broadphase.invalid/broadphase.git')).toBe('Take the folder <code>examples/react</code>.');
   const home = 'https://github.com/someone/broadphase';
   expect(at(`git+${home}.git`)).toContain(`href="${home}/tree/v1.2.3/examples/react"`);

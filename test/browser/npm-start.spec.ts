@@ -132,7 +132,7 @@ for (const [what, script] of [
   ['cannot be loaded', undefined],
 ] as const) {
   test(`npm start: a lab whose worker ${what} says so within seconds`, async ({ page }) => {
-    await page.route('**/lab/worker.ts**', (route) =>
+    await page.route('**/lab/worker/worker.ts**', (route) =>
       script === undefined
         ? route.fulfill({ status: 500 })
         : route.fulfill({

@@ -92,7 +92,7 @@ test('a ray meets the first box, and all of them in order', async ({ page }) => 
   const [, id, distance, , down] = one.exec((await call(page).textContent())!)!;
   expect(Number(distance)).toBeGreaterThan(0);
   expect(Number(down)).toBe(-1);
-  await page.getByRole('checkbox', { name: 'All that it meets' }).check();
+  await page.getByRole('checkbox', { name: 'All hits' }).check();
   await expectFound(page).toBeGreaterThan(2);
   await expect(call(page)).toContainText('space.rayCastAll(');
   expect(one.exec((await call(page).textContent())!)![1]).toBe(id);
@@ -241,4 +241,27 @@ test('the pairs of two spaces follow the one that is moved', async ({ page }) =>
   await drag(page, [0.5, 0.5], [0.5, 0.5]);
   await page.getByRole('slider', { name: 'Radius' }).fill('60');
   await expectFound(page).toBeGreaterThan(2);
+});
+
+test('what broadphase/draw shows of the space is drawn above the boxes', async ({ page }) => {
+  await open(page, 'debug');
+  await expectFound(page).toBeGreaterThan(10);
+  const { after, now } = await page.evaluate(async () => {
+    const canvas = document.querySelector<HTMLCanvasElement>('#upper')!;
+    const inked = () => {
+      const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
+      return data.filter((value, k) => k % 4 === 3 && value > 0).length / (canvas.width * canvas.height);
+    };
+    const now = inked();
+    document.querySelector<HTMLInputElement>('#ask-point')!.click();
+    await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+    return { after: inked(), now };
+  });
+  expect(now).toBeGreaterThan(0.05);
+  expect(after).toBeLessThan(0.01); // of a point there is but a dot
+  await page.goto('/questions/#debug');
+  const told = await call(page).textContent();
+  await drag(page, [0.2, 0.2], [0.8, 0.7]);
+  await expect(call(page)).not.toHaveText(told!);
+  await expect(call(page)).toContainText('rays: [[');
 });

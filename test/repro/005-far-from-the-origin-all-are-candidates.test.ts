@@ -2,7 +2,7 @@
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
-import { keysOf } from '../reference.ts';
+import { keysOf } from '../support/reference.ts';
 
 const count = 3000;
 

@@ -44,7 +44,7 @@ test('a view that memory cuts off between boxes() and update() is never written 
   const view = space.boxes(2);
   for (let id = 2; view.length > 0; id++) space.set(id, id, 0, id, 0);
   view[0] = 7; // is lost
-  expect(() => space.update()).toThrow('was cut off when memory grew');
+  expect(() => space.update()).toThrow('was detached when memory grew');
   space.boxes(2)[2] = 7;
   expect(space.update().get(0, [])).toEqual([0, 0, 7, 0]);
 });

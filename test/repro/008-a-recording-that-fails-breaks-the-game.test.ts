@@ -21,7 +21,7 @@ describe('record() that is refused leaves the space as it was', () => {
   const ended = new PassThrough();
   ended.end();
   test.each<[string, unknown, string]>([
-    ['a file name', 'my.trace', 'record: to: got "my.trace", expected a WritableStream or a stream of Node'],
+    ['a file name', 'my.trace', 'record: to: got "my.trace", expected a WritableStream or a Node stream'],
     ['null', null, 'record: to: got null'],
     ['an object', {}, 'record: to: got [object Object]'],
     ['a number', 5, 'record: to: got 5'],
@@ -124,8 +124,8 @@ test('a visitor that throws, disposes or asks leaves the space in order', () => 
 
 test('init with what is no kernel leaves the kernel that was there', () => {
   const other = Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0);
-  expect(() => init(other)).toThrow('init: got a module that is no kernel');
-  expect(() => init(new WebAssembly.Module(other))).toThrow('no kernel');
+  expect(() => init(other)).toThrow('init: got a module that is not a kernel');
+  expect(() => init(new WebAssembly.Module(other))).toThrow('not a kernel');
   expect(() => init(Uint8Array.of(1, 2, 3))).toThrow();
   expect(space().update().pairCount).toBe(1);
 });

@@ -3,8 +3,8 @@
 import { BroadPhase } from 'broadphase';
 import { expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
-import type { Entry } from '../model.ts';
-import { ahead, inBox, near } from '../query-reference.ts';
+import type { Entry } from '../support/model.ts';
+import { ahead, inBox, near } from '../support/query-reference.ts';
 
 type Loose = Record<string, (...given: unknown[]) => unknown>;
 

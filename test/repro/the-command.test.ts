@@ -93,7 +93,7 @@ describe('what cannot be done is said at once', () => {
       await run(['generate', 'crowd', path, '--count', count, '--frames', frames]);
       const { code, out, err } = await run(['tune', path]);
       expect({ code, out }).toEqual({ code: 3, out: '' });
-      expect(err).toContain(`${path}: there are no boxes in any frame to tune on`);
+      expect(err).toContain(`${path}: no frame has boxes to tune on`);
     }
   });
 
@@ -109,7 +109,8 @@ describe('its own words', () => {
     [['info', small, '--colour'], "unknown option '--colour'"],
     [['info', small, '-x'], "unknown option '-x'"],
     [['info', small, '--frames'], "option '--frames <a..b>' argument missing"],
-    [['info', small, '--frames', '--json'], "'--json' is invalid. Expected a value, not an option."],
+    [['info', small, '--frames', '--salvage'], "'--salvage' is invalid. Expected a value, not an option."],
+    [['info', small, '--frames', '--json'], "option '--frames <a..b>' argument missing"],
     [['info', small, '--frame', '0..1'], '(Did you mean --frames?)'],
     [['tunes', small], "unknown command 'tunes' (Did you mean tune?)"],
     [['info', small, '--json=yes'], "unknown option '--json=yes'"],
@@ -155,6 +156,12 @@ describe('its own words', () => {
   test('the version, and help by any of its names', async () => {
     const { version } = JSON.parse(readFileSync('package.json', 'utf8'));
     expect(await run(['--version'])).toEqual({ code: 0, out: `${version}\n`, err: '' });
+    for (const argv of [
+      ['-v', '--json'],
+      ['--json', '--version'],
+    ]) {
+      expect(await run(argv)).toEqual({ code: 0, out: `{"version":"${version}"}\n`, err: '' });
+    }
     const { out } = await run(['--help']);
     expect(await run(['-v'])).toEqual({ code: 0, out: `${version}\n`, err: '' });
     for (const argv of [['-h'], ['help']]) expect(await run(argv)).toEqual({ code: 0, out, err: '' });

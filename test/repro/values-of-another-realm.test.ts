@@ -5,7 +5,7 @@ import { createContext, runInContext } from 'node:vm';
 import { BroadPhase, findPairs, findPairsBetween, init } from 'broadphase';
 import { openTrace, record } from 'broadphase/trace';
 import { expect, test } from 'vitest';
-import { readRecording } from '../../src/scenes/recorded.ts';
+import { readRecording } from '../../src/trace/raw.ts';
 
 const there = runInContext(
   '({ Array, Float32Array, Float64Array, Uint8Array, DataView, RegExp })',

@@ -2,7 +2,7 @@
 import { BroadPhase as Space } from 'broadphase';
 import * as ro from 'broadphase/ro';
 import { describe, expect, test } from 'vitest';
-import { rings } from '../../site/demos/rings.ts';
+import { rings } from '../../site/article/demos/rings.ts';
 import { keys, random, recordPairs, squares } from './scene.ts';
 
 const { BroadPhase, BruteForce, SpatialGrid } = ro.coltech;

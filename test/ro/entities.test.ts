@@ -1,7 +1,7 @@
 // Entities that come and go, the technique that finds their pairs, and what is refused.
 import * as ro from 'broadphase/ro';
 import { describe, expect, test, vi } from 'vitest';
-import { rings } from '../../site/demos/rings.ts';
+import { rings } from '../../site/article/demos/rings.ts';
 import { FakeCanvas } from './fake-canvas.ts';
 import { keys, squares } from './scene.ts';
 
@@ -271,11 +271,11 @@ describe('bad input', () => {
   });
 
   test('a canvas has to be one, and an id the id of one', () => {
-    expect(() => new ro.World('game')).toThrow(/there is no page to look for the canvas "game" on; expected null/);
+    expect(() => new ro.World('game')).toThrow(/there is no document to find the canvas "game" in; expected null/);
     vi.stubGlobal('document', { getElementById: (id: string) => (id === 'text' ? {} : null) });
     expect(() => new ro.World('game')).toThrow('no element has the id "game"; expected the id of a <canvas>');
-    expect(() => new ro.World('text')).toThrow(/the element with the id "text" is no canvas; expected a <canvas>/);
+    expect(() => new ro.World('text')).toThrow(/the element with the id "text" is not a canvas; expected a <canvas>/);
     vi.unstubAllGlobals();
-    expect(() => new ro.World(undefined as unknown as null)).toThrow(/undefined is no canvas/);
+    expect(() => new ro.World(undefined as unknown as null)).toThrow(/undefined is not a canvas/);
   });
 });

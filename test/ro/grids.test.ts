@@ -1,9 +1,9 @@
 // The grids that the article adds to the engine's own: each finds what brute force finds, for the work it promises.
 import * as ro from 'broadphase/ro';
 import { describe, expect, test } from 'vitest';
-import { HierarchicalGrid } from '../../site/demos/hierarchical-grid.ts';
-import { HomeCellGrid } from '../../site/demos/home-cell-grid.ts';
-import { RetainedGrid } from '../../site/demos/retained-grid.ts';
+import { HierarchicalGrid } from '../../site/article/demos/hierarchical-grid.ts';
+import { HomeCellGrid } from '../../site/article/demos/home-cell-grid.ts';
+import { RetainedGrid } from '../../site/article/demos/retained-grid.ts';
 import { random, recordPairs, squares } from './scene.ts';
 
 const grids: [name: string, make: () => ro.coltech.EntityList][] = [

@@ -5,8 +5,8 @@ import { openAny, openTrace, readTrace, TraceError, TraceWriter } from 'broadpha
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { crc32 } from '../../src/trace/crc32.ts';
-import { runs, seed } from '../runs.ts';
-import { concat, factsOf, type GivenFrame, someFrames, write } from './arbitrary.ts';
+import { concat, factsOf, type GivenFrame, someFrames, write } from '../support/random-frames.ts';
+import { runs, seed } from '../support/runs.ts';
 
 const numRuns = runs(200);
 
@@ -128,7 +128,7 @@ describe('errors say where', () => {
   });
 
   test('version 1 is read, and knows of no rules', () => {
-    const old = new Uint8Array(gunzipSync(readFileSync('site/public/traces/smash.trace.gz')));
+    const old = new Uint8Array(gunzipSync(readFileSync('recordings/smash.trace.gz')));
     expect(old[8]).toBe(1);
     expect(openTrace(old).frames).toBe(20);
     const writer = new TraceWriter(2);
@@ -150,7 +150,9 @@ describe('errors say where', () => {
   test('a newer file is refused as such', () => {
     const newer = bytes.slice();
     newer[8] = 3;
-    expect(() => openTrace(newer)).toThrow('trace: header, byte 8: of format 3, newer than 2');
+    expect(() => openTrace(newer)).toThrow(
+      'trace: header, byte 8: of format 3, but this version reads formats up to 2',
+    );
   });
 
   test('other files are no traces, and gzip is recognised', () => {
@@ -161,7 +163,7 @@ describe('errors say where', () => {
 
   test('a trace without its end is truncated, and salvaged on request', () => {
     const cut = bytes.subarray(0, bytes.length - 10);
-    expect(() => openTrace(cut)).toThrow(`trace: frame 2, byte ${cut.length}: truncated: 0 of 8 bytes`);
+    expect(() => openTrace(cut)).toThrow(`trace: frame 2, byte ${cut.length}: truncated: only 0 of 8 bytes`);
     const salvaged = openTrace(cut, { salvage: true });
     expect(salvaged.frames).toBe(2);
     expect(salvaged.fault?.frame).toBe(2);
@@ -199,7 +201,11 @@ describe('errors say where', () => {
     ['a layer of more than 32 bits', [0x21, 2, 0, 1, 0, 2, 255, 255, 255, 255, 127, 1, 0], 'a layer is 34359738367'],
     ['an unknown kind', [7], 'unknown kind'],
     ['changes before any snapshot', [2, 0, 0, 0], 'not a snapshot'],
-    ['sixteen million boxes in ten bytes', [1, 0x80, 0x80, 0x80, 8, 0, 0], '16777216 boxes are new, but 0 of them'],
+    [
+      'sixteen million boxes in ten bytes',
+      [1, 0x80, 0x80, 0x80, 8, 0, 0],
+      '16777216 boxes are new, but only 0 of them',
+    ],
     [
       'the same, said to be there',
       [1, 0x80, 0x80, 0x80, 8, 0, 1, 0, 0x80, 0x80, 0x80, 8],
@@ -208,13 +214,13 @@ describe('errors say where', () => {
     ['more boxes than ids', [1, 0x81, 0x80, 0x80, 8], 'expected at most 16777216'],
     ['a number of 36 bits', [1, 0xff, 0xff, 0xff, 0xff, 0xff, 1], 'more than 32 bits'],
     ['an id for a box that is not', [1, 1, 1, 1, 5, 1, 0, 1, 0, 0], 'place 1 of 1'],
-    ['an id twice', [1, 2, 1, 1, 0, 1, 0, 2, 0, 0, 0, 0], 'id 0 is there twice'],
+    ['an id twice', [1, 2, 1, 1, 0, 1, 0, 2, 0, 0, 0, 0], 'id 0 appears twice'],
     ['a float of seven bytes', [1, 1, 0, 1, 0, 1, 7, 0, 1, 2, 3, 4, 5, 6, 7], 'has 7 bytes'],
     ['an empty run', [1, 1, 0, 1, 1, 0], 'empty run'],
     ['a run past the end', [1, 1, 0, 1, 1, 1], 'up to 2 of 1'],
-    ['a box that is none', [1, 1, 0, 1, 0, 1, 1, 1, 2, 1], 'which is none'],
+    ['a box that is none', [1, 1, 0, 1, 0, 1, 1, 1, 2, 1], 'which is not a box'],
     ['bytes left over', [1, 0, 0, 0, 9], '1 bytes too many'],
-    ['an end that counts wrongly', [0, 3], 'the end counts 3 frames, but 0'],
+    ['an end that counts wrongly', [0, 3], 'the end frame counts 3 frames, but 0'],
   ])('%s', (_, body, message) => {
     expect(() => openTrace(forge(2, [], Uint8Array.from(body)))).toThrow(message);
   });
@@ -223,8 +229,8 @@ describe('errors say where', () => {
     const head = concat([new TraceWriter(2).header(), le(0xffffffff), le(0)]);
     expect(() => openTrace(head)).toThrow('its length is 4294967295');
     const large = concat([new TraceWriter(2).header(), le(2 ** 29), le(0)]);
-    expect(() => openTrace(large)).toThrow('truncated: 8 of 536870920');
-    await expect(readInPieces(large, 5)).rejects.toThrow('truncated: 8 of 536870920');
+    expect(() => openTrace(large)).toThrow('truncated: only 8 of 536870920');
+    await expect(readInPieces(large, 5)).rejects.toThrow('truncated: only 8 of 536870920');
   });
 
   test('what is no frame is not written', () => {
@@ -232,7 +238,7 @@ describe('errors say where', () => {
     expect(() => writer.frame(new Float32Array(3))).toThrow('expected 4 for each');
     expect(() => writer.frame(Float32Array.of(0, 0, Number.NaN, 1))).toThrow('box 0 is [0, 0, NaN, 1]');
     expect(() => writer.frame(two[0].boxes, [1])).toThrow('1 ids for 2 boxes');
-    expect(() => writer.frame(two[0].boxes, [1, 1])).toThrow('id 1 is there twice');
+    expect(() => writer.frame(two[0].boxes, [1, 1])).toThrow('id 1 appears twice');
     expect(() => writer.frame(two[0].boxes, [1, 2 ** 24])).toThrow('an id is 16777216');
     expect(() => new TraceWriter(4 as 2)).toThrow('2 or 3 dimensions');
     expect(writer.frames).toBe(0);
@@ -256,8 +262,8 @@ test('a gzip bomb is stopped, and a broken gzip said to be', async () => {
   const { gzipSync } = await import('node:zlib');
   const { gunzip } = await import('broadphase/trace');
   const zipped = gzipSync(new Uint8Array(5_000_000));
-  await expect(gunzip(zipped, 1_000_000)).rejects.toThrow('larger than 1000000 bytes');
-  await expect(openAny(zipped.subarray(0, 2000))).rejects.toThrow('the gzip around it is broken');
+  await expect(gunzip(zipped, 1_000_000)).rejects.toThrow('exceeds the limit of 1000000 bytes');
+  await expect(openAny(zipped.subarray(0, 2000))).rejects.toThrow('its gzip data is broken');
   await expect(openAny(gzipSync(write(2, two)))).resolves.toMatchObject({ frames: 2, dimensions: 2 });
 });
 

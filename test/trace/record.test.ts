@@ -4,9 +4,9 @@ import { BroadPhase } from 'broadphase';
 import { applyFrame, openTrace, record, replay, TraceError } from 'broadphase/trace';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { runs, seed } from '../runs.ts';
-import { setBox } from '../set-box.ts';
-import { concat } from './arbitrary.ts';
+import { concat } from '../support/random-frames.ts';
+import { runs, seed } from '../support/runs.ts';
+import { setBox } from '../support/set-box.ts';
 
 const numRuns = runs(100);
 

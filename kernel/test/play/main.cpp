@@ -1,4 +1,4 @@
-// Makes the calls of tapes (test/determinism/tape.ts) on a space, as test/determinism/play.ts does, and prints the hash
+// Makes the calls of tapes (test/promises/determinism/tape.ts) on a space, as test/promises/determinism/play.ts does, and prints the hash
 // of all that it answers: `play TECHNIQUE TAPE`, repeated. The kernel alone must answer as the package does.
 #include <cstdio>
 #include <cstdlib>
@@ -46,7 +46,7 @@ template <int D> class Player {
  public:
   Player(const std::vector<f64>& tape, u32 technique) : at_(tape.data() + 2), end_(tape.data() + tape.size()) {
     space_.technique = Technique(technique);
-    space_.keeps_events = u32(tape[1]) & 1;
+    space_.store.keeps_events = u32(tape[1]) & 1;
     settings_.touching = !(u32(tape[1]) & 2);
   }
 
@@ -59,14 +59,14 @@ template <int D> class Player {
   void step() {
     switch (whole()) {
       case 0: return set();
-      case 1: return hash_.add(space_.remove(whole()));
+      case 1: return hash_.add(space_.store.remove(whole()));
       case 2: return filter();
       case 3: return exclude();
       case 4: return replace();
       case 5: return expose();
       case 6: space_.technique = Technique(whole()); return;
       case 7: return update();
-      case 8: return space_.clear();
+      case 8: return space_.store.clear();
       case 9: return save();
       case 10: return restore();
       case 11: return query_box();
@@ -85,45 +85,45 @@ template <int D> class Player {
     u32 id = whole();
     ring_.entries[0] = id;
     __builtin_memcpy(ring_.entries + 1, at_, width * sizeof(f64));
-    space_.take(ring_, 1);
+    space_.store.take(ring_, 1);
     at_ += width;
   }
   void filter() {
     u32 slot = ids_.slot(whole()), layer = whole();
-    space_.filter(slot, layer, whole());
+    space_.store.filter(slot, layer, whole());
   }
   void exclude() {
     u32 slot = ids_.slot(whole());
-    space_.exclude(slot, is_static, next() == 1);
+    space_.store.exclude(slot, is_static, next() == 1);
   }
   void enable() {
     u32 slot = ids_.slot(whole());
-    space_.enable(slot, next() == 1);
+    space_.store.enable(slot, next() == 1);
   }
   void group() {
     u32 slot = ids_.slot(whole());
-    space_.put_in_group(slot, whole());
+    space_.store.put_in_group(slot, whole());
   }
   void reach() {
     u32 slot = ids_.slot(whole());
-    space_.set_reach(slot, next());
+    space_.store.set_reach(slot, next());
   }
   void replace() {
     u32 count = whole();
-    f64* to = space_.stage_exact(count);
+    f64* to = space_.store.numbers.stage_exact(count);
     for (u32 k = 0; k < count * width; k++) to[k] = next();
-    space_.replace(count, true);
+    space_.store.replace(count, true);
   }
   void expose() {
     u32 count = whole();
-    f32* to = space_.expose(count);
+    f32* to = space_.store.expose(count);
     for (u32 k = 0; k < count * width; k++) to[k] = f32(next());
   }
   void update() {
     space_.update();
     hash_.add_all(space_.pairs);
-    hash_.add_all(space_.events.began);
-    hash_.add_all(space_.events.ended);
+    hash_.add_all(space_.store.events.began);
+    hash_.add_all(space_.store.events.ended);
     hash_.add(u32(space_.stats.candidates));
   }
   void save() {
@@ -139,7 +139,7 @@ template <int D> class Player {
     space_.restore();
   }
   void ask(u32 mask, u32 numbers) {
-    Question<D>& question = space_.question;
+    Question<D>& question = space_.questions.asked;
     question = {};
     question.radius = -1;
     question.touching = settings_.touching;
@@ -155,24 +155,24 @@ template <int D> class Player {
   void query_box() {
     u32 mask = whole(), from = 0;
     ask(mask, width);
-    u32 count = space_.ask_area(from, ~0u);
-    hash_.add_all(space_.answers.data(), count);
+    u32 count = space_.questions.ask_area(from, ~0u);
+    hash_.add_all(space_.questions.answers.data(), count);
   }
   void nearest() {
     u32 most = whole();
     ask(~0u, D);
-    space_.question.limit = __builtin_inf();
-    u32 count = space_.ask_order(false, most, nullptr);
+    space_.questions.asked.limit = __builtin_inf();
+    u32 count = space_.questions.ask_order(false, most, nullptr);
     hash_.add(count);
-    for (u32 k = 0; k < count; k++) hash_.add(space_.hits.data()[k].id);
+    for (u32 k = 0; k < count; k++) hash_.add(space_.questions.hits.data()[k].id);
   }
   void sweep() {
     ask(~0u, 3 * D);
-    space_.question.limit = space_.question.length = 1;
-    space_.question.stops = true;
-    bool met = space_.ask_order(true, 1, nullptr) > 0;
-    u64 time = bits<u64>(met ? space_.hits.data()[0].rank : -1.0);
-    u32 words[] = {met ? space_.hits.data()[0].id & ~Hit::corner : ~0u, u32(time), u32(time >> 32)};
+    space_.questions.asked.limit = space_.questions.asked.length = 1;
+    space_.questions.asked.stops = true;
+    bool met = space_.questions.ask_order(true, 1, nullptr) > 0;
+    u64 time = bits<u64>(met ? space_.questions.hits.data()[0].rank : -1.0);
+    u32 words[] = {met ? space_.questions.hits.data()[0].id & ~Hit::corner : ~0u, u32(time), u32(time >> 32)};
     hash_.add_all(words, 3);
   }
   void many() {
@@ -180,22 +180,22 @@ template <int D> class Player {
     u32 most = whole(), count = whole();
     constexpr u32 numbers[2][8] = {{2, 4, 6, 4, 4, 2, 3, 0}, {3, 6, 9, 6, 6, 3, 4, 0}};
     u32 length = count * numbers[D - 2][u32(kind)];
-    f64* to = space_.bulk.stage(length + count);
+    f64* to = space_.questions.bulk.stage(length + count);
     for (u32 k = 0; k < length; k++) to[k] = next();
     for (u32 k = 0; k < count; k++) to[length + k] = ~0u;
-    space_.question = {};
-    space_.question.mask = ~0u;
-    space_.question.limit = kind == Asks::way ? 1 : __builtin_inf();
+    space_.questions.asked = {};
+    space_.questions.asked.mask = ~0u;
+    space_.questions.asked.limit = kind == Asks::way ? 1 : __builtin_inf();
     bool ordered = kind < Asks::box || kind == Asks::others;
-    count = space_.ask_many(kind, count, moves(kind) ? 1 : most);
-    const u32* offsets = space_.bulk.offsets();
+    count = space_.questions.ask_many(kind, count, moves(kind) ? 1 : most);
+    const u32* offsets = space_.questions.bulk.offsets();
     hash_.add_all(offsets, count + 1);
     u32 total = offsets[count];
-    if (!ordered) return hash_.add_all(space_.bulk.ids.data(), total);
+    if (!ordered) return hash_.add_all(space_.questions.bulk.ids.data(), total);
     hash_.add(total);
-    for (u32 k = 0; k < total; k++) hash_.add(space_.bulk.hits[k].id & ~Hit::corner);
+    for (u32 k = 0; k < total; k++) hash_.add(space_.questions.bulk.hits[k].id & ~Hit::corner);
     for (u32 k = 0; k < total; k++) {
-      u64 rank = bits<u64>(space_.bulk.hits[k].rank);
+      u64 rank = bits<u64>(space_.questions.bulk.hits[k].rank);
       hash_.add(u32(rank));
       hash_.add(u32(rank >> 32));
     }
@@ -203,7 +203,7 @@ template <int D> class Player {
   static bool moves(Asks kind) { return kind == Asks::ray || kind == Asks::way; }
   void partners() {
     u32 count = space_.partners(whole());
-    hash_.add_all(space_.answers.data(), count);
+    hash_.add_all(space_.questions.answers.data(), count);
   }
 };
 

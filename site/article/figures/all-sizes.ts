@@ -1,10 +1,10 @@
 // Fig. 20: giants and dwarfs once more, each in the grid whose cells fit it.
 import { ro } from 'broadphase/ro';
-import { bestCellSize, countWork, place } from '../../demos/cells.ts';
-import { HierarchicalGrid } from '../../demos/hierarchical-grid.ts';
-import source from '../../demos/hierarchical-grid.ts?raw';
-import { mixedSizes } from '../../demos/mixed-sizes.ts';
 import { demoColumns } from '../demo.ts';
+import { bestCellSize, countWork, place } from '../demos/cells.ts';
+import { HierarchicalGrid } from '../demos/hierarchical-grid.ts';
+import source from '../demos/hierarchical-grid.ts?raw';
+import { mixedSizes } from '../demos/mixed-sizes.ts';
 import { boxOn, fitWorld } from '../kit/drawing.ts';
 import { choice, counters, createView, excerpt, listing, sayer } from '../kit/index.ts';
 
@@ -69,7 +69,7 @@ export function mount(root: HTMLElement): void {
     pairs: 'Pairs found',
   });
   const say = sayer(left);
-  listing(right, 'site/demos/hierarchical-grid.ts', excerpt(source, 'queryForCollisionPairs()'));
+  listing(right, 'site/article/demos/hierarchical-grid.ts', excerpt(source, 'queryForCollisionPairs()'));
 
   write('grids', sizes.length);
   write('lookUps', grids.lookUps);
@@ -81,7 +81,7 @@ export function mount(root: HTMLElement): void {
     const members = grids.entities.filter((entity) => grids.cellSizeOf(entity) === shown).length;
     say(
       shown === 0
-        ? `${grids.lookUps + grids.collisionTests} look-ups and tests, with nothing tuned. The best single cell size for ` +
+        ? `${grids.lookUps + grids.collisionTests} lookups and tests, with nothing tuned. The best single cell size for ` +
             `these boxes, ${flat.pxCellSize.x}, takes ${best}; cells of ${finest} ` +
             `take ${worst.toLocaleString('en')}.`
         : `${members} of ${boxes.length} boxes are in the grid with cells of ${shown}.`,

@@ -1,8 +1,8 @@
 // Fig. 16: two questions about the player, whatever else collides.
 import { ro } from 'broadphase/ro';
-import { player } from '../../demos/player.ts';
-import source from '../../demos/player.ts?raw';
 import { demoColumns } from '../demo.ts';
+import { player } from '../demos/player.ts';
+import source from '../demos/player.ts?raw';
 import { excerpt, listing } from '../kit/index.ts';
 import { createStage } from '../stage.ts';
 
@@ -29,6 +29,6 @@ export function mount(root: HTMLElement): () => void {
     if (event.key.startsWith('Arrow')) event.preventDefault();
   });
 
-  listing(right, 'site/demos/player.ts', excerpt(source, 'handleCollisions(_dt, pairs) {'));
+  listing(right, 'site/article/demos/player.ts', excerpt(source, 'handleCollisions(_dt, pairs) {'));
   return stage.rest;
 }

@@ -45,19 +45,19 @@ function questions(i: number, j: number): string {
     [`${ends}, along y`, a[1] + a[3], '≥', b[1], a[1] + a[3] >= b[1]],
   ];
   const no = asked.find(([, , , , yes]) => !yes);
-  if (!no) return `Four times yes: ${i} and ${j} overlap, and the pair is kept.`;
+  if (!no) return `Four times yes: ${i} and ${j} overlap, and the pair is recorded.`;
   const [question, left, sign, right] = no;
-  return `${question}? ${left} ${sign} ${right}: no. They are apart, and no more is asked.`;
+  return `${question}? ${left} ${sign} ${right}: no. They are apart, and the test ends.`;
 }
 
 function explain(operation: BruteForceOperation): string {
   const { kind, i } = operation;
   if (kind === 'outer') {
-    return i < boxes.length ? `i is ${i}: everyone behind box ${i} is compared with it.` : 'i is 6: all are through.';
+    return i < boxes.length ? `i is ${i}: every box after ${i} is compared with it.` : 'i is 6: all are done.';
   }
   const { j } = operation;
   if (kind === 'inner') {
-    return j < boxes.length ? `j is ${j}: the next pair is ${i} and ${j}.` : `j is ${j}: nobody is left behind ${i}.`;
+    return j < boxes.length ? `j is ${j}: the next pair is ${i} and ${j}.` : `j is ${j}: no box is left after ${i}.`;
   }
   if (kind === 'count') return `One more comparison: boxes ${i} and ${j}.`;
   return questions(i, j);

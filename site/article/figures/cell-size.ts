@@ -1,8 +1,8 @@
 // Fig. 9: the rings on a spatial grid, whose cells are too small, fitting or too large.
 import { ro } from 'broadphase/ro';
 import source from '../../../src/ro/coltech/spatial-grid.ts?raw';
-import { rings } from '../../demos/rings.ts';
 import { demoColumns } from '../demo.ts';
+import { rings } from '../demos/rings.ts';
 import { button, choice, excerpt, listing } from '../kit/index.ts';
 import { createStage } from '../stage.ts';
 

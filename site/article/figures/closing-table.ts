@@ -1,7 +1,8 @@
 // Table 1: the grid's two extremes, and what lies between them, counted by running them.
-import { hundredBoxes, measure } from '../../demos/closing-table.ts';
-import source from '../../demos/closing-table.ts?raw';
+
 import { demoColumns } from '../demo.ts';
+import { hundredBoxes, measure } from '../demos/closing-table.ts';
+import source from '../demos/closing-table.ts?raw';
 import { boxOn, fitWorld, gridOn } from '../kit/drawing.ts';
 import { createView, element, excerpt, listing, slider } from '../kit/index.ts';
 
@@ -57,7 +58,7 @@ export function mount(root: HTMLElement): void {
       show();
     },
   });
-  listing(right, 'site/demos/closing-table.ts', excerpt(source, 'export function measure'));
+  listing(right, 'site/article/demos/closing-table.ts', excerpt(source, 'export function measure'));
   show();
 
   function show(): void {

@@ -1,8 +1,8 @@
 // Fig. 17: three groups in one space, and the questions between them that are asked.
 import { ro } from 'broadphase/ro';
-import { groups, type Question } from '../../demos/groups.ts';
-import source from '../../demos/groups.ts?raw';
 import { demoColumns } from '../demo.ts';
+import { groups, type Question } from '../demos/groups.ts';
+import source from '../demos/groups.ts?raw';
 import { element, excerpt, listing } from '../kit/index.ts';
 import { createStage } from '../stage.ts';
 
@@ -45,7 +45,7 @@ export function mount(root: HTMLElement): () => void {
   }
   stage.controls.before(choices);
 
-  listing(right, 'site/demos/groups.ts', excerpt(source, 'function ask(questions'));
-  listing(right, 'site/demos/groups.ts', excerpt(source, 'handleCollisions(_dt, pairs)'));
+  listing(right, 'site/article/demos/groups.ts', excerpt(source, 'function ask(questions'));
+  listing(right, 'site/article/demos/groups.ts', excerpt(source, 'handleCollisions(_dt, pairs)'));
   return stage.rest;
 }

@@ -2,10 +2,11 @@
 //
 // One page has one heap, so the four take turns; the chart's clock runs only while they do. A browser that does not
 // tell the size of its heap gets the number of arrays made instead, which is known everywhere.
-import { makeWorlds } from '../../demos/heap.ts';
-import source from '../../demos/heap.ts?raw';
+
 import { heapSize } from '../../shared/heap.ts';
 import { demoColumns } from '../demo.ts';
+import { makeWorlds } from '../demos/heap.ts';
+import source from '../demos/heap.ts?raw';
 import { text } from '../kit/drawing.ts';
 import { button, choice, createView, element, excerpt, listing, row, runWhileAttended, sayer } from '../kit/index.ts';
 
@@ -110,7 +111,7 @@ export function mount(root: HTMLElement): () => void {
   const head = element('tr', {}, ...headings.map((heading) => element('th', { scope: 'col' }, heading)));
   right.append(element('div', { class: 'table' }, element('table', {}, element('thead', {}, head), body)));
   const say = sayer(right, true);
-  listing(right, 'site/demos/heap.ts', excerpt(source, 'function on<T'));
+  listing(right, 'site/article/demos/heap.ts', excerpt(source, 'function on<T'));
 
   const attended = runWhileAttended(
     place,
@@ -207,8 +208,8 @@ export function mount(root: HTMLElement): () => void {
     say(
       tellsHeap
         ? `${worlds[0].world.entities.length} squares. Large cells make few arrays, but many keys for the table of tested ` +
-            'pairs. What little there is with the library is the demo’s and the chart’s own.'
-        : 'This browser does not tell the size of its memory, so the chart counts the arrays that the grids make.',
+            'pairs. The little garbage with the library comes from the demo and the chart.'
+        : 'This browser does not report the size of its memory, so the chart counts the arrays that the grids make.',
     );
     view.describe(
       `A chart of ${tellsHeap ? 'the JavaScript heap' : 'the arrays made'} over time. ` +

@@ -1,9 +1,9 @@
 // Fig. 19: every box at home in one cell, and the cells that the query of a chosen box has to look into.
 import { createRandom } from '../../../src/scenes/random.ts';
-import { type Box, place } from '../../demos/cells.ts';
-import { HomeCellGrid } from '../../demos/home-cell-grid.ts';
-import source from '../../demos/home-cell-grid.ts?raw';
 import { demoColumns } from '../demo.ts';
+import { type Box, place } from '../demos/cells.ts';
+import { HomeCellGrid } from '../demos/home-cell-grid.ts';
+import source from '../demos/home-cell-grid.ts?raw';
 import { boxOn, fitWorld, gridOn } from '../kit/drawing.ts';
 import { button, counters, createView, excerpt, listing, makeDraggable, row, sayer, slider } from '../kit/index.ts';
 
@@ -83,8 +83,8 @@ export function mount(root: HTMLElement): void {
     all: 'All look-ups',
   });
   const say = sayer(left, true);
-  listing(right, 'site/demos/home-cell-grid.ts', excerpt(source, 'queryForCollisionPairs()'));
-  listing(right, 'site/demos/home-cell-grid.ts', excerpt(source, 'searchArea(entity: Entity)'));
+  listing(right, 'site/article/demos/home-cell-grid.ts', excerpt(source, 'queryForCollisionPairs()'));
+  listing(right, 'site/article/demos/home-cell-grid.ts', excerpt(source, 'searchArea(entity: Entity)'));
   show();
 
   /** Whom the chosen box is compared with, and who of them overlaps it. */

@@ -48,7 +48,7 @@ export function mount(root: HTMLElement): () => void {
     stepper.stop();
     world.removeEntity(entity);
     source.light(null);
-    say(`Entity ${entity._roId} is gone. Its number stays used; the next to come gets ${world.uniq}.`);
+    say(`Entity ${entity._roId} is gone. Its number is not reused; the next entity gets ${world.uniq}.`);
     show();
     add.focus();
   };
@@ -60,13 +60,13 @@ export function mount(root: HTMLElement): () => void {
 
   let current = begin();
   const words: Readonly<Record<AddingOperation, (id: number) => string>> = {
-    asked: () => 'Is it in a world already? No: it may come in.',
-    aabb: () => 'Its AABB is brought up to date.',
-    id: (id) => `It gets the number that is next: ${id}.`,
-    technique: (id) => `The technique is told about entity ${id}.`,
+    asked: () => 'Is it in a world already? No: it may be added.',
+    aabb: () => 'Its AABB is updated.',
+    id: (id) => `It gets the next number: ${id}.`,
+    technique: (id) => `The technique is notified of entity ${id}.`,
     uniq: (id) => `The next number is raised to ${id + 1}.`,
     world: (id) => `Entity ${id} remembers which world it is in.`,
-    done: (id) => `Entity ${id} is in the list. That was all.`,
+    done: (id) => `Entity ${id} is in the list. That is all.`,
   };
 
   const add = button(tools, 'Add an entity', () => {

@@ -15,8 +15,7 @@ const lights: Readonly<Record<PopulationOperation['kind'], string>> = {
 
 function explain(operation: PopulationOperation): string {
   const { kind } = operation;
-  if (kind === 'grid')
-    return 'The grid of the frame before is dropped. The new one is an array for four columns, empty.';
+  if (kind === 'grid') return 'The previous frame’s grid is dropped. The new one is an empty array for four columns.';
   if (kind === 'entity') return `The next entity is ${operation.id}.`;
   if (kind === 'span') {
     const { id, first, last } = operation;

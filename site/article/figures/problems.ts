@@ -1,9 +1,9 @@
 // Fig. 15: the work of a grid against its cell size. Boxes of one size make a valley; giants among them fill it up.
 import { ro } from 'broadphase/ro';
-import { countWork, place } from '../../demos/cells.ts';
-import source from '../../demos/cells.ts?raw';
-import { mixedSizes } from '../../demos/mixed-sizes.ts';
 import { demoColumns } from '../demo.ts';
+import { countWork, place } from '../demos/cells.ts';
+import source from '../demos/cells.ts?raw';
+import { mixedSizes } from '../demos/mixed-sizes.ts';
 import { text } from '../kit/drawing.ts';
 import { counters, createView, excerpt, listing, sayer, slider } from '../kit/index.ts';
 
@@ -81,7 +81,7 @@ export function mount(root: HTMLElement): void {
   });
   const write = counters(right, { least: 'Least work', size: 'At a cell size of', brute: 'By brute force' });
   const say = sayer(right);
-  listing(right, 'site/demos/cells.ts', excerpt(source, 'export function countWork'));
+  listing(right, 'site/article/demos/cells.ts', excerpt(source, 'export function countWork'));
   show();
 
   function bestIndex(): number {

@@ -1,9 +1,9 @@
 // Fig. 18: the retained grid, and how much of it a step has to touch when few boxes move, or all.
 import { ro } from 'broadphase/ro';
-import { RetainedGrid } from '../../demos/retained-grid.ts';
-import source from '../../demos/retained-grid.ts?raw';
-import { stillAndMoving } from '../../demos/still-and-moving.ts';
 import { demoColumns } from '../demo.ts';
+import { RetainedGrid } from '../demos/retained-grid.ts';
+import source from '../demos/retained-grid.ts?raw';
+import { stillAndMoving } from '../demos/still-and-moving.ts';
 import { excerpt, listing, slider } from '../kit/index.ts';
 import { createStage } from '../stage.ts';
 
@@ -28,8 +28,8 @@ export function mount(root: HTMLElement): () => void {
       rebuilt: grid.entries,
     }),
     inWords: ({ world, work }) =>
-      `${world.entities.length} boxes on a grid that is kept. In a frame, ${work.moved.toFixed(1)} of them change cells ` +
-      `on average, which moves ${work.changed.toFixed(1)} entries; a grid built anew would write ${grid.entries}.`,
+      `${world.entities.length} boxes on a retained grid. In a frame, ${work.moved.toFixed(1)} of them change cells ` +
+      `on average, which moves ${work.changed.toFixed(1)} entries; a full rebuild would write ${grid.entries}.`,
   });
   slider(stage.controls, {
     label: 'Boxes that move',
@@ -44,6 +44,6 @@ export function mount(root: HTMLElement): () => void {
     },
   });
 
-  listing(right, 'site/demos/retained-grid.ts', excerpt(source, 'override update(): void'));
+  listing(right, 'site/article/demos/retained-grid.ts', excerpt(source, 'override update(): void'));
   return stage.rest;
 }

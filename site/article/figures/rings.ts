@@ -1,8 +1,8 @@
 // Fig. 3: rings of squares on brute force, and how fast its comparisons grow with every ring.
 import { ro } from 'broadphase/ro';
-import { rings } from '../../demos/rings.ts';
-import source from '../../demos/rings.ts?raw';
 import { demoColumns } from '../demo.ts';
+import { rings } from '../demos/rings.ts';
+import source from '../demos/rings.ts?raw';
 import { button, listing } from '../kit/index.ts';
 import { createStage } from '../stage.ts';
 
@@ -38,7 +38,7 @@ export function mount(root: HTMLElement): () => void {
   });
   stage.canvas.addEventListener('click', stage.refresh);
 
-  listing(right, 'site/demos/rings.ts', source);
+  listing(right, 'site/article/demos/rings.ts', source);
   return stage.rest;
 
   function add(count: number) {

@@ -1,10 +1,10 @@
 // Fig. 24: the test of one box against four at once, lane by lane, and what that is worth, timed here and now.
 import { ro } from 'broadphase/ro';
 import { createRandom } from '../../../src/scenes/random.ts';
-import { type Box, place } from '../../demos/cells.ts';
-import { timeStep } from '../../demos/timing.ts';
-import source from '../../demos/timing.ts?raw';
 import { demoColumns } from '../demo.ts';
+import { type Box, place } from '../demos/cells.ts';
+import { timeStep } from '../demos/timing.ts';
+import source from '../demos/timing.ts?raw';
 import { boxOn, fitWorld, text } from '../kit/drawing.ts';
 import { button, createView, element, excerpt, listing, makeDraggable, row, sayer, slider } from '../kit/index.ts';
 
@@ -103,7 +103,7 @@ export function mount(root: HTMLElement): void {
   });
   right.append(element('div', { class: 'bars timed' }, ...bars.map(({ line }) => line)));
   const sayTime = sayer(right);
-  listing(right, 'site/demos/timing.ts', excerpt(source, 'export function timeStep'));
+  listing(right, 'site/article/demos/timing.ts', excerpt(source, 'export function timeStep'));
   show();
   soon();
 

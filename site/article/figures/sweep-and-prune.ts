@@ -1,9 +1,9 @@
 // Fig. 21: sweep and prune: moving boxes above, and below them the order that the sweep keeps.
 import { ro } from 'broadphase/ro';
-import { crowd } from '../../demos/crowd.ts';
-import { SweepAndPrune } from '../../demos/sweep-and-prune.ts';
-import source from '../../demos/sweep-and-prune.ts?raw';
 import { demoColumns } from '../demo.ts';
+import { crowd } from '../demos/crowd.ts';
+import { SweepAndPrune } from '../demos/sweep-and-prune.ts';
+import source from '../demos/sweep-and-prune.ts?raw';
 import { createView, excerpt, listing } from '../kit/index.ts';
 import { createStage } from '../stage.ts';
 
@@ -70,8 +70,8 @@ export function mount(root: HTMLElement): () => void {
   });
   stage.canvas.parentElement!.after(order.canvas);
 
-  listing(right, 'site/demos/sweep-and-prune.ts', excerpt(source, 'override update(): void'));
-  listing(right, 'site/demos/sweep-and-prune.ts', excerpt(source, 'queryForCollisionPairs()'));
+  listing(right, 'site/article/demos/sweep-and-prune.ts', excerpt(source, 'override update(): void'));
+  listing(right, 'site/article/demos/sweep-and-prune.ts', excerpt(source, 'queryForCollisionPairs()'));
   return stage.rest;
 
   function pairsNow() {

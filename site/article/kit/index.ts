@@ -25,5 +25,3 @@ export { excerpt, listing, passage } from './listing.ts';
 export { createStepper } from './stepper.ts';
 export { type Colors, onThemeChange, themeColors } from './theme.ts';
 export { createView, worldCanvas } from './view.ts';
-/** What every figure module exports. */
-export type Mount = (root: HTMLElement) => undefined | (() => void);

@@ -46,7 +46,7 @@ export class Work {
     };
     const instance = await duckdb.DuckDBInstance.create(path, options).catch((error: Error) => {
       const reason = error.message.split('\n')[0];
-      throw new FileError(`cannot keep what is done in ${path}: ${reason}: is another join of the same name running?`);
+      throw new FileError(`cannot save progress in ${path}: ${reason}: is another join of the same name running?`);
     });
     return new Work(duckdb, instance, await instance.connect(), path);
   }

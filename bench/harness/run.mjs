@@ -1,0 +1,107 @@
+// Runs rows, one after another, and writes down what is known after each: a run that is cut off leaves its rows behind.
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
+import { dirname } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { figuresPage, headlineOf, putFigures, worthOf } from '../report/documents.mjs';
+import { headOf, textOf } from '../report/text.mjs';
+import { machine, machineName } from './machine.mjs';
+import { race } from './race.mjs';
+
+const path = (file) => fileURLToPath(new URL(file, import.meta.url));
+const resultsFile = path(`../results/${machineName}.json`);
+const read = (file) => JSON.parse(readFileSync(file, 'utf8'));
+/** A run of everything begins no row after so many minutes. */
+const mostMinutes = 29;
+
+/**
+ * @param order `kinds` to run, and the `selection` of their rows. `everything` goes into results/, or else into `json` if
+ *   that is given; without `full` it ends within half an hour
+ */
+export async function run({ kinds, everything, json, selection }) {
+  const added = !everything && isWhole(kinds, selection) && existsSync(resultsFile);
+  const output = json ?? (everything || added ? resultsFile : undefined);
+  const fresh = { date: new Date().toISOString(), commit: commit(), machine, versions: versions(), rows: [] };
+  const record = added
+    ? { ...withoutKinds(read(resultsFile), kinds), native: { date: fresh.date, commit: fresh.commit } }
+    : fresh;
+  const end = everything && !selection.full ? performance.now() + mostMinutes * 60_000 : Infinity;
+  console.log(`${machine.cpu}, ${machine.cores} cores, ${machine.system}, Node ${machine.node}; milliseconds.`);
+  for (const kind of kinds) {
+    const { title, rows, play = race, prepare } = await import(`../kinds/${kind}.mjs`);
+    const unable = await prepare?.();
+    if (unable) console.log(`\n${title}: ${unable}`);
+    const chosen = unable ? [] : shortened(await rows(selection), selection.frames);
+    if (!unable && chosen.length === 0) throw new RangeError(`No row of "${kind}" is of that name.`);
+    console.log(`\n${title}: ${chosen.length} rows\n${headOf(kind)}`);
+    for (const row of chosen) {
+      if (performance.now() > end) {
+        record.cut = `Out of time before ${kind}: ${row.name}, ${row.count}.`;
+        console.log(record.cut);
+        break;
+      }
+      record.rows.push(await played(play, row));
+      console.log(textOf(record.rows.at(-1)));
+      if (output) save(output, record);
+    }
+  }
+  if (output) console.log(`\nWritten to ${output}`);
+  if (output === resultsFile) writeDocuments();
+}
+
+/** Native libraries are raced apart, where they are at hand, and join the results that are there. */
+const isWhole = (kinds, { names, counts, frames }) => kinds.join() === 'native' && !(names ?? counts ?? frames);
+
+const withoutKinds = (record, kinds) => ({ ...record, rows: record.rows.filter(({ kind }) => !kinds.includes(kind)) });
+
+/** A row that fails is written down with its error, and the others go on. */
+async function played(play, row) {
+  try {
+    return await play(row);
+  } catch (error) {
+    const { kind, name, dimensions, count } = row;
+    return { kind, name, dimensions, count, error: String(error?.message ?? error), contenders: [] };
+  }
+}
+
+/** For a look at whether all runs: so few frames say nothing of speed. */
+const shortened = (rows, frames) =>
+  frames === undefined
+    ? rows
+    : rows.map((row) => ({ ...row, plan: { warmUp: Math.min(frames, row.plan?.warmUp ?? 0), timed: frames } }));
+
+/** Either the whole file is there or the one before: a reader never meets half of it. */
+function save(output, record) {
+  mkdirSync(dirname(output), { recursive: true });
+  writeFileSync(`${output}.part`, `${JSON.stringify(record, rounded, 1)}\n`);
+  renameSync(`${output}.part`, output);
+}
+
+/** Five digits are plenty. */
+const rounded = (_key, value) =>
+  typeof value === 'number' && !Number.isInteger(value) ? Number(value.toPrecision(5)) : value;
+
+/** docs/figures.md and the tables of README.md and of worth-it.md, out of the results of this machine. */
+export function writeDocuments() {
+  const record = read(resultsFile);
+  writeFileSync(path('../../docs/figures.md'), `${figuresPage(record)}\n`);
+  const texts = { '../../README.md': headlineOf, '../../docs/guides/worth-it.md': worthOf };
+  for (const [file, figuresOf] of Object.entries(texts)) {
+    writeFileSync(path(file), putFigures(readFileSync(path(file), 'utf8'), figuresOf(record)));
+  }
+  console.log('Written: docs/figures.md, and the tables of README.md and of docs/guides/worth-it.md.');
+}
+
+function commit() {
+  try {
+    return execFileSync('git', ['rev-parse', '--short', 'HEAD'], { cwd: path('..'), encoding: 'utf8' }).trim();
+  } catch {
+    return undefined;
+  }
+}
+
+/** Of the packages, as they are installed. */
+function versions() {
+  const { dependencies } = read(path('../package.json'));
+  return { broadphase: read(path('../../package.json')).version, ...dependencies };
+}

@@ -1,0 +1,128 @@
+// A seamless world on Colyseus: zones are rooms, in as many processes, and a page shows them.
+//
+//   npm i && npm start
+//   npm start -- --clients 300
+//
+// --zones 3, --entities 10000, --port 2567: as many, and from that port on, a process each
+// --clients 60: simulated clients, in a process of their own
+// --memory: one process, without Redis; so it is where Redis (redis-server) is not installed
+// --everything: no interest management, every client is sent all of its room: for comparison
+// --seconds 60: ends after so long; --json: reports and events as lines of JSON
+import { spawn, spawnSync } from 'node:child_process';
+import { createInterface } from 'node:readline';
+import { fileURLToPath } from 'node:url';
+import { parseArgs } from 'node:util';
+import { needNewerNode } from './newer-node.mjs';
+
+await needNewerNode();
+const { values } = parseArgs({
+  options: {
+    zones: { type: 'string', default: '3' },
+    entities: { type: 'string', default: '10000' },
+    port: { type: 'string', default: '2567' },
+    clients: { type: 'string', default: '60' },
+    memory: { type: 'boolean', default: false },
+    everything: { type: 'boolean', default: false },
+    seconds: { type: 'string' },
+    json: { type: 'boolean', default: false },
+  },
+});
+const [zones, entities, port, clients] = ['zones', 'entities', 'port', 'clients'].map((name) => Number(values[name]));
+const path = (file) => fileURLToPath(new URL(file, import.meta.url));
+const children = new Set();
+let ending = false;
+
+function say(event) {
+  if (values.json) console.log(JSON.stringify({ at: Date.now(), ...event }));
+  else if (event.text) console.log(`${event.process ? `[${event.process}] ` : ''}${event.text}`);
+}
+
+/** Starts a process whose lines are events. */
+function start(file, options, ended) {
+  const child = spawn(process.execPath, [path(file), JSON.stringify(options)], {
+    stdio: ['ignore', 'pipe', 'inherit'],
+    // Who asks a process that has just died for a seat is to wait no longer than that, in milliseconds.
+    env: { ...process.env, COLYSEUS_PRESENCE_SHORT_TIMEOUT: '500' },
+  });
+  children.add(child);
+  createInterface({ input: child.stdout }).on('line', (line) => {
+    try {
+      say(JSON.parse(line));
+    } catch {
+      say({ text: line });
+    }
+  });
+  child.on('close', (code, signal) => {
+    children.delete(child);
+    if (!ending) ended?.(code, signal);
+  });
+  return child;
+}
+
+/** Starts Debian's redis-server on a port of its own; gives the port, or undefined where there is none. */
+async function startRedis() {
+  if (spawnSync('redis-server', ['--version']).error) {
+    say({ text: 'redis-server is not installed (apt-get install redis-server): one process, in memory' });
+    return undefined;
+  }
+  const at = port + 1000;
+  const run = () => {
+    const redis = spawn('redis-server', ['--port', String(at), '--save', '', '--appendonly', 'no'], {
+      stdio: 'ignore',
+    });
+    children.add(redis);
+    redis.on('close', () => {
+      children.delete(redis);
+      if (ending) return;
+      say({ text: 'redis-server ended: another is started in a second' });
+      setTimeout(run, 1000);
+    });
+    say({ text: `redis-server listens at port ${at}`, redis: redis.pid });
+  };
+  run();
+  return at;
+}
+
+function end() {
+  ending = true;
+  for (const child of children) child.kill();
+  setTimeout(() => process.exit(), 300);
+}
+process.on('SIGINT', end);
+process.on('SIGTERM', end);
+
+const redis = values.memory ? undefined : await startRedis();
+const all = Array.from({ length: zones }, (_, zone) => zone);
+const { everything } = values;
+
+/** Milliseconds before a process that died is started again: first those that are left take over its zones. */
+const restartTime = 2000;
+
+/** Starts a process with these zones; when it dies, one in its place, which has none until another dies. */
+function startServer(number, rooms) {
+  const options = {
+    port: port + number,
+    zones,
+    entities,
+    redis,
+    rooms,
+    everything,
+    prints: values.json && number === 0,
+  };
+  const child = start('server.mjs', options, (code, signal) => {
+    say({
+      text: `the process at port ${port + number} ended (${signal ?? code}): another is started in ${restartTime} ms`,
+      died: child.pid,
+    });
+    setTimeout(() => !ending && startServer(number, []), restartTime);
+  });
+  say({ text: `started at port ${port + number}`, process: child.pid, started: rooms });
+}
+
+if (redis) for (const zone of all) startServer(zone, [zone]);
+else startServer(0, all);
+if (clients > 0) {
+  const ports = redis ? all.map((zone) => port + zone) : [port];
+  start('clients.mjs', { ports, zones, clients });
+}
+if (values.seconds) setTimeout(end, 1000 * Number(values.seconds));

@@ -1,0 +1,27 @@
+// What the tests of the recorders share: whether the engines are there, and that a recording replays as it was.
+import { existsSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { openTrace, replay } from 'broadphase/trace';
+import { expect } from 'vitest';
+
+/** Whether the packages of the examples are installed (npm ci --prefix examples). In CI they have to be. */
+export const installed =
+  Boolean(process.env.CI) || existsSync(fileURLToPath(new URL('../node_modules/matter-js/', import.meta.url)));
+
+/** Opens the recording, plays it with the exact check on, and gives its frames, copied. */
+export function checkRecording(bytes) {
+  const trace = openTrace(bytes);
+  for (const { difference } of replay(trace, {}, true)) expect(difference).toBeNull();
+  return Array.from(trace, (frame) => ({
+    ...frame,
+    boxes: frame.boxes.slice(),
+    ids: frame.ids?.slice() ?? Uint32Array.from({ length: frame.count }, (_, k) => k),
+    rules: frame.rules?.slice(),
+  }));
+}
+
+/** The pairs of a space, as a set of 'a b' with the smaller id first. */
+export const pairsOf = ({ pairs }) =>
+  new Set(Array.from({ length: pairs.length / 2 }, (_, k) => `${pairs[2 * k]} ${pairs[2 * k + 1]}`));
+
+export const pairName = (a, b) => `${Math.min(a, b)} ${Math.max(a, b)}`;

@@ -1,0 +1,96 @@
+// What players hear is exactly what comes into sight and goes out of it, through joining, leaving and coming back.
+import { describe, expect, test } from 'vitest';
+import { installed } from './check.mjs';
+
+const sorted = (set) => [...set].sort();
+
+describe.skipIf(!installed)('interest management', () => {
+  test('tells of every change, once, and of nothing else', async () => {
+    const { Interest } = await import('../server-interest/interest.mjs');
+    let state = 5;
+    const random = () => {
+      state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+      return state / 2 ** 32;
+    };
+    const interest = new Interest(12, 8);
+    const places = new Map();
+    const known = new Set();
+    for (let tick = 0; tick < 300; tick++) {
+      for (let call = 0; call < 15; call++) {
+        const player = Math.floor(random() * 60);
+        const [x, y] = [Math.floor(random() * 100), Math.floor(random() * 100)];
+        if (!places.has(player)) interest.add(player, x, y);
+        else if (random() < 0.2) {
+          interest.remove(player);
+          places.delete(player);
+          continue;
+        } else interest.move(player, x, y);
+        places.set(player, [x, y]);
+      }
+      interest.update(
+        (viewer, seen) => {
+          expect(known.has(`${viewer} ${seen}`)).toBe(false);
+          known.add(`${viewer} ${seen}`);
+        },
+        (viewer, seen) => expect(known.delete(`${viewer} ${seen}`)).toBe(true),
+      );
+      const exact = new Set();
+      for (const [viewer, [x, y]] of places) {
+        for (const [seen, [otherX, otherY]] of places) {
+          if (viewer === seen || Math.abs(x - otherX) > 12 || Math.abs(y - otherY) > 8) continue;
+          exact.add(`${viewer} ${seen}`);
+        }
+      }
+      expect(sorted(known)).toEqual(sorted(exact));
+      const [someone] = places.keys();
+      const theirs = sorted(exact).filter((pair) => pair.startsWith(`${someone} `));
+      expect(
+        interest
+          .seenBy(someone)
+          .map((seen) => `${someone} ${seen}`)
+          .sort(),
+      ).toEqual(theirs);
+    }
+  });
+
+  test('works over WebSockets', async () => {
+    const { startServer } = await import('../server-interest/server.mjs');
+    const { WebSocket } = await import('ws');
+    const server = startServer({ reach: 10 });
+    const url = `ws://localhost:${server.server.address().port}`;
+    const join = () =>
+      new Promise((resolve) => {
+        const socket = new WebSocket(url);
+        const heard = [];
+        socket.on('message', (data) => {
+          heard.push(JSON.parse(data));
+          if (heard.length === 1) resolve({ socket, heard, id: heard[0].you });
+        });
+      });
+    const until = async (done) => {
+      for (let turn = 0; turn < 500 && !done(); turn++) await new Promise((resolve) => setTimeout(resolve, 5));
+      expect(done()).toBe(true);
+    };
+    const [ann, bob] = [await join(), await join()];
+    const go = async (player, x, y) => {
+      player.socket.send(JSON.stringify({ x, y }));
+      await until(() => server.players.get(player.id).x === x);
+    };
+    const last = (player) => player.heard.at(-1);
+    await go(ann, 100, 0);
+    await go(bob, 130, 0);
+    expect(server.tick()).toBe(0);
+    await go(bob, 105, 2);
+    expect(server.tick()).toBe(2);
+    await until(() => 'enter' in last(ann) && 'enter' in last(bob));
+    expect(last(ann)).toEqual({ enter: bob.id, x: 105, y: 2 });
+    server.tick();
+    await until(() => 'at' in last(ann));
+    bob.socket.close();
+    await until(() => server.players.size === 1);
+    server.tick();
+    await until(() => last(ann).leave === bob.id);
+    ann.socket.close();
+    await server.close();
+  });
+});

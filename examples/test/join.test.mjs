@@ -1,0 +1,166 @@
+// `broadphase join` as a process: the pairs are those of the reference, also where it was killed; what is wrong is named.
+import { spawn } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { afterAll, beforeAll, describe, expect, test, vi } from 'vitest';
+import { bundle } from '../../scripts/bundle.mjs';
+import { keysOf, referencePairs } from '../../test/support/reference.ts';
+
+const here = fileURLToPath(new URL('../apart/join-duckdb', import.meta.url)); // where the command finds DuckDB
+const installed = Boolean(process.env.CI) || existsSync(join(here, '../node_modules/@duckdb/node-api'));
+const folder = mkdtempSync(join(tmpdir(), 'broadphase-join-'));
+const file = (name) => join(folder, name);
+vi.setConfig({ testTimeout: 120_000 }); // most start DuckDB and worker threads several times
+let command;
+let duck;
+
+/** Runs the command; `during` gets the process. */
+async function run(args, { cwd = here, during } = {}) {
+  const started = spawn(process.execPath, [command, 'join', ...args], { cwd });
+  let [out, err] = ['', ''];
+  started.stdout.on('data', (data) => {
+    out += data;
+  });
+  started.stderr.on('data', (data) => {
+    err += data;
+  });
+  during?.(started);
+  const code = await new Promise((resolve) => started.on('close', resolve));
+  return { code, out, err };
+}
+
+const pairsIn = async (path) => keysOf((await duck.ask(`select a::double, b::double from '${path}'`)).flat()).sort();
+const boxesIn = async (path, dimensions = 2) => {
+  const names = dimensions === 2 ? 'minX, minY, maxX, maxY' : 'minX, minY, minZ, maxX, maxY, maxZ';
+  return Float64Array.from((await duck.ask(`select ${names} from '${path}'`)).flat());
+};
+
+afterAll(() => rmSync(folder, { recursive: true }));
+
+describe.skipIf(!installed)('broadphase join', () => {
+  beforeAll(async () => {
+    command = await bundle('src/cli/index.ts', 'build/cli/join.mjs');
+    duck = await import('../apart/join-duckdb/boxes.mjs');
+    await duck.writeBoxes(file('boxes.parquet'), 40_000);
+  });
+
+  test('finds the pairs of the reference, in one tile and in many', async () => {
+    const expected = referencePairs(await boxesIn(file('boxes.parquet')), 2);
+    for (const more of [[], ['--tile', '900', '--memory', '500MB', '--threads', '3']]) {
+      const { code, out, err } = await run([file('boxes.parquet'), file('pairs.parquet'), '--json', ...more]);
+      expect([code, err]).toEqual([0, '']);
+      expect(JSON.parse(out)).toMatchObject({ pairs: expected.length, boxes: [40_000], tiles: more.length ? 45 : 1 });
+      expect(await pairsIn(file('pairs.parquet'))).toEqual(expected);
+      expect(existsSync(file('pairs.parquet.join'))).toBe(false);
+    }
+  });
+
+  test('finds those of 3D, of CSV, and of boxes that are huge, endless, points, or touch', async () => {
+    await duck.writeBoxes(file('solid.csv'), 3000, { dimensions: 3, density: 2 });
+    await run([file('solid.csv'), file('solid.parquet'), '--tile', '500']);
+    const expected = referencePairs(await boxesIn(file('solid.csv'), 3), 3);
+    expect(expected.length).toBeGreaterThan(1000);
+    expect(await pairsIn(file('solid.parquet'))).toEqual(expected);
+
+    const odd = `select case when k % 97 = 0 then '-Infinity'::double else x end as "minX", y as "minY",
+      case when k % 89 = 0 then 'Infinity'::double when k % 31 = 0 then x + 400 when k % 7 = 0 then x else x + 3 end as "maxX",
+      y + k % 4 as "maxY" from (select range as k, (range * 37) % 500 as x, (range * 11) % 490 / 10 as y from range(3000))`;
+    await duck.ask(`copy (${odd}) to '${file('odd.parquet')}'`);
+    const { out } = await run([file('odd.parquet'), file('odd-pairs.parquet'), '--tile', '300', '--json']);
+    expect(JSON.parse(out).tiles).toBeGreaterThan(3);
+    expect(await pairsIn(file('odd-pairs.parquet'))).toEqual(referencePairs(await boxesIn(file('odd.parquet')), 2));
+  });
+
+  test('finds those of red and blue boxes', async () => {
+    await duck.writeBoxes(file('red.parquet'), 3000, { density: 0.3, seed: 0.5 });
+    await duck.writeBoxes(file('blue.csv'), 3000, { density: 0.3, seed: 0.75 });
+    const args = [file('red.parquet'), file('both.parquet'), '--blue', file('blue.csv'), '--tile', '700', '--json'];
+    expect(JSON.parse((await run(args)).out).boxes).toEqual([3000, 3000]);
+    const [red, blue] = [await boxesIn(file('red.parquet')), await boxesIn(file('blue.csv'))];
+    const expected = referencePairs(Float64Array.from([...red, ...blue]), 2);
+    const mixed = expected.filter((key) => Math.floor(key / 2 ** 24) < 3000 && key % 2 ** 24 >= 3000);
+    const found = (await duck.ask(`select a::double, b::double from '${file('both.parquet')}'`)).flat();
+    expect(keysOf(found.map((row, k) => (k % 2 ? row + 3000 : row))).sort()).toEqual(mixed);
+    expect(mixed.length).toBeGreaterThan(500);
+  });
+
+  test('goes on where it was killed', async () => {
+    const args = [file('boxes.parquet'), file('killed.parquet'), '--tile', '200', '--json'];
+    let resumed = 0;
+    let kills = 0;
+    for (let wait = 600; ; wait += 300) {
+      const { code, out } = await run(args, {
+        during: (started) => {
+          const timer = setTimeout(() => started.kill('SIGKILL'), wait);
+          started.on('close', () => clearTimeout(timer));
+        },
+      });
+      if (code === 0) {
+        ({ resumed } = JSON.parse(out));
+        break;
+      }
+      kills++;
+    }
+    expect([kills > 0, resumed > 0]).toEqual([true, true]);
+    expect(await pairsIn(file('killed.parquet'))).toEqual(referencePairs(await boxesIn(file('boxes.parquet')), 2));
+    expect(existsSync(file('killed.parquet.join'))).toBe(false);
+  });
+
+  test('names what is wrong', async () => {
+    const bad = async (change, name = 'bad.parquet') => {
+      const rows = `(select *, file_row_number as row from read_parquet('${file('boxes.parquet')}', file_row_number=true))`;
+      const all = `select * exclude (row, file_row_number) replace (${change}) from ${rows}`;
+      await duck.ask(`copy (${all}) to '${file(name)}'`);
+      const { code, err } = await run([file(name), file('none.parquet')]);
+      expect(existsSync(file('none.parquet.join'))).toBe(false);
+      return [code, err];
+    };
+    expect(await bad(`case when row = 31415 then 'NaN'::double else minX end as minX`)).toEqual([
+      3,
+      `broadphase: ${file('bad.parquet')}: row 31,415 (counted from 0): minX is NaN, expected a number\n`,
+    ]);
+    const [code, message] = await bad('case when row = 7 then minY - 1 else maxY end as maxY');
+    expect([code, message]).toEqual([
+      3,
+      expect.stringMatching(/row 7 .*minY [\d.]+ is above maxY [\d.]+, expected minima/),
+    ]);
+    expect((await bad('case when row = 12 then null else maxY end as maxY', 'bad.csv'))[1]).toMatch(
+      /row 12 .*maxY is empty, expected a number/,
+    );
+    writeFileSync(file('cut.parquet'), readFileSync(file('boxes.parquet')).subarray(0, 200_000));
+    writeFileSync(file('word.csv'), 'minX,minY,maxX,maxY\n0,0,1,1\n0,0,hello,1\n');
+    writeFileSync(file('few.csv'), 'minX,minY\n0,0\n');
+    const wrong = async (...args) => {
+      const { code, err } = await run(args);
+      return [code, err.split('\n')[0]];
+    };
+    const none = file('none.parquet');
+    expect(await wrong(file('cut.parquet'), none)).toEqual([3, expect.stringMatching(/cut\.parquet: .*magic bytes/)]);
+    expect(await wrong(file('word.csv'), none)).toEqual([
+      3,
+      expect.stringContaining('row 1 (counted from 0): maxX is hello'),
+    ]);
+    expect(await wrong(file('few.csv'), none)).toEqual([
+      3,
+      expect.stringContaining('no column maxX, expected it among minX'),
+    ]);
+    expect(await wrong(file('absent.parquet'), none)).toEqual([4, expect.stringContaining('cannot read')]);
+    expect(await wrong(file('boxes.parquet'), none, '--memory', '1')).toEqual([
+      2,
+      expect.stringContaining('--memory is 1'),
+    ]);
+    expect(await wrong(file('boxes.parquet'), file('boxes.parquet'))).toEqual([
+      2,
+      expect.stringContaining('is to be read'),
+    ]);
+  });
+});
+
+test('asks for DuckDB by its name where that is missing', async () => {
+  command = await bundle('src/cli/index.ts', 'build/cli/join.mjs');
+  writeFileSync(file('boxes.csv'), 'minX,minY,maxX,maxY\n0,0,1,1\n');
+  const { code, err } = await run([file('boxes.csv'), file('pairs.parquet')], { cwd: folder });
+  expect([code, err]).toEqual([5, expect.stringContaining('npm install @duckdb/node-api')]);
+});

@@ -1,0 +1,245 @@
+// Three zones in one process, over a wire that loses and holds back messages: at every tick that all of them reach nobody
+// is missing and nobody there twice. Neither Colyseus nor Redis is in it.
+import { createServer } from 'node:http';
+import { afterEach, expect, test } from 'vitest';
+import { createRandom } from '../../src/scenes/random.ts';
+import { seed } from '../../test/support/runs.ts';
+import { Link } from '../apart/world-colyseus/link.mjs';
+import { Simulation } from '../apart/world-colyseus/simulation.mjs';
+import { beginnings, cutInto, zoneOf } from '../apart/world-colyseus/world.mjs';
+
+const count = 3;
+const entities = 6000;
+const zones = cutInto(count);
+/** They keep real time: a zone is silent for five seconds before it is left out. */
+const limit = 120_000;
+let world;
+
+class World {
+  log = [];
+  links = [];
+  servers = [];
+  /** Zones that had to be made anew. */
+  lost = [];
+  /**
+   * The newest tick that all zones reached, and those in which somebody was missing or there twice, or to which a zone
+   * went back.
+   */
+  whole = -1;
+  wrong = [];
+  /** `lost`, `held`, milliseconds on the way, or nothing, for each message. */
+  fate = () => undefined;
+  #held = [];
+  #listeners = new Map();
+  #ticks = new Map();
+  #newest = [-1, -1, -1];
+  #watchers = [];
+
+  presence = {
+    subscribe: (topic, hear) => this.#listeners.set(topic, [...(this.#listeners.get(topic) ?? []), hear]),
+    unsubscribe: (topic) => this.#listeners.delete(topic),
+    publish: (topic, message) => {
+      const fate = this.fate(topic, message);
+      if (fate === 'lost') return;
+      const deliver = () => {
+        for (const hear of this.#listeners.get(topic) ?? []) hear(structuredClone(message));
+      };
+      if (fate === 'held') this.#held.push(deliver);
+      else if (fate > 0) setTimeout(deliver, fate);
+      else setImmediate(deliver);
+    },
+    hincrbyex: () => 1,
+  };
+
+  deliver() {
+    this.fate = () => undefined;
+    for (const deliver of this.#held.splice(0)) deliver();
+  }
+
+  /** Starts all zones, or first these. */
+  async start(first = [0, 1, 2]) {
+    for (let zone = 0; zone < count; zone++) {
+      const server = createServer((_, response) => response.end(server.processId));
+      server.processId = `process ${zone}`;
+      await new Promise((resolve) => server.listen(0, resolve));
+      this.servers.push(server);
+      this.links.push(this.#link(zone, `localhost:${server.address().port}`));
+    }
+    for (const zone of first) this.links[zone].start();
+    if (first.length === count) await this.until(() => this.whole > 0);
+    else await this.until(() => first.every((zone) => this.links[zone].tick > 2 * first.length));
+  }
+
+  #link(zone, address) {
+    const simulation = new Simulation(zones, zone);
+    const mine = () => [...beginnings(entities)].filter((entity) => zoneOf(zones, entity) === zone);
+    const link = new Link({
+      presence: this.presence,
+      isConnected: () => true,
+      simulation,
+      info: { roomId: `room ${zone}`, processId: `process ${zone}`, address },
+      calls: {
+        begin: () =>
+          link.tick > 0
+            ? { tick: link.tick - 1, entities: simulation.everybody(), isLive: true }
+            : { tick: -1, entities: mine() },
+        ticked: () => this.#ticked(zone, link.tick, [...simulation.entities.keys()]),
+        restarted: () => {},
+        lost: (other) => this.lost.push(other),
+        replaced: () => {},
+        log: (text) => {
+          this.log.push(`zone ${zone}: ${text}`);
+          this.#look();
+        },
+      },
+    });
+    return link;
+  }
+
+  #ticked(zone, tick, ids) {
+    if (tick <= this.#newest[zone]) this.wrong.push(`zone ${zone} went from tick ${this.#newest[zone]} to ${tick}`);
+    this.#newest[zone] = tick;
+    const all = [...(this.#ticks.get(tick) ?? []), ids];
+    this.#ticks.set(tick, all);
+    // Zones that do not know of each other go on each by itself, at ticks of the same number.
+    const together = this.links.every((link, zone) =>
+      this.links.every((_, other) => other === zone || link.isOpen(other)),
+    );
+    if (all.length === count && together) {
+      this.whole = tick;
+      const once = new Set(all.flat());
+      if (once.size !== entities || all.flat().length !== entities)
+        this.wrong.push([tick, all.flat().length, once.size]);
+    }
+    this.#look();
+  }
+
+  #look() {
+    this.#watchers = this.#watchers.filter(({ holds, resolve }) => !holds() || resolve());
+  }
+
+  until(holds) {
+    return new Promise((resolve) => {
+      this.#watchers.push({ holds, resolve });
+      this.#look();
+    });
+  }
+
+  said = (text) => this.log.some((line) => line.includes(text));
+
+  async end() {
+    for (const link of this.links) await link.stop();
+    for (const server of this.servers) server.close();
+  }
+}
+
+afterEach(() => world.end());
+
+test(
+  `messages that get lost are asked for (SEED=${seed})`,
+  async () => {
+    world = new World();
+    await world.start();
+    const random = createRandom(seed);
+    let lost = 0;
+    world.fate = (_, { type }) => (type === 'tick' && random() < 0.1 && lost++ >= 0 ? 'lost' : undefined);
+    const { whole } = world;
+    await world.until(() => lost >= 10 && world.whole > whole + 20);
+    expect([world.wrong, world.said('without it')]).toEqual([[], false]);
+  },
+  limit,
+);
+
+test(
+  'a zone has died whose address another process answers at: it is made anew',
+  async () => {
+    world = new World();
+    await world.start();
+    world.fate = (topic, { from }) => (topic === 'zone:1' || from === 1 ? 'lost' : undefined);
+    await world.links[1].stop();
+    world.servers[1].processId = 'one in its place';
+    await world.until(() => world.lost.length > 0);
+    expect(world.lost).toEqual([1]);
+    expect(world.said('zone 0: zone 1 cannot be reached (localhost:')).toBe(true);
+  },
+  limit,
+);
+
+test(
+  'a zone that is silent is left out, and loses nobody when it is back',
+  async () => {
+    world = new World();
+    await world.start();
+    const before = world.whole;
+    await world.until(() => world.whole > before + 20);
+    world.fate = (topic, { from }) => (topic === 'zone:1' || topic === 'zones' || from === 1 ? 'held' : undefined);
+    await world.until(
+      () => world.said('zone 0: zone 1 has said nothing for') && world.said('zone 2: zone 1 has said nothing'),
+    );
+    const { whole } = world;
+    world.deliver();
+    await world.until(() => world.whole > whole + 20);
+    expect(world.wrong).toEqual([]);
+  },
+  limit,
+);
+
+test(
+  'a zone that has gone on alone, and further than the others, goes back to no tick that it was at',
+  async () => {
+    world = new World();
+    await world.start();
+    // The others take four ticks' time for one, and hear of zone 1 only by what it asks.
+    world.fate = (topic, { from, type }) => {
+      if (type === 'hello') return 'lost';
+      return topic === 'zone:1' || from === 1 ? 'held' : type === 'tick' ? 200 : undefined;
+    };
+    const [first, silent, last] = world.links;
+    const isAlone = () => ![first, last].some((link) => link.isOpen(1)) && !silent.isOpen(0) && !silent.isOpen(2);
+    await world.until(() => isAlone() && silent.tick > first.tick + 20);
+    const { whole } = world;
+    const { tick } = silent;
+    world.deliver();
+    world.fate = (_, { from, type }) => (type === 'hello' && from > 0 ? 'lost' : undefined);
+    await world.until(() => world.whole > Math.max(whole, tick) + 20);
+    expect(world.wrong).toEqual([]);
+  },
+  limit,
+);
+
+test(
+  'zones that are slow to get where another begins are not left out by it',
+  async () => {
+    world = new World();
+    await world.start([0, 1]);
+    // Each of their ticks takes a second, and more than five pass until they are where the third begins.
+    world.fate = (_, { type }) => (type === 'tick' ? 1000 : undefined);
+    world.links[2].start();
+    await world.until(() => world.links[2].tick > 0);
+    const begun = world.links[2].tick;
+    await world.until(() => world.links[2].tick > begun);
+    world.fate = () => undefined;
+    await world.until(() => world.whole > begun + 20);
+    expect([world.wrong, world.log.filter((line) => line.includes('without it'))]).toEqual([[], []]);
+  },
+  limit,
+);
+
+test(
+  'a zone begins when all that run have said whom they own, however long that takes one',
+  async () => {
+    world = new World();
+    await world.start([0, 1]);
+    world.fate = (topic, { from, type }) =>
+      type === 'hello' ? 'lost' : from === 1 && topic === 'zone:2' ? 1500 : undefined;
+    world.links[2].start();
+    await world.until(() => world.said('zone 2: begins'));
+    world.fate = () => undefined;
+    await world.until(() => world.whole > 0);
+    expect(world.log.filter((line) => line.includes('zone 2: begins'))).toEqual([
+      expect.stringMatching(/beside 2 zones$/),
+    ]);
+    expect(world.wrong).toEqual([]);
+  },
+  limit,
+);

@@ -1,0 +1,65 @@
+// The techniques of a space at work: which one ran last, what it found on the way, and its structure as boxes.
+#pragma once
+#include "space/scene_builder.hpp"
+#include "space/techniques.hpp"
+
+template <int D> class Finder {
+  static constexpr u32 width = 2 * D;
+
+  Techniques<D> techniques_;
+  Technique ran_ = {};
+
+ public:
+  Buffer<f32> cells;  // what structure() has written
+  u32 cell_count = 0;
+
+  Technique ran() const { return ran_; }
+  bool follows_changes(Technique name) { return techniques_.follows_changes(name); }
+  bool notes_doubts() { return techniques_.notes_doubts(ran_); }
+
+  /// Has a technique find the pairs of slots.
+  NOINLINE void run(Technique chosen, const Scene<D>& scene, const Settings& settings, Pairs& pairs, Stats& stats) {
+    if (chosen != ran_) {
+      release();
+      pairs.stable = 0;
+    }
+    ran_ = chosen;
+    pairs.same = false;
+    techniques_.with(ran_, [&](auto& technique) { technique.update(scene, settings, pairs, stats); });
+  }
+
+  /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
+  /// all finite boxes.
+  SMALL void structure(const Store<D>& store, Stats& stats) {
+    techniques_.with(ran_, [&](auto& used) { used.structure(cells, cell_count, stats); });
+    const f32* boxes = store.numbers.boxes();
+    const GapMap<D>& map = store.numbers.choice().map();
+    f32 least[D], most[D];
+    for (int a = 0; a < D; a++) {
+      least[a] = __builtin_inff();
+      most[a] = -__builtin_inff();
+      for (u32 s = 0; s < store.ids.count(); s++) {
+        f32 lo = boxes[u64(s) * width + a], hi = boxes[u64(s) * width + D + a];
+        if (detail::is_finite(lo)) least[a] = smaller(least[a], lo);
+        if (detail::is_finite(hi)) most[a] = larger(most[a], hi);
+      }
+    }
+    for (u64 c = 0; c < cell_count; c++) {
+      for (int a = 0; a < D; a++) {
+        f32& lo = cells[c * width + a];
+        f32& hi = cells[c * width + D + a];
+        if (!detail::is_finite(lo)) lo = smaller(least[a], hi);
+        if (!detail::is_finite(hi)) hi = larger(most[a], lo);
+        lo = f32(map.unmap(lo, u32(a)));
+        hi = f32(map.unmap(hi, u32(a)));
+      }
+    }
+  }
+
+  /// Gives the techniques' memory back: on a switch, and after memory has run out in the middle of one.
+  SMALL void release() {
+    techniques_.with(ran_, [](auto& used) { used.release(); });
+    cells.release();
+    cell_count = 0;
+  }
+};

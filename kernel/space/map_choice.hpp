@@ -1,0 +1,67 @@
+// Which numbers are searched in place of doubles that float32 cannot hold, and when others serve better.
+// Idea: gap_map.hpp has the map. A box that rounding makes a point along an axis is a candidate in vain for whoever
+// stands there: where there are many, another map is looked for at once, else every 16th update.
+#pragma once
+#include "boxes/gap_map.hpp"
+
+template <int D> class MapChoice {
+  static constexpr u32 width = 2 * D;
+  // So many points, all at one place, are few candidates for an update.
+  static constexpr u32 usual_collapsed = 256;
+  // Updates between two looks for a better map, and boxes from which on it is worth one.
+  static constexpr u32 look_every = 16, worth_a_look = 64;
+
+  GapMap<D> map_;      // plain while boxes are written in place or the world wraps around
+  u32 collapsed_ = 0;  // how many boxes given since the last update are points in float32, on some axis, but are none
+  u32 bearable_ = usual_collapsed;  // with more of them another map is looked for at once
+  u32 look_in_ = 0;  // updates until it is looked for anyhow
+
+ public:
+  const GapMap<D>& map() const { return map_; }
+
+  SMALL void reset() {
+    map_.reset();
+    collapsed_ = look_in_ = 0;
+    bearable_ = usual_collapsed;
+  }
+
+  NOINLINE void round(const f64* box, f32* to) const {
+    f32x4 first, last;
+    map_.round(box, first, last);
+    store(to, first);
+    if constexpr (D == 3) store(to + width - 4, last);
+  }
+
+  /// So many boxes have become points; more, or in all.
+  void count_more(u32 collapsed) { collapsed_ += collapsed; }
+  void count(u32 collapsed) { collapsed_ = collapsed; }
+
+  /// Looks whether another map serves better, now and then, and at once where many boxes have become points; true where
+  /// all are to be rounded anew. `ordered`: what stands in the space alone decides.
+  SMALL bool look(const f32* boxes, const f64* exact, u32 n, bool ordered) {
+    u32 collapsed = collapsed_;
+    collapsed_ = 0;
+    if (ordered) {
+      GapMap<D> other;
+      if (n >= worth_a_look) other.choose(exact, n, nullptr, 0);
+      if (other == map_) return false;
+      map_ = other;
+      return true;
+    }
+    if (n < worth_a_look || (collapsed <= bearable_ && look_in_-- > 0)) return false;
+    look_in_ = look_every;
+    u32 some[usual_collapsed], many = 0;
+    if (collapsed > bearable_) {
+      u32 step = collapsed / usual_collapsed + 1, seen = 0;
+      for (u32 s = 0; s < n && many < usual_collapsed; s++) {
+        const f32* box = boxes + u64(s) * width;
+        if (!map_.collapses(exact + u64(s) * width, load<f32x4>(box), load<f32x4>(box + width - 4))) continue;
+        if (seen++ % step == 0) some[many++] = s;
+      }
+    }
+    bool better = map_.choose(exact, n, some, many);
+    if (better) bearable_ = usual_collapsed;
+    else if (collapsed > bearable_) bearable_ = 2 * collapsed;
+    return better;
+  }
+};

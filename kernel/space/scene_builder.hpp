@@ -1,0 +1,66 @@
+// From what stands in a space to the scene that is searched: boxes grown by their reaches, without those that meet
+// nobody, with ghosts where the world wraps around.
+// Cost: nothing where no box has a reach or a rule and the world does not wrap around; else a copy of the boxes for each.
+#pragma once
+#include "rules/wrap.hpp"
+#include "space/store.hpp"
+
+template <int D> class SceneBuilder {
+  static constexpr u32 width = 2 * D;
+
+  Buffer<u32> groups_;  // of those that are searched, where not all boxes are
+  Buffer<f32> grown_;  // by their reaches: the boxes that are searched, where some box has one
+  Buffer<f64> grown_exact_;  // the same as doubles, of which they are made
+
+ public:
+  Wrap wrap;
+  const f64* doubles = nullptr;  // what pairs in doubt are tested in, where float32 does not hold all of it
+
+  /// The scene of an update. `follows`: whether the technique asks what has changed.
+  SMALL Scene<D> build(Store<D>& store, bool follows, bool ordered) {
+    Numbers<D>& numbers = store.numbers;
+    Filters& filters = store.own.filters;
+    auto& groups = store.own.groups;
+    const f32* boxes = numbers.boxes();
+    doubles = numbers.exact();
+    if (store.own.reaches.some()) boxes = grow(store);
+    Scene<D> scene{boxes, store.ids.count(), nullptr, follows ? &store.changes() : nullptr, ordered};
+    if (filters.active()) {
+      scene.filtered = filters.changed();
+      scene.boxes = filters.select(scene.boxes, scene.count, width);
+      scene.excluded = filters.excluded();
+      if (scene.filtered || scene.boxes != boxes) scene.changes = nullptr;
+    }
+    if (groups.some() && !store.world()) {  // ghosts have none: `part_groups` sees to them
+      scene.groups = filters.select(groups.data(), scene.count, groups_);
+      scene.filtered |= groups.changed();
+    }
+    groups.updated();
+    if (store.world()) {
+      scene.changes = nullptr;
+      scene.filtered |= scene.excluded != nullptr;  // of the ghosts, too
+      scene.boxes = wrap.unfold(scene.count, scene.excluded, filters, boxes, doubles, store.world(), D);
+    }
+    return scene;
+  }
+
+ private:
+  /// Makes the boxes that are searched where some reach beyond themselves.
+  SMALL const f32* grow(const Store<D>& store) {
+    u32 n = store.ids.count();
+    f32* to = grown_.reserve(u64(n) * width + Numbers<D>::padding);
+    f64* exact = grown_exact_.reserve(larger(u64(n) * width, u64(1)));
+    const f32* boxes = store.numbers.boxes();
+    for (u32 s = 0; s < n; s++) {
+      f64* box = exact + u64(s) * width;
+      for (u32 k = 0; k < width; k++) {
+        f64 given = doubles ? doubles[u64(s) * width + k] : f64(boxes[u64(s) * width + k]),
+            reach = store.own.reaches.of(s);
+        box[k] = k < D ? given - reach : given + reach;
+      }
+      store.numbers.choice().round(box, to + u64(s) * width);
+    }
+    doubles = exact;
+    return to;
+  }
+};

@@ -1,0 +1,89 @@
+// From the pairs of slots that a technique has found in float32 to those that are reported.
+// Only pairs of which two bounds are equal in float32 are in doubt: they are tested again in the numbers given.
+#pragma once
+#include "space/store.hpp"
+
+namespace detail {
+
+/// Whether some box is nowhere along an axis: the difference of its bounds is no number, or, where they were rounded,
+/// infinite, so that doubts go unnoticed.
+template <int D, class T> SMALL bool some_nowhere(const T* boxes, u32 count) {
+  bool some = false;
+  for (u64 k = 0; k < u64(count) * 2 * D; k += 2 * D) {
+    for (u32 a = 0; a < D; a++) some |= boxes[k + a] == __builtin_inff() || boxes[k + D + a] == -__builtin_inff();
+  }
+  return some;
+}
+
+/// Writes those of these pairs that overlap behind one another; returns where they end.
+template <int D, bool touching, class T>
+NOINLINE u64* retest(const Filters& filters, const T* boxes, const u64* from, const u64* until, u64* to) {
+  for (; from < until; from++) {
+    u64 pair = *from;
+    const T* first = boxes + u64(filters.slot(u32(pair))) * 2 * D;
+    const T* second = boxes + u64(filters.slot(u32(pair >> 32))) * 2 * D;
+    bool overlap = true;
+    for (int k = 0; k < D; k++) {
+      overlap &= touching ? first[k] <= second[D + k] && second[k] <= first[D + k]
+                          : first[k] < second[D + k] && second[k] < first[D + k];
+    }
+    *to = pair;
+    to += overlap;
+  }
+  return to;
+}
+
+}  // namespace detail
+
+/// Keeps, of the pairs in doubt, those that overlap in the numbers given, or grown from these. `noted`: whether the
+/// technique says which are in doubt; else all are.
+template <int D>
+void settle_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles, bool noted, bool touching) {
+  const Filters& filters = store.own.filters;
+  const f32* boxes = store.numbers.boxes();
+  u64* list = pairs.list.data();
+  u64 at = 0, kept = 0;
+  auto keep = [&](u64 until) {
+    if (kept != at && until > at) __builtin_memmove(list + kept, list + at, (until - at) * sizeof(u64));
+    kept += until - at;
+    at = until;
+  };
+  bool all = !noted;
+  u32 n = store.ids.count();
+  if (!touching) all |= doubles ? detail::some_nowhere<D>(doubles, n) : detail::some_nowhere<D>(boxes, n);
+  for (u32 k = 0; k < (all ? 1 : pairs.doubt_count); k++) {
+    if (!all) keep(pairs.doubts[2 * k]);
+    u64 until = all ? pairs.count : pairs.doubts[2 * k + 1];
+    const u64 *from = list + at, *end = list + until;
+    u64* to = list + kept;
+    if (!doubles) to = detail::retest<D, false>(filters, boxes, from, end, to);
+    else if (touching) to = detail::retest<D, true>(filters, doubles, from, end, to);
+    else to = detail::retest<D, false>(filters, doubles, from, end, to);
+    kept = Pairs::between(list, to);
+    at = until;
+  }
+  keep(pairs.count);
+  pairs.count = kept;
+}
+
+/// Takes pairs within a group out.
+NOINLINE inline void part_groups(Pairs& pairs, const u32* groups) {
+  u64* list = pairs.list.data();
+  u64 kept = 0;
+  for (u64 p = 0; p < pairs.count; p++) {
+    u64 pair = list[p];
+    list[kept] = pair;
+    kept += !one_group(groups[u32(pair)], groups[pair >> 32]);
+  }
+  if (kept < pairs.count) pairs.stable = 0;
+  pairs.count = kept;
+}
+
+/// Slots to ids, the smaller first.
+NOINLINE inline void name_pairs(Pairs& pairs, const Ids& ids) {
+  u64* list = pairs.list.data();
+  for (u64 p = 0; p < pairs.count; p++) {
+    u32 a = ids.id(u32(list[p])), b = ids.id(u32(list[p] >> 32));
+    list[p] = pair_of(a, b);
+  }
+}

@@ -1,0 +1,302 @@
+// What stands in a space: boxes by id, and what each has of its own.
+// Whoever has to know of a change is told before it: the index, which copies what the last update saw, and the events,
+// which keep who was deleted. Every change allocates before it writes: when memory ends, the store is as it was.
+#pragma once
+#include "boxes/changed_ids.hpp"
+#include "boxes/ring.hpp"
+#include "pairs/events.hpp"
+#include "search/settings.hpp"
+#include "space/numbers.hpp"
+#include "space/own.hpp"
+#include "space/room_ahead.hpp"
+#include "space/seen.hpp"
+
+template <int D> class Store {
+  static constexpr u32 width = 2 * D;
+  // With more boxes than these, all that are taken together are read beforehand: see Ring.
+  static constexpr u32 near_boxes = 20000;
+
+  const Settings& options_;
+  bool tight_ = false;  // memory may not be had for the first double
+
+ public:
+  Ids& ids;
+  Numbers<D> numbers;
+  Own own;
+  Seen<D> seen;
+  Events events;  // while `keeps_events`
+  bool keeps_events = false;
+  ChangedIds changed;  // for who keeps pairs with another space
+
+  SMALL constexpr Store(Ids& all, const Settings& options) : options_(options), ids(all) {}
+
+  Changes& changes() { return numbers.written.changes; }
+  /// The size of the world, where it wraps around.
+  const f64* world() const { return options_.wrap[0] > 0 ? options_.wrap : nullptr; }
+  /// For the index to copy.
+  Standing<D> standing() {
+    see_written();
+    return {numbers.boxes(), numbers.exact(), ids, own.rules(), own.reaches.data(), world()};
+  }
+  /// What was written in place is where the boxes are.
+  SMALL void see_written() { numbers.written.see(numbers.boxes(), ids.count()); }
+
+  /// Memory for that many boxes, so that it need not grow while they are added.
+  SMALL void reserve(u32 count) {
+    if (count > ids.count()) make_room(count, ids.count());
+  }
+
+  /// Adds or moves the first `count` boxes of the ring, in their order, and says what may wait in it from now on. All
+  /// ids but one that comes alone are in the space, or there is room for them.
+  NOINLINE void take(Ring<D>& ring, u32 count) {
+    if (count) before_change();
+    u32 slots[Ring<D>::batch];
+    for (u32 from = 0; from < count; from += Ring<D>::batch) {
+      const f64* entries = ring.entries + from * Ring<D>::step;
+      u32 many = smaller(count - from, Ring<D>::batch);
+      // What can fail comes first.
+      if (!numbers.exact() && !numbers.are_floats(entries + 1, many, Ring<D>::step)) numbers.keep_doubles(ids.count());
+      find_slots(entries, many, slots);
+      if (ids.count() > near_boxes) numbers.read_ahead(slots, many);
+      numbers.template put<Ring<D>::step>(entries + 1, slots, many);
+    }
+    tell(ring);
+  }
+
+  /// Says what may wait in the ring.
+  NOINLINE void tell(Ring<D>& ring) {
+    ring.dense = ring.room = ring.pages = 0;
+    if (numbers.written.in_place()) return;
+    if (!ids.same() && room() < ids.count() + Ring<D>::most_entries) {
+      u64 more = u64(ids.count()) + Ring<D>::most_entries;
+      tight_ = !heap::reach(more * RoomAhead<D>::most);
+      if (!tight_ && more <= max_slots) make_room(more, ids.count());
+    }
+    if (tight_) return;
+    if (ids.same()) {
+      ring.dense = ids.count();
+      ring.room = room() - ids.count();
+    } else if (room() >= ids.count() + Ring<D>::most_entries) {
+      ring.pages = f64(reinterpret_cast<size_t>(ids.pages()));
+    }
+  }
+
+  /// Takes a box away; false where there is none.
+  SMALL bool remove(u32 id) {
+    see_written();
+    before_change();
+    u32 slot = ids.slot(id);
+    if (slot == Ids::none) return false;
+    if (keeps_events) events.make_room(id);
+    changed.remove(id);
+    ids.erase(id);
+    numbers.written.renamed = true;
+    if (keeps_events) events.forget(id);
+    u32 last = ids.count();
+    own.move(last, slot);
+    if (slot != last) numbers.move(last, slot);
+    return true;
+  }
+
+  /// The numbers a box was given with; false where there is none.
+  SMALL bool get(u32 id, f64* box) {
+    see_written();
+    u32 slot = ids.slot(id);
+    if (slot == Ids::none) return false;
+    for (u32 k = 0; k < width; k++) box[k] = numbers.number(slot, k);
+    return true;
+  }
+
+  SMALL void clear() {
+    before_change();
+    room_to_forget();
+    forget_from(0);
+    ids.reset(0);
+    own.clear();
+    changes().note_all();
+    numbers.written.end();
+    numbers.hold_floats();
+    numbers.written.renamed = true;
+  }
+
+  /// Where everything stands, for a recorder and right after an update: the ids (0: slots), the boxes, the doubles they
+  /// were given as (0: none), the rules (0: none), the groups and the reaches (0: none).
+  SMALL void contents(f64* out) const {
+    out[0] = f64(u64(ids.names()));
+    out[1] = f64(u64(numbers.boxes()));
+    out[2] = f64(u64(numbers.exact()));
+    out[3] = f64(u64(own.rules()));
+    out[4] = f64(u64(own.groups.data()));
+    out[5] = f64(u64(own.reaches.data()));
+  }
+
+  /// Takes what was staged in place of all boxes, as ids 0 … count - 1. Returns the first bad id, or -1;
+  /// where there is one, nothing changes.
+  i32 replace(u32 count, bool doubles) {
+    bool rounded;
+    i32 bad = numbers.check_staged(count, doubles, rounded);
+    if (bad >= 0) return bad;
+    before_change();
+    if (ids.same() && ids.count() == count) changes().note_all();
+    else renumber(count);
+    numbers.take_staged(rounded);
+    return -1;
+  }
+
+  /// The boxes of ids 0 … count - 1, to be written in place. Ids from count on are removed, new ones are points
+  /// at the origin.
+  SMALL f32* expose(u32 count) {
+    numbers.take_written(ids.count());
+    before_change(Seen<D>::spared_in_place);
+    u32 had = ids.count();
+    bool ids_were_same = ids.same();
+    if (!ids_were_same) {
+      stage_by_id(count);
+      renumber(count);
+      numbers.swap_staged();
+    } else if (count != had || !numbers.boxes()) {
+      numbers.resize(count, had);
+      renumber(count);
+    }
+    if (numbers.exact()) {
+      if (ids_were_same) numbers.round_in_place(smaller(count, had));
+      changes().note_all();  // boxes that touch only as they are rounded are pairs from now on
+      numbers.hold_floats();
+    }
+    numbers.written.begin();
+    // Growing later would cut the caller's view off.
+    RoomAhead<D>::take(count, RoomAhead<D>::in_place);
+    return numbers.boxes();
+  }
+
+  /// Sets the layer and the mask of a box.
+  SMALL void filter(u32 slot, u32 layer, u32 mask) {
+    before_change();
+    changes().note(slot);  // for the index
+    Rule& rule = rule_of(slot);
+    rule.layer = layer;
+    rule.mask = mask;
+  }
+
+  /// Sets or clears an exclusion bit of a box, or the mark that it is off.
+  SMALL void exclude(u32 slot, u32 bit, bool on) {
+    if (!on && !own.filters.active()) return;
+    Rule& rule = rule_of(slot);
+    rule.excluded = on ? rule.excluded | bit : rule.excluded & ~bit;
+  }
+
+  /// Takes a box out of pairs and questions, or back in.
+  SMALL void enable(u32 slot, bool on) {
+    if (on != own.rule(slot).is_off()) return;
+    before_change();
+    changes().note(slot);  // for the index
+    exclude(slot, Rule::off, !on);
+  }
+
+  /// Puts a box into a group, or, with 0, into none.
+  SMALL void put_in_group(u32 slot, u32 group) {
+    if (group != own.groups.of(slot)) own.groups.set(slot, group, numbers.capacity());
+  }
+
+  /// Says how far a box reaches.
+  SMALL void set_reach(u32 slot, f64 distance) {
+    if (distance == own.reaches.of(slot)) return;
+    before_change();
+    own.reaches.set(slot, distance, numbers.capacity());
+    changes().note(slot);
+  }
+
+  /// The id of the first bad box among those written in place, or -1.
+  i32 bad_in_place() const {
+    i32 bad = numbers.written.in_place() ? numbers.first_bad(ids.count()) : -1;
+    return bad < 0 ? -1 : i32(ids.id(u32(bad)));  // since it was written, a removal may have moved it
+  }
+
+ private:
+  void before_change(u32 most = Seen<D>::spared) {
+    if (!seen.holds()) hold(most);
+  }
+
+  NOINLINE void hold(u32 most) { seen.hold(standing(), most); }
+
+  /// Room for `count` boxes in every array that has one entry a box.
+  SMALL void make_room(u64 count, u32 keep) {
+    if (count > max_slots) fail(Fault::out_of_memory, f64(count) * width * sizeof(f32));
+    numbers.make_room(count, keep);
+    changes().make_room(numbers.capacity());
+    own.make_room(numbers.capacity(), keep);
+    tight_ = !numbers.may_round();
+  }
+
+  /// How many boxes there is room for in all of these arrays.
+  u32 room() const {
+    u64 all = smaller(smaller(u64(max_slots), numbers.room()), u64(numbers.written.changes.room()));
+    return u32(larger(own.room(all), u64(ids.count())));
+  }
+
+  /// The slots of these boxes of the ring; those that have none get one.
+  void find_slots(const f64* entry, u32 count, u32* slots) {
+    u32 known = ids.same() ? ids.count() : 0;
+    for (u32 k = 0; k < count; k++, entry += Ring<D>::step) {
+      u32 slot = Ring<D>::id(entry);
+      if (slot >= known) {
+        slot = add(slot);
+        known = ids.same() ? ids.count() : 0;
+      }
+      slots[k] = slot;
+    }
+  }
+
+  /// The slot of an id, which gets one if it has none.
+  NOINLINE u32 add(u32 id) {
+    u32 slot = ids.slot(id);
+    if (slot != Ids::none) return slot;
+    if (ids.count() >= room()) make_room(u64(ids.count()) + 1, ids.count());
+    slot = ids.insert(id);
+    numbers.written.renamed = true;
+    own.insert(slot);
+    changes().note(slot);
+    return slot;
+  }
+
+  /// Stages the boxes of ids 0 … count - 1 as float32; those that are not there are points at the origin.
+  SMALL void stage_by_id(u32 count) {
+    f32* to = numbers.stage(count);
+    for (u32 id = 0; id < count; id++) {
+      u32 slot = ids.slot(id);
+      for (u32 k = 0; k < width; k++) {
+        to[u64(id) * width + k] = slot == Ids::none ? 0 : f32(numbers.number(slot, k));
+      }
+    }
+  }
+
+  /// The rule of a box, to be changed.
+  SMALL Rule& rule_of(u32 slot) {
+    if (!own.filters.active()) own.filters.start(ids.count(), numbers.capacity());
+    return own.filters.change(slot);
+  }
+
+  /// Room for all ids to be deleted, where events have to know of it.
+  SMALL void room_to_forget() {
+    u32 last = 0;
+    for (u32 s = 0; s < ids.count(); s++) last = larger(last, ids.id(s));
+    if (keeps_events) events.make_room(last);
+  }
+
+  /// The boxes of ids from this one on are about to go; there is room.
+  SMALL void forget_from(u32 first) {
+    for (u32 s = 0; keeps_events && s < ids.count(); s++) {
+      if (ids.id(s) >= first) events.forget(ids.id(s));
+    }
+  }
+
+  /// The ids become 0 … count - 1; those that were there keep their filters.
+  SMALL void renumber(u32 count) {
+    changes().note_all();
+    numbers.written.renamed = true;
+    room_to_forget();
+    own.renumber(ids, count);
+    forget_from(count);
+    ids.reset(count);
+  }
+};

@@ -1,0 +1,94 @@
+// Boxes on a retained grid, of which some move and the others rest; the cells that a step touches light up.
+import type { ro as Ro } from 'broadphase/ro';
+import { createRandom } from '../../../src/scenes/random.ts';
+import { turnRound } from './crowd.ts';
+import type { RetainedGrid } from './retained-grid.ts';
+
+const COUNT = 240;
+const SPEED = 1.6; // in pixels per step, at most
+const FADE = 12; // steps until a cell is dark again
+const FOLLOW = 0.06; // the weight of the last step in the averages
+
+export function stillAndMoving(
+  ro: typeof Ro,
+  canvas: HTMLCanvasElement | null,
+  coltech: RetainedGrid,
+  colors = { box: '#9db4d3', hit: '#24456f', now: '#c2410c', grid: '#d3d5da' },
+) {
+  const random = createRandom(9);
+  const velocities = new Map<Ro.Entity, { x: number; y: number }>();
+  /** The cells touched lately, by place, and how many steps ago. */
+  const touched = new Map<string, { column: number; row: number; age: number }>();
+  /** What was moved since the last step that took time. */
+  const since = { moved: 0, changes: [] as RetainedGrid['changes'] };
+  /** Per step, on average. */
+  const work = { moved: 0, changed: 0 };
+
+  const world = new ro.World(canvas, {
+    coltech,
+
+    draw(ctx) {
+      drawCells(ctx);
+      for (const entity of this.entities) entity.draw(colors.box);
+    },
+
+    handleCollisions(_dt, pairs) {
+      for (const entity of new Set(pairs.flat())) entity.draw(colors.hit);
+    },
+
+    update(dt) {
+      for (const entity of this.entities) turnRound(entity, width, height);
+      since.moved += coltech.moved;
+      since.changes.push(...coltech.changes);
+      if (dt > 0) account();
+    },
+  });
+
+  const { x: width, y: height } = world.screen?.size ?? { x: 480, y: 360 };
+
+  for (let i = 0; i < COUNT; i++) {
+    const side = 6 + 10 * random();
+    const entity = new ro.Entity(random() * (width - side), random() * (height - side), side, side);
+    velocities.set(entity, { x: SPEED * (2 * random() - 1), y: SPEED * (2 * random() - 1) });
+    world.addEntity(entity);
+  }
+  world.step(0); // all are new, and enter their cells; that does not count
+  since.moved = 0;
+  since.changes = [];
+
+  /** Lights the cells that were touched, and brings the averages up to date. */
+  function account() {
+    for (const [name, cell] of touched) if (++cell.age > FADE) touched.delete(name);
+    for (const { column, row } of since.changes) touched.set(`${column}:${row}`, { column, row, age: 0 });
+    work.moved += FOLLOW * (since.moved - work.moved);
+    work.changed += FOLLOW * (since.changes.length - work.changed);
+    since.moved = 0;
+    since.changes = [];
+  }
+
+  /** Lets this share of the boxes move, from 0 to 1, and the others rest. */
+  function move(share: number) {
+    world.entities.forEach((entity, i) => {
+      const { x, y } = i < share * COUNT ? velocities.get(entity)! : { x: 0, y: 0 };
+      entity.ppos = { x: entity.pos.x - x, y: entity.pos.y - y };
+    });
+  }
+
+  function drawCells(ctx: CanvasRenderingContext2D) {
+    const size = coltech.cellSize;
+    ctx.fillStyle = colors.now;
+    for (const { column, row, age } of touched.values()) {
+      ctx.globalAlpha = 0.35 * (1 - age / FADE);
+      ctx.fillRect(column * size, row * size, size, size);
+    }
+    ctx.globalAlpha = 1;
+    ctx.strokeStyle = colors.grid;
+    ctx.lineWidth = 1;
+    ctx.beginPath();
+    for (let x = size; x < width; x += size) ctx.rect(x, 0, 0, height);
+    for (let y = size; y < height; y += size) ctx.rect(0, y, width, 0);
+    ctx.stroke();
+  }
+
+  return { world, move, work };
+}

@@ -1,0 +1,44 @@
+// Frame after frame: a new one is asked for only when the one before has come, so that nothing piles up however slow
+// a scene is; and no more often than the chosen rate.
+import { FrameLoop } from '../../shared/loop.ts';
+
+/** Displays of 60 Hz have frames of a little less than 1/60 s too. */
+const slack = 4;
+
+export class Playback {
+  readonly #loop: FrameLoop;
+  readonly #make: (steps: number) => Promise<void>;
+  /** The rate of the display, and above: every frame. */
+  readonly #every = 60;
+  #last: Promise<void> = Promise.resolve();
+  #waiting = 0;
+  #at = 0;
+  rate = 60;
+
+  /** @param make shows the frame that is so many steps on; 0: the one at hand again. It does not throw */
+  constructor(make: (steps: number) => Promise<void>) {
+    this.#make = make;
+    this.#loop = new FrameLoop((now) => this.#tick(now));
+  }
+
+  get playing(): boolean {
+    return this.#loop.playing;
+  }
+  set playing(playing: boolean) {
+    this.#loop.playing = playing;
+  }
+
+  /** Shows a frame as soon as what was asked before is done. */
+  show(steps: number): Promise<void> {
+    this.#waiting++;
+    this.#last = this.#last.then(() => this.#make(steps)).finally(() => this.#waiting--);
+    return this.#last;
+  }
+
+  #tick(now: number): void {
+    if (this.#waiting > 0) return;
+    if (this.rate < this.#every && now - this.#at < 1000 / this.rate - slack) return;
+    this.#at = now;
+    void this.show(1);
+  }
+}

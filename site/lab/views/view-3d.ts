@@ -1,0 +1,293 @@
+// Solid scenes, by three.js. Boxes are one instanced cube whose corners the vertex shader puts between the minima and
+// maxima of each, straight from the array they come in; cells are one instanced frame of twelve edges.
+import {
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  EdgesGeometry,
+  InstancedBufferAttribute,
+  InstancedBufferGeometry,
+  InstancedInterleavedBuffer,
+  InterleavedBufferAttribute,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  PerspectiveCamera,
+  type Ray,
+  Raycaster,
+  Scene,
+  ShaderMaterial,
+  SRGBColorSpace,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { slotCount } from '../../shared/groups.ts';
+import { makePalette } from '../../shared/palette.ts';
+import { type LabView, onSize } from './view.ts';
+
+const vertexShader = `
+attribute vec3 low, high;
+attribute float slot;
+uniform vec4 palette[${slotCount}];
+uniform vec3 farLow, farHigh;
+uniform float diagonal;
+varying vec4 colour;
+varying vec3 facing;
+varying float veil;
+void main() {
+  colour = palette[int(slot + 0.5)];
+  facing = normal;
+  veil = 0.85 * smoothstep(0.1, 0.4, distance(low, high) / diagonal);
+  vec3 place = mix(clamp(low, farLow, farHigh), clamp(high, farLow, farHigh), position + 0.5);
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
+}`;
+
+/**
+ * Light from above: each side has its shade, which is all that boxes need. Of boxes so large that they would hide all
+ * others, only some of the pixels are drawn, in a pattern of four by four.
+ */
+const solidShader = `
+varying vec4 colour;
+varying vec3 facing;
+varying float veil;
+void main() {
+  vec2 at = floor(mod(gl_FragCoord.xy, 4.0));
+  vec2 fine = mod(at, 2.0), coarse = floor(at / 2.0);
+  float order = 4.0 * mod(2.0 * fine.x + 3.0 * fine.y, 4.0) + mod(2.0 * coarse.x + 3.0 * coarse.y, 4.0);
+  if ((order + 0.5) / 16.0 < veil) discard;
+  float light = 0.72 + 0.28 * facing.y + 0.12 * facing.x - 0.08 * abs(facing.z);
+  gl_FragColor = vec4(colour.rgb * min(light, 1.0), 1.0);
+}`;
+
+const frameShader = `
+varying vec4 colour;
+void main() {
+  gl_FragColor = colour;
+}`;
+
+const fieldOfView = 45;
+/** How far the eye is from what it looks at, in diagonals of the world. */
+const firstDistance = 1.4;
+/** Numbers beyond so many worlds away are drawn there. */
+const horizon = 20;
+
+/** The element holds one canvas. */
+export function createSolidView(element: HTMLElement, moved: () => void): LabView {
+  const canvas = element.querySelector('canvas')!;
+  const renderer = new WebGLRenderer({ canvas, antialias: true });
+  const scene = new Scene();
+  const camera = new PerspectiveCamera(fieldOfView);
+  const controls = new OrbitControls(camera, element);
+  const uniforms = {
+    palette: { value: new Float32Array(4 * slotCount) },
+    farLow: { value: new Vector3() },
+    farHigh: { value: new Vector3() },
+    diagonal: { value: 1 },
+  };
+  const boxes = new Instances(
+    (geometry) => new Mesh(geometry, new ShaderMaterial({ vertexShader, fragmentShader: solidShader, uniforms })),
+    new BoxGeometry(),
+  );
+  const cells = new Instances(
+    (geometry) =>
+      new LineSegments(
+        geometry,
+        new ShaderMaterial({
+          vertexShader,
+          fragmentShader: frameShader,
+          uniforms,
+          transparent: true,
+          depthWrite: false,
+        }),
+      ),
+    new EdgesGeometry(new BoxGeometry()),
+  );
+  const pairs = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ depthTest: false }));
+  pairs.frustumCulled = false;
+  scene.add(boxes.object, cells.object, pairs);
+  const middle = new Vector3();
+  let diagonal = 1;
+  let fitted = true;
+  let awaited = 0;
+
+  const draw = () => renderer.render(scene, camera);
+  const redraw = () => {
+    cancelAnimationFrame(awaited);
+    awaited = requestAnimationFrame(draw);
+  };
+  const start = () => {
+    controls.target.copy(middle);
+    camera.position
+      .set(0.55, 0.5, 0.67)
+      .normalize()
+      .multiplyScalar((firstDistance * diagonal) / Math.min(1, camera.aspect))
+      .add(middle);
+    controls.update();
+    fitted = true;
+    redraw();
+  };
+  controls.enableDamping = false;
+  controls.addEventListener('change', redraw);
+  controls.addEventListener('start', () => {
+    fitted = false;
+  });
+  controls.addEventListener('change', moved);
+
+  const dark = matchMedia('(prefers-color-scheme: dark)');
+  const dress = () => {
+    const style = getComputedStyle(element);
+    const palette = makePalette(dark.matches, style.getPropertyValue('--page').trim());
+    uniforms.palette.value.set(palette.slots);
+    renderer.setClearColor(new Color().setRGB(...palette.background, SRGBColorSpace));
+    pairs.material.color.set(style.color);
+    redraw();
+  };
+  dark.addEventListener('change', dress);
+  dress();
+  onSize(element, (width, height) => {
+    renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    draw();
+  });
+
+  const zoom = (factor: number) => {
+    camera.position.sub(controls.target).divideScalar(factor).add(controls.target);
+    fitted = false;
+    controls.update();
+  };
+  /** Turns about the middle, in radians. */
+  const turn = (across: number, up: number) => {
+    const offset = camera.position.clone().sub(controls.target);
+    const length = offset.length();
+    const polar = Math.min(Math.PI - 0.05, Math.max(0.05, Math.acos(offset.y / length) - up));
+    const around = Math.atan2(offset.x, offset.z) - across;
+    offset.setFromSphericalCoords(length, polar, around);
+    camera.position.copy(controls.target).add(offset);
+    fitted = false;
+    controls.update();
+  };
+  const step = Math.PI / 24;
+  const keys: Record<string, () => void> = {
+    ArrowLeft: () => turn(step, 0),
+    ArrowRight: () => turn(-step, 0),
+    ArrowUp: () => turn(0, step),
+    ArrowDown: () => turn(0, -step),
+    '+': () => zoom(1.25),
+    '=': () => zoom(1.25),
+    '-': () => zoom(0.8),
+    '0': start,
+  };
+  element.tabIndex = 0;
+  element.addEventListener('keydown', (event) => {
+    const act = event.ctrlKey || event.metaKey || event.altKey ? undefined : keys[event.key];
+    if (!act) return;
+    event.preventDefault();
+    act();
+    moved();
+  });
+
+  return {
+    element,
+    fit(world) {
+      const low = new Vector3(world[0], world[1], world[2]);
+      const high = new Vector3(world[3], world[4], world[5]);
+      middle.copy(low).add(high).multiplyScalar(0.5);
+      diagonal = low.distanceTo(high);
+      uniforms.diagonal.value = diagonal;
+      uniforms.farLow.value.copy(middle).subScalar(horizon * diagonal);
+      uniforms.farHigh.value.copy(middle).addScalar(horizon * diagonal);
+      camera.near = diagonal / 500;
+      camera.far = diagonal * 2 * horizon;
+      camera.updateProjectionMatrix();
+      start();
+    },
+    show({ drawn, slots, cells: cellCount, boxes: boxCount, lines }) {
+      cells.set(drawn, slots, 0, cellCount);
+      boxes.set(drawn, slots, cellCount, boxCount);
+      pairs.visible = lines !== undefined;
+      if (lines) {
+        pairs.geometry.dispose();
+        pairs.geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(lines, 3));
+      }
+      cancelAnimationFrame(awaited);
+      draw();
+    },
+    zoom(factor) {
+      zoom(factor);
+      moved();
+    },
+    get look() {
+      if (fitted) return undefined;
+      const shares = (place: Vector3) => place.clone().sub(middle).divideScalar(diagonal).toArray();
+      return [...shares(camera.position), ...shares(controls.target)];
+    },
+    set look(given) {
+      start();
+      if (given?.length !== 6) return;
+      const place = (at: number) => new Vector3().fromArray(given, at).multiplyScalar(diagonal).add(middle);
+      if (place(0).distanceTo(place(3)) < camera.near) return;
+      camera.position.copy(place(0));
+      controls.target.copy(place(3));
+      fitted = false;
+      controls.update();
+    },
+    place(clientX, clientY) {
+      const frame = canvas.getBoundingClientRect();
+      const x = (2 * (clientX - frame.left)) / frame.width - 1;
+      const y = 1 - (2 * (clientY - frame.top)) / frame.height;
+      const caster = new Raycaster();
+      caster.setFromCamera(new Vector2(x, y), camera);
+      const { origin, direction }: Ray = caster.ray;
+      return { place: [...origin.toArray(), ...direction.toArray()], reach: Infinity };
+    },
+  };
+}
+
+/** Many copies of one shape, each between its own corners and in its own colour. */
+class Instances<Shape extends Mesh | LineSegments> {
+  readonly object: Shape;
+  readonly #shape: BufferGeometry;
+  #room = 0;
+
+  constructor(make: (geometry: BufferGeometry) => Shape, shape: BufferGeometry) {
+    this.#shape = shape;
+    this.object = make(new InstancedBufferGeometry());
+    this.object.frustumCulled = false;
+  }
+
+  /** Shows `count` of the boxes of an array, from one on. */
+  set(drawn: Float32Array, slots: Uint8Array, first: number, count: number): void {
+    if (count > this.#room) this.#grow(Math.ceil(1.25 * count));
+    const geometry = this.object.geometry as InstancedBufferGeometry;
+    geometry.instanceCount = count;
+    this.object.visible = count > 0;
+    if (count === 0) return;
+    const { data } = geometry.getAttribute('low') as InterleavedBufferAttribute;
+    data.array.set(drawn.subarray(6 * first, 6 * (first + count)));
+    data.clearUpdateRanges();
+    data.addUpdateRange(0, 6 * count);
+    data.needsUpdate = true;
+    const colours = geometry.getAttribute('slot') as InstancedBufferAttribute;
+    colours.array.set(slots.subarray(first, first + count));
+    colours.needsUpdate = true;
+  }
+
+  #grow(room: number): void {
+    this.#room = room;
+    this.object.geometry.dispose();
+    const geometry = new InstancedBufferGeometry();
+    geometry.index = this.#shape.index;
+    for (const name of ['position', 'normal']) {
+      if (this.#shape.hasAttribute(name)) geometry.setAttribute(name, this.#shape.getAttribute(name));
+    }
+    const corners = new InstancedInterleavedBuffer(new Float32Array(6 * room), 6);
+    geometry.setAttribute('low', new InterleavedBufferAttribute(corners, 3, 0));
+    geometry.setAttribute('high', new InterleavedBufferAttribute(corners, 3, 3));
+    geometry.setAttribute('slot', new InstancedBufferAttribute(new Uint8Array(room), 1));
+    this.object.geometry = geometry;
+  }
+}

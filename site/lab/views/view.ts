@@ -1,0 +1,45 @@
+// What shows pictures: flat scenes on a canvas, solid ones in three dimensions, both to the same orders.
+import type { Picture } from '../worker/messages.ts';
+
+export interface LabView {
+  /** The element that is shown or hidden. */
+  readonly element: HTMLElement;
+  /** Another scene: shows all of it. */
+  fit(world: readonly number[]): void;
+  /** Shows a picture, which is kept until the next. */
+  show(picture: Picture): void;
+  zoom(factor: number): void;
+  /** Where one looks, as it stands in an address; undefined while everything is shown. */
+  look: readonly number[] | undefined;
+  /** What is under a place of the screen: a point or a ray of the world, and how near a click must be to a box. */
+  place(clientX: number, clientY: number): { place: number[]; reach: number };
+}
+
+/** Calls `clicked` for a click or tap that was no drag. */
+export function onClick(element: HTMLElement, clicked: (x: number, y: number) => void): void {
+  const still = 6;
+  let from = { x: 0, y: 0 };
+  element.addEventListener('pointerdown', (event) => {
+    from = { x: event.clientX, y: event.clientY };
+  });
+  element.addEventListener('click', (event) => {
+    if (Math.hypot(event.clientX - from.x, event.clientY - from.y) > still) return;
+    clicked(event.clientX, event.clientY);
+  });
+}
+
+/** Calls `resized` with the size of an element in device pixels now and whenever it changes. */
+export function onSize(element: HTMLElement, resized: (width: number, height: number) => void): void {
+  const sharpest = 2;
+  let was = '';
+  const look = () => {
+    const density = Math.min(sharpest, devicePixelRatio);
+    const width = Math.max(1, Math.round(element.clientWidth * density));
+    const height = Math.max(1, Math.round(element.clientHeight * density));
+    if (was === `${width} ${height}`) return;
+    was = `${width} ${height}`;
+    resized(width, height);
+  };
+  new ResizeObserver(look).observe(element);
+  look();
+}

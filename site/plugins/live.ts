@@ -1,0 +1,90 @@
+// The examples that have a page run on the site, above their code, as they are in their folders: built into live/, and
+// while the site is worked on served from there. Where the packages of the examples are not installed, there is only
+// the code.
+import { existsSync, readdirSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { build, createServer, type HttpServer, type Plugin, type ViteDevServer } from 'vite';
+import manifest from '../../package.json' with { type: 'json' };
+import { rootFrom } from './frame.ts';
+
+const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
+const examples = path('../../examples/');
+const configFile = `${examples}vite.config.mjs`;
+
+/** Has a server of its own, since a policy is what it is about. */
+const apart = ['csp'];
+export const names = existsSync(`${examples}node_modules/vite`)
+  ? readdirSync(examples).filter((name) => !apart.includes(name) && existsSync(`${examples}${name}/index.html`))
+  : [];
+
+/** How to get an example: its folder, and an editor that opens it, where the repository has an address. */
+export function waysTo(
+  folder: string,
+  { repository, version }: { repository: { url: string }; version: string },
+): string {
+  const address = repository.url.replace(/^git\+/, '').replace(/\.git$/, '');
+  if (new URL(address).hostname.endsWith('.invalid')) return `Take the folder <code>${folder}</code>.`;
+  const [, project] = /^https:\/\/github\.com\/(.*)$/.exec(address) ?? [];
+  const tree = `tree/v${version}/${folder}`;
+  const editor = project
+    ? `, or <a href="https://stackblitz.com/github/${project}/${tree}">open it in an online editor</a>`
+    : '';
+  return `Take the folder <a href="${address}/${tree}"><code>${folder}</code></a>${editor}.`;
+}
+
+const frameOf = (name: string, page: string) => `
+  <figure class="live">
+    <iframe src="${rootFrom(page)}live/${name}/" title="The example ${name}, running"></iframe>
+    <figcaption><a href="${rootFrom(page)}live/${name}/">Alone in the window</a>. ${waysTo(`examples/${name}`, manifest)}</figcaption>
+  </figure>`;
+
+let served: Promise<ViteDevServer> | undefined;
+
+/** A second server, made when the first example is asked for; it tells pages of changes by way of the site's own. */
+const serve = (site: HttpServer) =>
+  createServer({
+    configFile,
+    base: '/live/',
+    cacheDir: path('../../build/live'),
+    logLevel: 'warn',
+    server: { middlewareMode: true, ws: { server: site } },
+  });
+
+export const live: Plugin = {
+  name: 'live',
+  transformIndexHtml: {
+    order: 'pre',
+    handler(html, { path }) {
+      const page = path.replace(/^\//, '');
+      const name = /^examples\/([^/]+)\/index\.html$/.exec(page)?.[1];
+      if (!name || !names.includes(name)) return;
+      // Below the name, and what package.json says of it.
+      return html.replace(/<\/h1>(<p>.*?<\/p>)?/, (above) => above + frameOf(name, page));
+    },
+  },
+  configureServer({ middlewares, httpServer }) {
+    if (names.length === 0 || !httpServer) return;
+    middlewares.use((request, response, next) => {
+      if (!request.url!.startsWith('/live/')) return next();
+      served ??= serve(httpServer);
+      served.then((server) => server.middlewares(request, response, next), next);
+    });
+    httpServer.on('close', () => void served?.then((server) => server.close()));
+  },
+  async writeBundle() {
+    if (names.length === 0) return;
+    const input = Object.fromEntries(names.map((name) => [name, `${examples}${name}/index.html`]));
+    await build({
+      configFile,
+      base: './',
+      logLevel: 'warn',
+      build: {
+        target: 'es2022',
+        outDir: path('../dist/live'),
+        emptyOutDir: true,
+        chunkSizeWarningLimit: 1500, // Phaser
+        rolldownOptions: { input },
+      },
+    });
+  },
+};

@@ -1,0 +1,173 @@
+// What stands in a space: boxes by id, written and read back as in a Map.
+
+import type { Boxes } from '../boxes.ts';
+import type { BoxOfId, CentredBoxOfId, Dimensions, MovingBoxOfId } from '../dimensions.ts';
+
+/** What stands in a space: boxes by id, written and read back as in a Map. */
+export interface Contents<D extends Dimensions> {
+  /**
+   * The number of boxes.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 1, 1);
+   * space.size; // → 1
+   */
+  get size(): number;
+
+  /**
+   * Adds box `id`, or moves it: 2D `set(id, minX, minY, maxX, maxY)`, 3D `set(id, minX, minY, minZ, maxX, maxY, maxZ)`.
+   * Chainable.
+   *
+   * @param box an id, which is an integer from 0 to 2^24 - 1: ids near 0 without gaps are best; the least coordinates, in
+   *   the units of your world: any numbers but NaN, infinite ones too; then the largest ones, not below the least
+   * @throws RangeError for a bad id, for NaN, and for a minimum above its maximum; TypeError for other than
+   *   numbers and for a wrong number of them. The space is as before.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 10, 10).set(7, 1, 0, 11, 10);
+   * space.size; // → 1
+   * space.set(7, Number.NaN, 0, 1, 1); // throws RangeError: set: minX of box 7 is NaN, expected a number
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 0, 1, 1, 1).get(7); // → Float64Array [0, 0, 0, 1, 1, 1]
+   */
+  set(...box: BoxOfId<D>): this;
+
+  /**
+   * Adds or moves box `id` for swept tests: for what moves so fast that it would pass others between two frames. The
+   * box is given as it stands, and how far it moves until the next frame; it is kept as the bounds of the whole way, so
+   * that its pairs are all it may meet. Which it does meet, when and on which side, `sweep` with the same numbers tells.
+   * 2D `setSwept(id, minX, minY, maxX, maxY, dx, dy)`, 3D `setSwept(id, minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz)`.
+   *
+   * @param box an id; where the box stands now, as for `set`; how far it moves along each axis: finite numbers
+   * @throws as `set` does. The space is as before.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * const bullet = 1, wall = 7;
+   * space.set(wall, 21, -5, 22, 5);
+   * space.setSwept(bullet, 0, 0, 1, 1, 40, 0).update(); // it moves 40 to the right
+   * space.pairs; // → Uint32Array [1, 7]
+   * space.sweep(0, 0, 1, 1, 40, 0, { ignore: bullet })?.time; // → 0.5
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.setSwept(1, 0, 0, 0, 1, 1, 1, 0, 0, 40).get(1); // → Float64Array [0, 0, 0, 1, 1, 41]
+   */
+  setSwept(...box: MovingBoxOfId<D>): this;
+
+  /**
+   * Adds box `id`, or moves it, by its centre and half its size, such as the box of a circle:
+   * `setCentred(id, x, y, radius, radius)`. 2D `setCentred(id, x, y, halfWidth, halfHeight)`, 3D
+   * `setCentred(id, x, y, z, halfWidth, halfHeight, halfDepth)`. The box is that of the four (six) sums, each rounded as
+   * sums are.
+   *
+   * @param box an id; the centre: finite numbers; half the size along each axis: at least 0
+   * @throws RangeError and TypeError that name the id and the number. The space is as before.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.setCentred(7, 10, 10, 5, 2).get(7); // → Float64Array [5, 8, 15, 12]
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.setCentred(7, 0, 0, 0, 1, 2, 3).get(7); // → Float64Array [-1, -2, -3, 1, 2, 3]
+   */
+  setCentred(...box: CentredBoxOfId<D>): this;
+
+  /**
+   * Replaces all boxes, by ids 0 … count - 1.
+   *
+   * @param boxes 4 (2D) or 6 (3D) numbers for each box, as `set` takes them, one box after the other
+   * @param count how many boxes to take; default: all there are
+   * @throws RangeError that names the first bad id and its value, or a length that does not fit; TypeError for
+   *   other than an array of numbers. The space is as before.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.setAll([0, 0, 10, 10, 5, 5, 15, 15]).update();
+   * space.pairs; // → Uint32Array [0, 1]
+   */
+  setAll(boxes: Boxes, count?: number): this;
+
+  /**
+   * The fastest way in: an array over the kernel's own memory for the boxes of ids 0 … count - 1, to be written
+   * in place, as float32, before `update()`. Ids from count on are removed; new ones are points at the origin. This call
+   * makes every box float32, rounded to the nearest: boxes that only nearly touched as doubles may be pairs then.
+   *
+   * Ask for the array before each time it is written: it costs next to nothing and makes no garbage. Until `setAll`,
+   * `clear` or `restore` it shows what `set` does at once, and what is written to it afterwards counts instead, in place
+   * of doubles too. A double that `set` has given stays one until its box is written otherwise than it is shown. After
+   * `delete`, and after `update`, ask again: its rows may stand for other boxes then, or memory has grown and cut it
+   * off. `update()` checks what was written, and throws where the array was cut off and not asked for again since.
+   *
+   * @param count how many boxes, 0 … 2^24
+   * @throws RangeError for a bad count
+   *
+   * @example
+   * const space = new BroadPhase();
+   * const boxes = space.boxes(1000);
+   * for (let id = 0; id < 1000; id++) {
+   *   boxes[4 * id] = id; // minX
+   *   boxes[4 * id + 1] = 0; // minY
+   *   boxes[4 * id + 2] = id + 1; // maxX: it touches the next one
+   *   boxes[4 * id + 3] = 1; // maxY
+   * }
+   * space.update().pairCount; // → 999
+   */
+  boxes(count: number): Float32Array;
+
+  /**
+   * Takes box `id` away, with its filter.
+   * @param id an integer from 0 to 2^24 - 1, of a box or not
+   * @returns whether there was one
+   * @throws RangeError for a bad id
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 1, 1);
+   * space.delete(7); // → true
+   * space.delete(7); // → false
+   */
+  delete(id: number): boolean;
+
+  /**
+   * Takes all boxes away, with their filters.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 1, 1).clear();
+   * space.size; // → 0
+   */
+  clear(): void;
+
+  /**
+   * Whether there is a box `id`.
+   * @param id an integer from 0 to 2^24 - 1
+   * @throws RangeError for a bad id
+   *
+   * @example
+   * new BroadPhase().has(7); // → false
+   */
+  has(id: number): boolean;
+
+  get(id: number): Float64Array | undefined;
+  get<Out extends Float32Array | Float64Array | number[]>(id: number, out: Out): Out | undefined;
+
+  /**
+   * The ids of all boxes, in the order of a Map: that in which they were added. Those that `setAll` and `boxes` give come
+   * by number. Boxes may be set and deleted meanwhile: those that are gone when their turn comes are left out, new ones
+   * are not visited. Takes a copy of all ids.
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(9, 0, 0, 1, 1).set(3, 0, 0, 1, 1).set(7, 0, 0, 1, 1).delete(9);
+   * [...space.set(9, 5, 5, 6, 6).keys()]; // → [3, 7, 9]
+   */
+  keys(): IterableIterator<number>;
+
+  [Symbol.iterator](): IterableIterator<[id: number, box: Float64Array]>;
+}

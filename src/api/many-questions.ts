@@ -1,0 +1,104 @@
+// Many questions in one call: numbers of all of them in, the answers of all of them out.
+import type {
+  ManyAreaOptions,
+  ManyBoxOptions,
+  ManyFarOptions,
+  ManyIds,
+  ManyNearest,
+  ManyNearestOfAll,
+  ManyOptions,
+  ManyRayHits,
+  ManySweepHits,
+} from '../query-options.ts';
+
+/** Many questions in one call: numbers of all of them in, the answers of all of them out. */
+export interface ManyQuestions {
+  /**
+   * The boxes in each of many boxes, as `queryBox` answers each: those of question k are `ids[offsets[k]]` up to
+   * `ids[offsets[k + 1] - 1]`. One call for all, and no array for each.
+   *
+   * @param boxes the numbers of each, minima first, one box behind the other
+   * @param options `ignoreEach[k]` is left out of the answers of question k; an `out` is filled and returned: the answer of
+   *   an earlier call, whose arrays are kept while they are long enough, and may then be longer than the answers
+   * @throws as all questions do, naming the number of the question: see {@link BroadPhase}
+   *
+   * @example
+   * const space = new BroadPhase().setAll([0, 0, 10, 10, 5, 5, 15, 15]);
+   * space.update();
+   * const { ids, offsets } = space.queryBoxes([8, 8, 9, 9, 30, 30, 40, 40, 12, 12, 13, 13]);
+   * offsets; // → Uint32Array [0, 2, 2, 3]
+   * ids[2]; // → 1
+   */
+  queryBoxes(boxes: ArrayLike<number>, options?: ManyBoxOptions): ManyIds;
+
+  /**
+   * The boxes at each of many points: as {@link BroadPhase.queryBoxes}.
+   *
+   * @example
+   * const space = new BroadPhase().set(7, 0, 0, 10, 10).update();
+   * space.queryPoints([10, 3, 11, 3]).offsets; // → Uint32Array [0, 1, 1]
+   */
+  queryPoints(points: ArrayLike<number>, options?: ManyAreaOptions): ManyIds;
+
+  /**
+   * The boxes in each of many circles, in 3D of many spheres: of each its centre, then its radius. As
+   * {@link BroadPhase.queryBoxes}.
+   *
+   * @example
+   * const space = new BroadPhase().set(7, 0, 0, 10, 10).update();
+   * space.queryCircles([13, 14, 5, 14, 14, 5]).offsets; // → Uint32Array [0, 1, 1]
+   */
+  queryCircles(circles: ArrayLike<number>, options?: ManyAreaOptions): ManyIds;
+
+  /**
+   * The first box that each of many rays meets, as `rayCast`: one answer, or none, a ray. As {@link BroadPhase.queryBoxes},
+   * with the distances and the normals, of which each has one number per axis.
+   *
+   * @example
+   * const space = new BroadPhase().set(7, 10, -5, 20, 5).update();
+   * const hits = space.rayCasts([0, 0, 1, 0, 0, 0, -1, 0]);
+   * hits.offsets; // → Uint32Array [0, 1, 1]
+   * hits.distances; // → Float64Array [10]
+   * hits.normals; // → Int8Array [-1, 0]
+   */
+  rayCasts(rays: ArrayLike<number>, options?: ManyFarOptions<ManyRayHits>): ManyRayHits;
+
+  /**
+   * The first box that each of many moving boxes meets, as `sweep`: of each its box, then its way. As
+   * {@link BroadPhase.rayCasts}.
+   *
+   * @example
+   * const space = new BroadPhase().set(7, 21, -5, 22, 5).update();
+   * space.sweeps([0, 0, 1, 1, 40, 0]).times; // → Float64Array [0.5]
+   */
+  sweeps(boxes: ArrayLike<number>, options?: ManyOptions<ManySweepHits>): ManySweepHits;
+
+  /**
+   * The `k` boxes nearest to each of many points, the nearest first, as `nearest`. As {@link BroadPhase.queryBoxes}, with
+   * the distances.
+   *
+   * @example
+   * const space = new BroadPhase().set(7, 0, 0, 10, 10).set(9, 15, 0, 20, 5).update();
+   * const { ids, distances } = space.nearests([13, 2, 0, 2], 1);
+   * ids; // → Uint32Array [9, 7]
+   * distances; // → Float64Array [2, 0]
+   */
+  nearests(points: ArrayLike<number>, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest;
+
+  /**
+   * The `k` boxes nearest to each box, itself left out, by the distance between boxes, then by id: those of box `of[n]` are
+   * `ids[offsets[n]]` up to `ids[offsets[n + 1] - 1]`. Boxes whose ids are 0 … size - 1 come in their order.
+   *
+   * @param k an integer from 1 on, or Infinity for all
+   * @throws as {@link BroadPhase.nearests}
+   *
+   * @example
+   * const space = new BroadPhase().setAll([0, 0, 1, 1, 5, 0, 6, 1, 8, 0, 9, 1]);
+   * space.update();
+   * const { of, ids, distances } = space.nearestsOfAll(1);
+   * of; // → Uint32Array [0, 1, 2]
+   * ids; // → Uint32Array [1, 2, 1]
+   * distances; // → Float64Array [4, 2, 2]
+   */
+  nearestsOfAll(k: number, options?: Omit<ManyFarOptions<ManyNearestOfAll>, 'ignoreEach'>): ManyNearestOfAll;
+}

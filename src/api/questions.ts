@@ -1,0 +1,223 @@
+// What a space can be asked between two updates: what is there, in view, ahead, near.
+import type {
+  BoxQuestion,
+  Dimensions,
+  NearestQuestion,
+  PointQuestion,
+  RayQuestion,
+  RoundQuestion,
+  SweepQuestion,
+} from '../dimensions.ts';
+import type {
+  BoxOptions,
+  IdsOptions,
+  NearestOptions,
+  PlanesOptions,
+  RayAllOptions,
+  RayHit,
+  RayOptions,
+  SweepHit,
+  SweepOptions,
+} from '../query-options.ts';
+
+/** What a space can be asked between two updates: what is there, in view, ahead, near. */
+export interface Questions<D extends Dimensions> {
+  /**
+   * The ids of the boxes that overlap or touch a box, which may be infinite: in no particular order, but the same one
+   * until the next update. 2D: `queryBox(minX, minY, maxX, maxY, options?)`, 3D:
+   * `queryBox(minX, minY, minZ, maxX, maxY, maxZ, options?)`.
+   *
+   * @param question the least coordinates, in the units of your world: any numbers but NaN; then the largest ones, not
+   *   below the least; then options, if any
+   * @throws as all questions do: see {@link BroadPhase}
+   *
+   * @example
+   * const space = new BroadPhase();
+   * const enemy = 2;
+   * space.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).setFilter(7, 1, 3).setFilter(9, enemy, 3).update();
+   * space.queryBox(8, 8, 12, 12).sort((a, b) => a - b); // → [7, 9]
+   * space.queryBox(8, 8, 12, 12, { mask: enemy }); // → [9]
+   * space.queryBox(4, 4, 15, 15, { within: true }); // → [9]
+   * let hurt = 0;
+   * space.queryBox(8, 8, 12, 12, { visit: () => hurt++ }); // → []
+   * hurt; // → 2
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 0, 1, 1, 1).update();
+   * space.queryBox(1, 1, 1, 2, 2, 2); // → [7]
+   */
+  queryBox(...question: BoxQuestion<D, BoxOptions>): number[];
+
+  /**
+   * The ids of the boxes that hold a point or touch it: as {@link BroadPhase.queryBox}. 2D: `queryPoint(x, y, options?)`, 3D:
+   * `queryPoint(x, y, z, options?)`.
+   *
+   * @param question where it is: finite coordinates; then options, if any
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 10, 10).update();
+   * space.queryPoint(10, 3); // → [7]
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 0, 1, 1, 1).update();
+   * space.queryPoint(0.5, 0.5, 2); // → []
+   */
+  queryPoint(...question: PointQuestion<D, IdsOptions>): number[];
+
+  /**
+   * 2D: the ids of the boxes that a circle overlaps or touches: as {@link BroadPhase.queryBox}.
+   * @param question its centre: finite coordinates; its radius: at least 0, in the units of your world; then options, if any
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 10, 10).update();
+   * space.queryCircle(13, 14, 5); // → [7]
+   * space.queryCircle(14, 14, 5); // → []
+   */
+  queryCircle(...question: D extends 2 ? RoundQuestion<2, IdsOptions> : never): number[];
+
+  /**
+   * 3D: the ids of the boxes that a sphere overlaps or touches: as {@link BroadPhase.queryBox}.
+   * @param question its centre: finite coordinates; its radius: at least 0, in the units of your world; then options, if any
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 0, 1, 1, 1).update();
+   * space.querySphere(2, 0.5, 0.5, 1); // → [7]
+   */
+  querySphere(...question: D extends 3 ? RoundQuestion<3, IdsOptions> : never): number[];
+
+  /**
+   * The ids of the boxes that are not wholly behind any of up to eight planes, such as the six of a camera's view: in no
+   * particular order. A plane is a normal n and an offset d; a point p is behind it where n · p + d, summed in doubles
+   * along x, y and z in turn, is below 0. A box is behind it where all of it is; what touches it is not. The planes may
+   * bound anything convex, or nothing: without planes all boxes are meant. A box near a corner of the view may be
+   * outside of it and yet behind no single plane: it is among the answers.
+   *
+   * In a world that wraps around, a box is in view if it is where it stands in the world, its minimum from 0 on, or one
+   * world further along any axes. It is in the answer once, and inside if one of these copies is.
+   *
+   * @param planes 4 numbers for each plane, its normal, of any length, and its offset: `[nx, ny, nz, d, …]`; in 2D 3:
+   *   `[nx, ny, d, …]`. All finite
+   * @param options as for `queryBox`; `visit` is told which boxes are wholly inside, in front of all planes: what is in
+   *   them need not be looked at again
+   * @throws as all questions do: see {@link BroadPhase}
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 0, 1, 1, 1).set(8, 4, 0, 0, 6, 1, 1).set(9, 8, 0, 0, 9, 1, 1).update();
+   * const planes = [1, 0, 0, 0, -1, 0, 0, 5]; // x from 0 to 5
+   * space.queryPlanes(planes).sort((a, b) => a - b); // → [7, 8]
+   * const whole: number[] = [];
+   * space.queryPlanes(planes, { visit: (id, inside) => inside && whole.push(id) });
+   * whole; // → [7]
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 1, 1).set(8, 4, 4, 6, 6).update();
+   * space.queryPlanes([-1, -1, 3]); // → [7]
+   */
+  queryPlanes(planes: Float32Array | Float64Array | readonly number[], options?: PlanesOptions): number[];
+
+  /**
+   * The first box that a ray meets, or `undefined`: of several at the same distance as in `sweep`.
+   * The direction may have any length; where it has none the ray is a point. A ray that begins at a face meets it
+   * where it leads into the box, at distance 0; one that leads along it or away does not. One that begins inside has
+   * distance 0 and no normal. Edges and corners count. 2D:
+   * `rayCast(x, y, directionX, directionY, options?)`, 3D: `rayCast(x, y, z, directionX, directionY, directionZ, options?)`.
+   *
+   * @param question where the ray begins, and where it points: finite numbers; then options, if any
+   * @returns the box, the distance to it in the units of your world, and the normal of the side that was hit
+   * @throws as all questions do: see {@link BroadPhase}
+   *
+   * @example
+   * const space = new BroadPhase();
+   * const me = 1;
+   * space.set(me, -1, -1, 1, 1).set(7, 10, -5, 20, 5).update();
+   * space.rayCast(0, 0, 1, 0, { ignore: me }); // → { id: 7, distance: 10, normal: [-1, 0] }
+   * space.rayCast(0, 0, 1, 0, { ignore: me, maxDistance: 9 }); // → undefined
+   * space.rayCast(0, 0, 1, 0, { ignore: [me, 7] }); // → undefined
+   * space.rayCast(5, 0, -1, 0, { accept: (id, hit) => hit.normal[0] === 1 })?.id; // → 1
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 10, 1, 1, 11).update();
+   * space.rayCast(0.5, 0.5, 0, 0, 0, 1)?.distance; // → 10
+   */
+  rayCast(...question: RayQuestion<D, RayOptions>): RayHit | undefined;
+
+  /**
+   * All boxes that a ray meets, by distance and then by id: as {@link BroadPhase.rayCast}. 2D: `rayCastAll(x, y,
+   * directionX, directionY, options?)`, 3D:
+   * `rayCastAll(x, y, z, directionX, directionY, directionZ, options?)`.
+   *
+   * @param question where the ray begins, and where it points: finite numbers; then options, if any
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 10, -5, 20, 5).set(9, 30, -5, 40, 5).update();
+   * space.rayCastAll(0, 0, 1, 0).map((hit) => hit.id); // → [7, 9]
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 10, 1, 1, 11).update();
+   * space.rayCastAll(0.5, 0.5, 0, 0, 0, 1, { maxDistance: 5 }); // → []
+   */
+  rayCastAll(...question: RayQuestion<D, RayAllOptions>): RayHit[];
+
+  /**
+   * The first box that a moving box meets, or `undefined`: the swept test for what is too fast to be looked at from
+   * frame to frame. It meets what its way leads into: who stands on a floor meets it only on a way down. Where it
+   * overlaps a box from the start the time is 0, and the normal all 0. Of several met at the same time, faces come
+   * before corners, then the smallest id. A box that is in the space meets itself: name it in `ignore`. Who stops at
+   * `x + dx * time` touches, up to rounding, and never ends inside: see the guide to queries. 2D: `sweep(minX, minY,
+   * maxX, maxY, dx, dy, options?)`, 3D: `sweep(minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz, options?)`.
+   *
+   * @param question where the box stands now: any numbers but NaN; how far it moves along each axis: finite numbers; then
+   *   options, if any
+   * @returns the box, the share of the way until they touch, and the normal of the side that was hit
+   * @throws as all questions do: see {@link BroadPhase}
+   *
+   * @example
+   * const space = new BroadPhase();
+   * const bullet = 1;
+   * space.set(bullet, 0, 0, 1, 1).set(7, 21, -5, 22, 5).update();
+   * const hit = space.sweep(0, 0, 1, 1, 40, 0, { ignore: bullet }); // → { id: 7, time: 0.5, normal: [-1, 0] }
+   * const solid = (id: number) => id !== bullet && id !== 7;
+   * space.sweep(0, 0, 1, 1, 40, 0, { accept: solid }); // → undefined
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 5, 1, 1, 6).update();
+   * space.sweep(0, 0, 0, 1, 1, 1, 0, 0, 8)?.time; // → 0.5
+   */
+  sweep(...question: SweepQuestion<D, SweepOptions>): SweepHit | undefined;
+
+  /**
+   * The ids of the `k` boxes nearest to a point, by the distance to the box, which is 0 inside, and then by id. 2D:
+   * `nearest(x, y, k, options?)`, 3D:
+   * `nearest(x, y, z, k, options?)`.
+   *
+   * @param question where from: finite coordinates; how many: an integer from 1 on, or Infinity for all; then options, if any
+   * @returns fewer than k where there are no more, or none within `maxDistance`
+   * @throws as all questions do: see {@link BroadPhase}
+   *
+   * @example
+   * const space = new BroadPhase();
+   * space.set(7, 0, 0, 10, 10).set(9, 15, 0, 20, 5).update();
+   * space.nearest(13, 2, 2); // → [9, 7]
+   * space.nearest(13, 2, 2, { maxDistance: 2 }); // → [9]
+   * const distances: number[] = [];
+   * space.nearest(13, 2, 2, { distances });
+   * distances; // → [2, 3]
+   *
+   * @example
+   * const space = new BroadPhase({ dimensions: 3 });
+   * space.set(7, 0, 0, 0, 1, 1, 1).set(9, 0, 0, 5, 1, 1, 6).update();
+   * space.nearest(0, 0, 4, 1); // → [9]
+   */
+  nearest(...question: NearestQuestion<D, NearestOptions>): number[];
+}

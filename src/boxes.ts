@@ -1,0 +1,115 @@
+// Boxes that come by the array: copied into the kernel's memory, or written there in place.
+import type { Dimensions } from './dimensions.ts';
+import { badBox, badValue, checkBoxCount, checkNumberArray, isBoxCount } from './errors.ts';
+import type { KernelInstance } from './kernel/instance.ts';
+import { isFloat32Array } from './values.ts';
+
+/** Boxes for {@link BroadPhase.setAll}: interleaved, minima then maxima, box after box. */
+export type Boxes = Float32Array | Float64Array | readonly number[];
+
+/** Replaces all boxes. `where` is the name of the call in errors. */
+export function setAll(instance: KernelInstance, boxes: Boxes, count: number | undefined, where = 'setAll'): void {
+  const { width, dimensions } = instance;
+  const single = isFloat32Array(boxes);
+  checkNumberArray(where, boxes);
+  if (count === undefined) count = countBoxes(where, boxes, dimensions);
+  const { length } = boxes;
+  // Told apart before the text is made: a string in each call would be garbage.
+  if (!isBoxCount(count)) checkBoxCount(`${where}: count`, count);
+  if (count * width > length) {
+    badValue(`${where}: count`, count, `at most ${Math.floor(length / width)}, as ${length} numbers were given`);
+  }
+  if (Array.isArray(boxes)) checkNumbers(where, boxes, count, dimensions); // typed arrays hold nothing else
+  try {
+    const { kernel } = instance;
+    const at = (single ? kernel.stage(count) : kernel.stage_exact(count)) >>> 0;
+    const view = instance.stagedView(at, count * width, single);
+    if (length === view.length) view.set(boxes);
+    else
+      view.set(Array.isArray(boxes) ? boxes.slice(0, view.length) : (boxes as Float64Array).subarray(0, view.length));
+    instance.ring.forget();
+    const bad = kernel.replace(count, single ? 0 : 1);
+    if (bad >= 0) badBox(where, bad, view.slice(bad * width, (bad + 1) * width), dimensions);
+  } catch (error) {
+    instance.recover(error, where);
+  }
+  instance.exposed = undefined;
+}
+
+/** The kernel's own memory for the boxes of ids 0 … count - 1, to be written in place. */
+export function expose(instance: KernelInstance, count: number): Float32Array {
+  checkBoxCount('boxes: count', count);
+  try {
+    const { kernel } = instance;
+    instance.ring.forget();
+    const at = kernel.expose(count) >>> 0;
+    const length = count * instance.width;
+    let view = instance.exposed;
+    if (view?.byteOffset !== at || view.length !== length) {
+      view = new Float32Array(kernel.memory.buffer, at, length);
+      instance.exposed = view;
+    }
+    instance.exposedIsOpen = true;
+    return view;
+  } catch (error) {
+    instance.recover(error, 'boxes');
+  }
+}
+
+/** Writes the numbers of a box to an array; false where there is none of this id. */
+export function readBox(instance: KernelInstance, id: number, out: Float32Array | Float64Array | number[]): boolean {
+  const fixed = ArrayBuffer.isView(out);
+  if (!(fixed || Array.isArray(out)) || (fixed && !(out.length >= instance.width))) {
+    badValue('get: out', out, `an array, or a typed array of ${instance.width} numbers`, true);
+  }
+  if (instance.kernel.get(id) === 0) return false;
+  const io = instance.io();
+  for (let k = 0; k < instance.width; k++) out[k] = io[k]!;
+  return true;
+}
+
+/** A box that was written in place is bad. */
+export function badInPlace(instance: KernelInstance, where: string, id: number): never {
+  const box = new Float32Array(instance.width);
+  readBox(instance, id, box);
+  badBox(where, id, box, instance.dimensions);
+}
+
+export const hasBox = (instance: KernelInstance, id: number): boolean =>
+  instance.ring.knows(id) || instance.kernel.has(id) === 1;
+
+/** The ids of all boxes there are now, but for those that have none any more when their turn comes. */
+export const present = (instance: KernelInstance): IterableIterator<number> => stillThere(instance, listIds(instance));
+
+function* stillThere(instance: KernelInstance, ids: Uint32Array): IterableIterator<number> {
+  for (const id of ids) if (hasBox(instance, id)) yield id;
+}
+
+/** All ids, copied, in the order in which they came. */
+function listIds(instance: KernelInstance): Uint32Array {
+  try {
+    const { kernel } = instance;
+    const count = kernel.list_ids();
+    return new Uint32Array(kernel.memory.buffer, kernel.answers_address() >>> 0, count).slice();
+  } catch (error) {
+    instance.recover(error, 'keys');
+  }
+}
+
+/** How many boxes an array holds, which must be a whole number of them. */
+export function countBoxes(where: string, boxes: Boxes, dimensions: Dimensions): number {
+  const width = 2 * dimensions;
+  if (boxes.length % width !== 0) {
+    badValue(`${where}: length`, boxes.length, `a multiple of ${width}, the numbers of a box in ${dimensions}D`);
+  }
+  return (boxes.length / width) | 0; // as an integer: a double out of a call would be garbage
+}
+/** Each number of the first `count` boxes of an array really is one; what it is worth the kernel checks. */
+function checkNumbers(where: string, boxes: ArrayLike<unknown>, count: number, dimensions: Dimensions): void {
+  const width = 2 * dimensions;
+  for (let k = 0; k < count * width; k++) {
+    if (typeof boxes[k] === 'number') continue;
+    const id = Math.floor(k / width);
+    badBox(where, id, Array.prototype.slice.call(boxes, id * width, (id + 1) * width), dimensions);
+  }
+}

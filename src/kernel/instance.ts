@@ -1,0 +1,184 @@
+// One instance of the kernel, which is one space: its functions, views of its memory, and what to do when that ends.
+// Growing memory cuts views off: their length is then 0, and they are made again.
+import type { Dimensions } from '../dimensions.ts';
+import { instantiate, type KernelExports } from './load.ts';
+import { Ring, ringHead } from './ring.ts';
+
+/** A number of views kept, so that pair counts seen lately make no garbage. */
+const viewsKept = 256;
+/** Numbers in the kernel's array: see kernel/abi.cpp. */
+export const ioLength = 48;
+/** Through how many worlds a ray or a way may lead, where they wrap around: each costs a search. */
+const mostWorlds = 1000;
+
+export class KernelInstance {
+  readonly dimensions: Dimensions;
+  /** Numbers in a box. */
+  readonly width: number;
+  /** The size of the world, where it wraps around. */
+  readonly wrap: readonly number[] | undefined;
+  /** How far a ray or a way may lead: without an end, but where the world wraps around. */
+  readonly farthest: number;
+  /** Whether boxes that only touch overlap. */
+  readonly touching: boolean;
+  /** The kernel as it is, without what waits in the ring. */
+  exports: KernelExports;
+  readonly ring: Ring;
+  /** The kernel's memory, as `wordView` and `doubleView` have last seen it. */
+  words = new Uint32Array();
+  #doubles = new Float64Array();
+  #io = new Float64Array();
+  /** What `boxes()` gave last, while it is in use. */
+  exposed: Float32Array | undefined;
+  /** Whether it may have been written since the last update: then growing memory must not cut it off unnoticed. */
+  exposedIsOpen = false;
+  /** The number of the technique that was asked for. */
+  technique = 0;
+  readonly events: boolean;
+  // Views kept: of pairs by how many they are, of the two arrays in which boxes are staged in turns, of the counters.
+  #pairViews: Uint32Array[][] = [];
+  #stagedViews: (Float32Array | Float64Array)[] = [];
+  #stats = new Float64Array();
+  readonly #stackTop: number;
+
+  constructor(dimensions: Dimensions, wrap: readonly number[] | undefined, touching: boolean, events: boolean) {
+    this.dimensions = dimensions;
+    this.wrap = wrap;
+    this.farthest = wrap === undefined ? Number.POSITIVE_INFINITY : mostWorlds * Math.min(...wrap);
+    this.touching = touching;
+    this.events = events;
+    this.width = 2 * dimensions;
+    this.exports = instantiate();
+    this.ring = new Ring(this);
+    this.#stackTop = this.exports.__stack_pointer.value;
+    this.exports.open_space(dimensions);
+  }
+
+  /** The kernel, which knows of all that was set: whoever calls it cannot forget to tell it. */
+  get kernel(): KernelExports {
+    if (this.ring.next !== ringHead) this.ring.flush();
+    return this.exports;
+  }
+
+  /** The number of boxes. */
+  get size(): number {
+    return this.ring.dense > 0 ? this.ring.dense : this.kernel.size();
+  }
+
+  get isDisposed(): boolean {
+    return this.exports === disposed;
+  }
+
+  /** Lets go of the memory at once. Any call after this throws. */
+  dispose(): void {
+    this.exports = disposed;
+    this.ring.close();
+    this.words = new Uint32Array();
+    this.#doubles = this.#io = this.#stats = new Float64Array();
+    this.exposed = undefined;
+    this.#pairViews = [];
+    this.#stagedViews = [];
+  }
+
+  setTechnique(technique: number): void {
+    this.kernel.set_technique(technique);
+    this.technique = technique;
+  }
+
+  /** Takes a box away; returns whether there was one. */
+  remove(id: number): boolean {
+    if (!this.exposedIsOpen) this.exposed = undefined;
+    try {
+      const { kernel } = this;
+      this.ring.forget();
+      return kernel.remove(id) === 1;
+    } catch (error) {
+      this.recover(error, 'delete');
+    }
+  }
+
+  clear(): void {
+    this.kernel.clear();
+    this.ring.forget();
+    this.exposed = undefined;
+  }
+
+  /** A box that cannot wait: it may fail, or a view of the boxes is open that has to show it. */
+  takeNow(): void {
+    if (!this.exposedIsOpen) this.exposed = undefined;
+    this.ring.flush();
+  }
+
+  /** The kernel's array for numbers in and out. */
+  io(): Float64Array {
+    if (this.#io.length === 0) {
+      this.#io = new Float64Array(this.kernel.memory.buffer, this.kernel.io_address(), ioLength);
+    }
+    return this.#io;
+  }
+
+  /** The kernel's memory. */
+  wordView(): Uint32Array {
+    if (this.words.length === 0) this.words = new Uint32Array(this.kernel.memory.buffer);
+    return this.words;
+  }
+  doubleView(): Float64Array {
+    if (this.#doubles.length === 0) this.#doubles = new Float64Array(this.kernel.memory.buffer);
+    return this.#doubles;
+  }
+
+  /** The counters of the last update. */
+  statsView(): Float64Array {
+    if (this.#stats.length === 0) {
+      this.#stats = new Float64Array(this.kernel.memory.buffer, this.kernel.stats_address(), 8);
+    }
+    return this.#stats;
+  }
+
+  /** A view of staged boxes. Two arrays take turns in the kernel, so the last two views are kept. */
+  stagedView(at: number, length: number, single: boolean): Float32Array | Float64Array {
+    const views = this.#stagedViews;
+    const kind = single ? Float32Array : Float64Array;
+    for (let k = 0; k < views.length; k++) {
+      const view = views[k]!;
+      if (view.byteOffset === at && view.length === length && view instanceof kind) return view;
+    }
+    const view = new kind(this.kernel.memory.buffer, at, length);
+    if (views.push(view) > 2) views.shift();
+    return view;
+  }
+
+  /** A view of pairs in the kernel's memory, from among those made before for the same list if possible. */
+  pairView(list: number, address: number, count: number): Uint32Array {
+    this.#pairViews[list] ??= [];
+    const views = this.#pairViews[list]!;
+    // A WebAssembly address is signed to JavaScript, and 0 where there was never a pair: then any other will do.
+    const at = address >>> 0 || 4;
+    let view = views[count % viewsKept];
+    // A view that was cut off stands at 0. To ask the memory for its buffer takes as long as all the rest.
+    if (view?.byteOffset !== at || view.length !== 2 * count) {
+      view = new Uint32Array(this.kernel.memory.buffer, at, 2 * count);
+      views[count % viewsKept] = view;
+    }
+    return view;
+  }
+
+  /** After an exception out of the kernel: makes the space usable again and says what was wrong. */
+  recover(error: unknown, where: string): never {
+    if ((error as Error | undefined)?.name !== 'RuntimeError') throw error;
+    this.kernel.__stack_pointer.value = this.#stackTop;
+    if (this.kernel.recover() === 0) throw error;
+    throw new RangeError(
+      `${where}: out of memory: ${this.io()[0]} more bytes are needed for ${this.size} boxes and their pairs, which is ` +
+        'more than WebAssembly (4 GiB) or this host allows',
+      { cause: error },
+    );
+  }
+}
+
+/** Stands in for the kernel of a disposed space. */
+const disposed = new Proxy({} as KernelExports, {
+  get() {
+    throw new Error('this BroadPhase was disposed and can no longer be used');
+  },
+});

@@ -1,0 +1,168 @@
+// What a space is made with: the options, their checks, and how the kernel is told.
+import type { Dimensions } from './dimensions.ts';
+import {
+  badNumber,
+  badValue,
+  checkBoolean,
+  checkBoxCount,
+  checkOptions,
+  checkWrap,
+  isFinitePositive,
+} from './errors.ts';
+import type { Technique as LeanTechnique } from './generated/kernel-lean.ts';
+import { KernelInstance } from './kernel/instance.ts';
+import { builtDimensions } from './kernel/load.ts';
+import { checkTechnique, isBuilt, type TechniqueName } from './techniques.ts';
+
+/** Options of {@link BroadPhase}, all optional. */
+export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends TechniqueName = LeanTechnique> {
+  /** 2 or 3. Default 2; in `broadphase/3d` 3. */
+  dimensions?: D;
+  /** One of {@link BroadPhase.techniques}. Default `'auto'`. */
+  technique?: Technique;
+  /**
+   * For grids, which are in `broadphase/all`: the side of a cell, or one number per axis, above 0. `auto` has no
+   * grid, and does not look at it. One so small that boxes would stand in very many cells is doubled until they do
+   * not. Left out: chosen from the boxes.
+   */
+  cellSize?: number | readonly number[];
+  /** For `spatial-grid`, in `broadphase/all`: the world that is cut into cells, minima then maxima. Boxes outside are found all the same. */
+  bounds?: readonly number[];
+  /**
+   * The size of a world that wraps around, along each axis: what leaves it on one side comes in on the other, as in
+   * Asteroids. Boxes may be given anywhere; two are a pair where they overlap once both are moved by whole worlds. A
+   * box as long as the world, or without an end, reaches all around. The numbers stay as they were given. Questions see
+   * a copy of each box in every world, and answer each once: see the guide to queries. Numbers above 0, up to 1e300. Left out: the world has no end.
+   */
+  wrap?: readonly number[];
+  /**
+   * Whether boxes that only touch overlap: in pairs, events, and, unless they say otherwise, questions about places.
+   * Default true. Where false, a box without size overlaps only what it is inside of.
+   */
+  touching?: boolean;
+  /** Whether every update finds out which pairs began and ended, for `began`. Default false. */
+  events?: boolean;
+  /** For `aabb-tree`, in `broadphase/all`: how far a box may move before the tree changes, above 0. Left out: from the motion seen. */
+  margin?: number;
+  /** A hint: how many boxes there will be, 0 … 2^24. Saves growing while they are added. */
+  capacity?: number;
+}
+
+/** The names of all options. */
+const optionNames: readonly (keyof BroadPhaseOptions)[] = [
+  'dimensions',
+  'technique',
+  'cellSize',
+  'bounds',
+  'wrap',
+  'touching',
+  'events',
+  'margin',
+  'capacity',
+];
+
+/** The arguments of `new BroadPhase`: a space of other than two dimensions has to say so. */
+export type ConstructorOptions<D extends Dimensions, Technique extends TechniqueName = LeanTechnique> = 2 extends D
+  ? [options?: BroadPhaseOptions<D, Technique>]
+  : [options: BroadPhaseOptions<D, Technique> & DimensionsSaid<D>];
+
+/** What a space of other than two dimensions has to be given. */
+export interface DimensionsSaid<D extends Dimensions> {
+  /** The number of dimensions: it has to be said where it is not 2. */
+  dimensions: NoInfer<D>;
+}
+
+/** Refuses an option that there is not. `where` says what the options were given to. */
+export function checkNames(where: string, options: unknown): void {
+  checkOptions(where, options, optionNames);
+}
+
+/** A kernel that is as these options say. */
+export function open(options: BroadPhaseOptions<Dimensions> = {}): KernelInstance {
+  checkNames('new BroadPhase', options);
+  const {
+    dimensions = builtDimensions[0]!,
+    technique = 'auto',
+    cellSize,
+    bounds,
+    margin,
+    wrap,
+    touching = true,
+    events = false,
+    capacity = 0,
+  } = options;
+  checkDimensions(dimensions);
+  const number = checkTechnique(technique);
+  checkBoolean('events', events);
+  checkBoolean('touching', touching);
+  checkBoxCount('capacity', capacity);
+  const cells = cellSize === undefined ? undefined : checkCellSize(cellSize, dimensions);
+  if (bounds !== undefined) checkBounds(bounds, dimensions);
+  if (margin !== undefined) checkMargin(margin);
+  checkHeeded({ cellSize, bounds, margin });
+  if (wrap !== undefined) checkWrap(wrap, dimensions);
+
+  const instance = new KernelInstance(dimensions, wrap?.slice(), touching, events);
+  instance.setTechnique(number);
+  const { kernel } = instance;
+  if (events) kernel.set_events();
+  if (!touching) kernel.set_touching(0);
+  const io = instance.io();
+  if (cells) {
+    io.set(cells);
+    kernel.set_cell_size();
+  }
+  if (margin !== undefined) kernel.set_margin(margin);
+  if (wrap) {
+    io.set(wrap);
+    kernel.set_wrap();
+  }
+  if (bounds) {
+    io.set(bounds);
+    kernel.set_bounds();
+  }
+  try {
+    kernel.reserve(capacity);
+  } catch (error) {
+    instance.recover(error, 'capacity');
+  }
+  return instance;
+}
+
+function checkDimensions(dimensions: Dimensions): void {
+  if (builtDimensions.includes(dimensions)) return;
+  const more = builtDimensions.length > 1 ? '' : ": 'broadphase' has both 2 and 3";
+  badValue('dimensions', dimensions, `${builtDimensions.join(' or ')}${more}`);
+}
+
+/** Options that no technique of this build looks at: those who have them are in `broadphase/all`. */
+function checkHeeded(options: Record<string, unknown>): void {
+  if (isBuilt('spatial-grid')) return;
+  for (const [name, value] of Object.entries(options)) {
+    if (value === undefined) continue;
+    badValue(name, value, "it to be left out: the techniques that use it are in 'broadphase/all'");
+  }
+}
+
+/** One positive number per axis. */
+function checkCellSize(cellSize: number | readonly number[], dimensions: 2 | 3): readonly number[] {
+  const sizes = Array.isArray(cellSize) ? cellSize : new Array<unknown>(dimensions).fill(cellSize);
+  const expected = `a number above 0, or ${dimensions} of them, one per axis`;
+  if (sizes.length !== dimensions) badValue('cellSize', cellSize, expected);
+  for (const size of sizes) {
+    if (!isFinitePositive(size)) badValue('cellSize', cellSize, expected, typeof size !== 'number');
+  }
+  return sizes as number[];
+}
+
+function checkMargin(margin: unknown): void {
+  if (!isFinitePositive(margin)) badNumber('margin', margin, 'a number above 0');
+}
+
+function checkBounds(bounds: readonly number[], dimensions: 2 | 3): void {
+  const expected = `${2 * dimensions} finite numbers: minima, then larger maxima`;
+  if (!Array.isArray(bounds)) badValue('bounds', bounds, expected, true);
+  let good = bounds.length === 2 * dimensions && bounds.every(Number.isFinite);
+  for (let a = 0; a < dimensions; a++) good &&= bounds[a]! < bounds[a + dimensions]!;
+  if (!good) badValue('bounds', bounds, expected);
+}

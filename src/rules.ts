@@ -1,0 +1,58 @@
+// Who may be a pair with whom, and how it is read back. Rules belong to an id, and stand in the kernel beside its box.
+import { badNumber, checkBits, checkBoolean, checkId, isFinitePositive, noBox } from './errors.ts';
+import type { KernelInstance } from './kernel/instance.ts';
+
+/** Whom a box meets: see {@link BroadPhase.setFilter}. */
+export interface Filter {
+  /** What the box is: 32 bits. */
+  layer: number;
+  /** Whom it meets: 32 bits. */
+  mask: number;
+}
+
+type Call = 'set_filter' | 'set_static' | 'set_enabled' | 'set_group' | 'set_reach';
+
+export function setFilter(instance: KernelInstance, id: number, layer: number, mask: number): void {
+  checkId('setFilter', id);
+  checkBits('setFilter: layer', layer);
+  checkBits('setFilter: mask', mask);
+  tell(instance, 'setFilter', 'set_filter', id, layer, mask);
+}
+
+export function setStatic(instance: KernelInstance, id: number, isStatic: boolean): void {
+  checkId('setStatic', id);
+  checkBoolean('setStatic: isStatic', isStatic);
+  tell(instance, 'setStatic', 'set_static', id, isStatic ? 1 : 0);
+}
+
+export function setEnabled(instance: KernelInstance, id: number, enabled: boolean): void {
+  checkId('setEnabled', id);
+  checkBoolean('setEnabled: enabled', enabled);
+  tell(instance, 'setEnabled', 'set_enabled', id, enabled ? 1 : 0);
+}
+
+export function setGroup(instance: KernelInstance, id: number, group: number): void {
+  checkId('setGroup', id);
+  checkBits('setGroup: group', group);
+  tell(instance, 'setGroup', 'set_group', id, group);
+}
+
+export function setReach(instance: KernelInstance, id: number, distance: number): void {
+  checkId('setReach', id);
+  if (!isFinitePositive(distance, 0)) badNumber('setReach: distance', distance, 'a finite number, at least 0');
+  tell(instance, 'setReach', 'set_reach', id, distance);
+}
+
+function tell(instance: KernelInstance, where: string, call: Call, id: number, value: number, mask = 0): void {
+  try {
+    if (instance.kernel[call](id, value, mask) === 0) noBox(where, id);
+  } catch (error) {
+    instance.recover(error, where);
+  }
+}
+
+/** The kernel's numbers, which begin with the rule of this box: layer, mask, static, enabled, group, reach. */
+export function ruleOf(instance: KernelInstance, where: string, id: number): Float64Array | undefined {
+  checkId(where, id);
+  return instance.kernel.get_rule(id) === 1 ? instance.io() : undefined;
+}

@@ -1,0 +1,128 @@
+// The pairs of two spaces that are kept: those of a look at every two boxes, whatever came before. SEED=… runs a failure
+// again, RUNS=… runs more.
+import { BroadPhase } from 'broadphase';
+import { describe, expect, test } from 'vitest';
+import { copyOf } from '../support/asker.ts';
+import { type Entry, grown, Modelled, overlaps, touches } from '../support/model.ts';
+import type { Entries } from '../support/query-reference.ts';
+import { runs, seed } from '../support/runs.ts';
+import { wrappedOverlap } from '../support/wrapped-reference.ts';
+
+const keyOf = (a: number, b: number) => `${a} ${b}`;
+
+/** Pairs as texts, sorted. */
+function keys(pairs: Uint32Array): string[] {
+  const found: string[] = [];
+  for (let k = 0; k < pairs.length; k += 2) found.push(keyOf(pairs[k]!, pairs[k + 1]!));
+  return found.sort();
+}
+
+const meets = (a: Entry, b: Entry) => !a.isOff && !b.isOff && (a.layer & b.mask) !== 0 && (b.layer & a.mask) !== 0;
+
+function expected(here: Entries, there: Entries, wrap?: readonly number[], touching = true): string[] {
+  const found: string[] = [];
+  for (const [a, entry] of here) {
+    for (const [b, other] of there) {
+      const [one, its] = [grown(entry), grown(other)];
+      const overlap = wrap
+        ? wrappedOverlap(one, its, wrap, touching)
+        : touching
+          ? touches(one, { ...other, box: its })
+          : overlaps(one, its);
+      if (overlap && meets(entry, other)) found.push(keyOf(a, b));
+    }
+  }
+  return found.sort();
+}
+
+/** A space with its model, and what its last update saw. */
+class Side extends Modelled {
+  seen: Entries = new Map();
+  reaching = false;
+
+  change(count: number): void {
+    for (let n = 0; n < count; n++) {
+      if (this.reaching && this.random() < 0.1) this.setReach(this.id(), [0, 1, 3, 0.1][this.integer(4)]!);
+      else if (this.random() < 0.1) this.setEnabled(this.id(), this.random() < 0.5);
+      else if (this.random() < 0.7) this.set(this.id());
+      else this.step();
+    }
+  }
+  update(): void {
+    this.space.update();
+    this.seen = copyOf(this.entries);
+  }
+}
+
+const cases = ([2, 3] as const).flatMap((dimensions) =>
+  [undefined, [60, 45, 50].slice(0, dimensions)].flatMap((wrap) =>
+    [true, false].map((touching) => [dimensions, wrap, touching] as const),
+  ),
+);
+
+describe(`pairs with another space (SEED=${seed})`, () => {
+  test.each(cases)('in %iD, wrapped %j, touching %j', (dimensions, wrap, touching) => {
+    for (let round = 0; round < runs(12); round++) {
+      const options = { dimensions, touching, ...(wrap && { wrap }) } as never;
+      const here = new Side(options, seed + round);
+      const there = new Side(options, seed + round + 1000);
+      here.reaching = round % 4 === 1 || round % 4 === 3;
+      there.reaching = round % 4 > 1;
+      for (let frame = 0; frame < 40; frame++) {
+        for (const side of [here, there]) {
+          side.change(frame === 0 ? 60 : side.integer(3) * side.integer(6));
+          if (side.random() < 0.8) side.update();
+          if (side.random() < 0.3) side.change(3); // not seen before the next update
+        }
+        if (here.random() < 0.2) continue;
+        expect(keys(here.space.pairsWith(there.space))).toEqual(expected(here.seen, there.seen, wrap, touching));
+        if (here.random() < 0.3) {
+          expect(keys(there.space.pairsWith(here.space))).toEqual(expected(there.seen, here.seen, wrap, touching));
+        }
+      }
+    }
+  });
+
+  test('what rests is looked at once, and the same array comes again', () => {
+    const level = new BroadPhase().setAll(Array.from({ length: 400 }, (_, k) => (k >> 2) + (k & 2 ? 2 : 0))).update();
+    const movers = new BroadPhase().set(3, 5, 5, 6, 6).update();
+    const first = movers.pairsWith(level);
+    expect(movers.update().pairsWith(level)).toBe(first);
+    expect(keys(first)).toEqual(['3 3', '3 4', '3 5', '3 6']);
+  });
+
+  test('a snapshot that is put back is seen', () => {
+    const level = new BroadPhase().set(1, 0, 0, 9, 9).update();
+    const movers = new BroadPhase().set(7, 0, 0, 1, 1).update();
+    const saved = movers.snapshot();
+    movers.set(7, 20, 20, 21, 21).update();
+    expect(movers.pairsWith(level).length).toBe(0);
+    expect([...movers.restore(saved).pairsWith(level)]).toEqual([7, 1]);
+  });
+
+  test('what is no other space is refused by name', () => {
+    const space = new BroadPhase();
+    const call = (other: unknown) => () => space.pairsWith(other as never);
+    expect(call(space)).toThrow('pairsWith: got the space itself, expected another');
+    expect(call(undefined)).toThrow('pairsWith: got undefined, expected another BroadPhase');
+    expect(call({})).toThrow(TypeError);
+    expect(call(new BroadPhase({ dimensions: 3 }))).toThrow('pairsWith: dimensions of the other: got 3, expected 2');
+    expect(call(new BroadPhase({ wrap: [9, 9] }))).toThrow('pairsWith: wrap of the other: got [9, 9], expected none');
+    expect(call(new BroadPhase({ touching: false }))).toThrow(
+      'touching of the other: got false, expected true as here',
+    );
+    const gone = new BroadPhase();
+    gone.dispose();
+    expect(call(gone)).toThrow('pairsWith: the other BroadPhase was disposed');
+    expect(() => gone.pairsWith(space)).toThrow('this BroadPhase was disposed');
+  });
+
+  test('a large space that was changed before it was asked says so, and is whole after', () => {
+    const boxes = Array.from({ length: 4 * 20_000 }, (_, k) => (k >> 2) + (k & 2 ? 1 : 0));
+    const level = new BroadPhase().setAll(boxes).update();
+    const movers = new BroadPhase().set(7, 0, 0, 0.5, 0.5).update();
+    level.set(0, 5, 5, 6, 6);
+    expect(() => movers.pairsWith(level)).toThrow('pairsWith: boxes have changed since the last update');
+    expect([...movers.pairsWith(level.set(0, 0, 0, 1, 1).update())]).toEqual([7, 0]);
+  });
+});

@@ -1,0 +1,87 @@
+// The model that random calls are compared with: a Map of what each box was given, and what the last update saw.
+import type { BroadPhase } from 'broadphase';
+import type fc from 'fast-check';
+import { expect } from 'vitest';
+import { expectKeys } from '../../support/expect-pairs.ts';
+import { type Entry, pairsOf } from '../../support/model.ts';
+import { keyOf } from '../../support/reference.ts';
+
+export const all = 0xffffffff;
+
+export interface Model {
+  entries: Map<number, Entry>;
+  /** Deleted since the last update. */
+  gone: Set<number>;
+  /** The keys of the pairs of the last update: of this space, and of the one that was saved. */
+  shown: Set<number>;
+  before: Set<number>;
+  began: number[];
+  ended: number[];
+  /** What questions see: what stood there at the last update, whether or not one was asked before. */
+  seen: Map<number, Entry>;
+  /** What `boxes()` gave, while its rows stand for the ids 0, 1, 2, …. */
+  view: Float32Array | undefined;
+  saved?: Pick<Model, 'entries' | 'gone' | 'before' | 'began' | 'ended'> & { bytes: Uint8Array };
+}
+
+export const copy = (entries: ReadonlyMap<number, Entry>) =>
+  new Map([...entries].map(([id, entry]) => [id, { ...entry }]));
+export const ascending = (numbers: Iterable<number>) => [...numbers].sort((a, b) => a - b);
+
+class Call implements fc.Command<Model, BroadPhase> {
+  readonly #name: string;
+  readonly run: (model: Model, space: BroadPhase<2 | 3>) => void;
+  constructor(name: string, run: (model: Model, space: BroadPhase<2 | 3>) => void) {
+    this.#name = name;
+    this.run = run;
+  }
+  check = () => true;
+  toString = () => this.#name;
+}
+
+export function put(model: Model, id: number, box: number[]): void {
+  const known = model.entries.get(id);
+  model.entries.set(id, { layer: all, mask: all, isStatic: false, ...known, box });
+}
+
+export function replace(model: Model, boxes: readonly number[][]): void {
+  for (const id of [...model.entries.keys()]) {
+    if (id < boxes.length) continue;
+    model.entries.delete(id);
+    model.gone.add(id);
+  }
+  boxes.forEach((box, id) => {
+    put(model, id, box);
+  });
+}
+
+export function update(model: Model, space: BroadPhase<2 | 3>): void {
+  expect(space.update()).toBe(space);
+  const { dimensions } = space;
+  const keys = pairsOf(model.entries, dimensions);
+  expectKeys(space, keys);
+  const now = new Set(keys);
+  const isGone = (key: number) => model.gone.has(Math.floor(key / 2 ** 24)) || model.gone.has(key % 2 ** 24);
+  model.began = ascending([...now].filter((key) => !model.before.has(key) || isGone(key)));
+  model.ended = ascending([...model.before].filter((key) => !now.has(key) || isGone(key)));
+  expectEvents(model, space);
+  model.shown = model.before = now;
+  model.gone = new Set();
+  model.seen = copy(model.entries);
+  expect(space.stats.pairs).toBe(space.pairCount);
+  space.validate();
+}
+
+export function expectEvents(model: Model, space: BroadPhase<2 | 3>): void {
+  const keysIn = (pairs: Uint32Array) =>
+    ascending(Array.from({ length: pairs.length / 2 }, (_, k) => keyOf(pairs[2 * k], pairs[2 * k + 1])));
+  expect(keysIn(space.began)).toEqual(model.began);
+  expect(keysIn(space.ended)).toEqual(model.ended);
+}
+
+export type RandomCall = fc.Arbitrary<fc.Command<Model, BroadPhase>>;
+
+export const call = (name: string, run: (model: Model, space: BroadPhase<2 | 3>) => void) => new Call(name, run);
+
+/** The space, for calls that its types do not allow, or that are made by name. */
+export const on = (space: BroadPhase<2 | 3>) => space as unknown as Record<string, (...given: unknown[]) => unknown>;
