@@ -160,10 +160,6 @@ EXPORT(replace)(u32 count, u32 doubles) -> i32 {
 EXPORT(expose)(u32 count) -> f32* {
   return with_space([&](auto& space) { return space.store.expose(count); });
 }
-/// A number of a box that was staged, for the message that says why it is bad.
-EXPORT(staged_number)(u32 index, u32 doubles) -> f64 {
-  return with_space([&](auto& space) { return space.store.numbers.staged_number(index, doubles != 0); });
-}
 
 /// The bytes of a snapshot; in io, how many, and the first bad id among boxes written in place (-1: none).
 EXPORT(save)() -> const u64* {
@@ -238,7 +234,10 @@ EXPORT(answers_address)() -> u32* {
 /// whether what only touches counts, the radius
 /// (negative: none; -2: boxes are to be within the box), the limit, the rank of the hit to go on behind, whose id is
 /// `after`, and the planes, each a normal and an offset.
-enum : u32 { touching_at = 11, radius_at = 12, limit_at = 13, after_at = 14, planes_at = 15, no_id = 0xffffffff };
+enum Place : u32 { touching_at = 11, radius_at = 12, limit_at = 13, after_at = 14, planes_at = 15 };
+inline constexpr u32 no_id = 0xffffffff;
+/// What hits are in order of: what is nearest, on a ray, or on the way of a box that is to stop.
+enum class Order : u32 { near, ray, way };
 
 template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignored) {
   for (int a = 0; a < D; a++) {
@@ -277,13 +276,13 @@ EXPORT(ask_planes)(u32 planes, u32 mask, u32 ignored, u32 from, u32 most) -> u32
     return count;
   });
 }
-/// The number of hits: of what is nearest (0), on a ray (1), or on the way of a box that is to stop (2).
+/// The number of hits, in an Order.
 EXPORT(ask_order)(u32 kind, u32 mask, u32 ignored, u32 after, u32 most) -> u32 {
   return with_space([&](auto& space) {
     read_question(space.questions.asked, mask, ignored);
-    space.questions.asked.measure_way(kind == 1);
+    space.questions.asked.measure_way(Order(kind) == Order::ray);
     Hit last{io[after_at], after, 0};
-    return space.questions.ask_order(kind != 0, most, after == no_id ? nullptr : &last);
+    return space.questions.ask_order(Order(kind) != Order::near, most, after == no_id ? nullptr : &last);
   });
 }
 /// Many questions: where their numbers go, and then of each the id it ignores.
@@ -359,9 +358,9 @@ EXPORT(structure_count)() -> u32 {
 EXPORT(validate)() -> u32 {
   return with_space([](auto& space) {
     u32 detail;
-    u32 broken = space.validate(detail);
+    Broken broken = space.validate(detail);
     io[0] = detail;
-    return broken;
+    return u32(broken);
   });
 }
 

@@ -1,4 +1,5 @@
-// Compiles kernel/ to freestanding wasm, with all techniques and with a few, and inlines each for the library.
+// Compiles kernel/ to freestanding wasm, with all techniques and with a few, and inlines each for the library; and writes
+// what the two have in common (abi.mjs).
 // Rebuilt only when a source, a flag or the compiler changed: their hash is kept beside the result.
 //
 //   node scripts/kernel.mjs              the two that tests and pages need
@@ -7,6 +8,7 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { writeAbi } from './abi.mjs';
 import { compile, flags, kernelSources, lean, only, techniqueNames } from './compile.mjs';
 import { moduleOf } from './inline.mjs';
 
@@ -32,6 +34,7 @@ const sources = common.digest('hex');
 
 mkdirSync(join(root, 'build'), { recursive: true });
 mkdirSync(join(root, 'src/generated'), { recursive: true });
+writeAbi();
 let decoder;
 for (const kernel of kernels) {
   if (!kernel.ofPackage || process.argv.includes('--package')) {

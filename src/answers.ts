@@ -3,7 +3,8 @@
 // here the answers are copied to where they are wanted. A visitor gets them in parts, so that the search ends where it
 // says so, and may ask questions itself.
 import { badQuestion, badValue, checkOptions, checkOut, maxId } from './errors.ts';
-import { ioLength, type KernelInstance } from './kernel/instance.ts';
+import { afterAt, ioLength, orderNear, orderRay, orderWay, touchingAt } from './generated/abi.ts';
+import type { KernelInstance } from './kernel/instance.ts';
 import {
   type AreaOptions,
   checkVisitor,
@@ -17,18 +18,6 @@ import {
   type PlanesOptions,
   type QueryOptions,
 } from './query-options.ts';
-
-// Places in the kernel's array of numbers: see kernel/abi.cpp.
-const touchingAt = 11;
-export const radiusAt = 12;
-export const limitAt = 13;
-const afterAt = 14;
-export const planesAt = 15;
-
-/** What the kernel is asked for: see there. */
-export const near = 0;
-export const onRay = 1;
-export const onWay = 2;
 
 /** In place of a number of planes: the box or circle that stands in the array. */
 const shape = -1;
@@ -48,7 +37,7 @@ class Visit {
   readonly ids = new Uint32Array(part);
   readonly ranks = new Float64Array(part);
   readonly sides = new Int32Array(part);
-  readonly hits = { [onRay]: { id: 0, distance: 0, normal: [] }, [onWay]: { id: 0, time: 0, normal: [] } };
+  readonly hits = { [orderRay]: { id: 0, distance: 0, normal: [] }, [orderWay]: { id: 0, time: 0, normal: [] } };
 }
 
 // One for each question whose visitor is being called, of whichever space: a visitor may ask again.
@@ -259,7 +248,7 @@ function walk(
   const ignored = ignoredOf(where, options);
   const others = othersIgnored(options);
   const visit = startVisit(instance);
-  const hit = into ?? (kind === near ? undefined : visit.hits[kind as typeof onRay]);
+  const hit = into ?? (kind === orderNear ? undefined : visit.hits[kind as typeof orderRay]);
   try {
     for (let left = most, after = nobody; left > 0; ahead = part) {
       const wanted = Math.min(left + (others?.length ?? 0), ahead);
@@ -303,7 +292,7 @@ function keepHits(instance: KernelInstance, visit: Visit, count: number): void {
 
 function writeHit(instance: KernelInstance, visit: Visit, k: number, kind: number, hit: Hit): void {
   hit.id = visit.ids[k]! & maxId;
-  if (kind === onRay) hit.distance = visit.ranks[k]!;
+  if (kind === orderRay) hit.distance = visit.ranks[k]!;
   else hit.time = visit.ranks[k]!;
   writeNormal(instance, visit.sides[k]!, hit.normal);
 }

@@ -1,6 +1,6 @@
 // Many questions in one call: numbers of all of them in, the answers of all of them out, in typed arrays.
 // The kernel answers them (kernel/questions/bulk.hpp); here they are checked, and the answers copied.
-import { isNumber, known, limitAt, number, point2, point3, tellTouching, tooFar } from './answers.ts';
+import { isNumber, known, number, point2, point3, tellTouching, tooFar } from './answers.ts';
 import type { Dimensions } from './dimensions.ts';
 import {
   badId,
@@ -15,6 +15,7 @@ import {
   sweep2,
   sweep3,
 } from './errors.ts';
+import { asks, limitAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { ray2, ray3 } from './queries.ts';
 import {
@@ -38,9 +39,6 @@ export type Answer = ManyIds & {
   of?: Uint32Array;
 };
 type Options = ManyBoxOptions & ManyFarOptions<Answer>;
-
-/** What the kernel is asked: see there. */
-const kinds = { nearest: 0, ray: 1, way: 2, box: 3, within: 4, point: 5, circle: 6, others: 7 };
 
 const arrays = {
   ids: Uint32Array,
@@ -82,13 +80,13 @@ interface Question {
 
 /** By the name of the call. */
 const questions = {
-  queryBoxes: { kind: kinds.box, names: corners, parts: idParts, options: boxOptions },
-  queryPoints: { kind: kinds.point, names: points, parts: idParts, options: areaOptions },
-  queryCircles: { kind: kinds.circle, names: circles, parts: idParts, options: areaOptions },
-  rayCasts: { kind: kinds.ray, names: rays, parts: rayParts, options: farOptions },
-  sweeps: { kind: kinds.way, names: ways, parts: wayParts, options: idOptions },
-  nearests: { kind: kinds.nearest, names: points, parts: nearParts, options: farOptions },
-  nearestsOfAll: { kind: kinds.others, names: nobodys, parts: ofParts, options: ofAllOptions },
+  queryBoxes: { kind: asks.box, names: corners, parts: idParts, options: boxOptions },
+  queryPoints: { kind: asks.point, names: points, parts: idParts, options: areaOptions },
+  queryCircles: { kind: asks.circle, names: circles, parts: idParts, options: areaOptions },
+  rayCasts: { kind: asks.ray, names: rays, parts: rayParts, options: farOptions },
+  sweeps: { kind: asks.way, names: ways, parts: wayParts, options: idOptions },
+  nearests: { kind: asks.nearest, names: points, parts: nearParts, options: farOptions },
+  nearestsOfAll: { kind: asks.others, names: nobodys, parts: ofParts, options: ofAllOptions },
 } satisfies Record<string, Question>;
 
 /** Checks questions, asks them, and collects the answers: of each at most so many. */
@@ -104,10 +102,10 @@ export function askMany(
   const names = question.names[instance.dimensions];
   const { parts } = question;
   let { kind } = question;
-  if (kind === kinds.box) {
+  if (kind === asks.box) {
     const within = options?.within ?? false;
     if (typeof within !== 'boolean') badValue(`${where}: within`, within, 'true or false', true);
-    if (within) kind = kinds.within;
+    if (within) kind = asks.within;
   }
   // Told apart, as a large number that is returned would be garbage.
   if (!isCount(most)) checkMost(where, most);
@@ -137,7 +135,7 @@ export function askMany(
     else doubles.set(ignoreEach, at + length);
     const bad = instance.kernel.bad_question(kind, count);
     if (bad >= 0) badNumbers(where, numbers, bad, names);
-    instance.io()[limitAt] = kind === kinds.way ? 1 : maxDistance;
+    instance.io()[limitAt] = kind === asks.way ? 1 : maxDistance;
     const asked = known(where, instance.kernel.ask_many(kind, count, mask, Math.min(most, everything)));
     return collect(instance, kind, asked, parts, out);
   } catch (error) {
@@ -155,13 +153,13 @@ function checkFar(
 ): void {
   const most = instance.farthest;
   if (most === Number.POSITIVE_INFINITY) return;
-  if (kind === kinds.ray && maxDistance > most && maxDistance < Number.POSITIVE_INFINITY) {
+  if (kind === asks.ray && maxDistance > most && maxDistance < Number.POSITIVE_INFINITY) {
     tooFar(`${where}: maxDistance`, maxDistance, most);
   }
   const each = instance.width + instance.dimensions;
   for (
     let k = instance.width;
-    kind === kinds.way && k < numbers.length;
+    kind === asks.way && k < numbers.length;
     k += k % each === each - 1 ? instance.width + 1 : 1
   ) {
     if (Math.abs(numbers[k]!) > most) tooFar(`${where}: question ${Math.floor(k / each)}: the way`, numbers[k]!, most);
@@ -187,7 +185,7 @@ function collect(
   }
   const answer = to as unknown as Answer;
   const { ids, offsets, of } = answer;
-  const ordered = kind < kinds.box || kind === kinds.others;
+  const ordered = kind < asks.box || kind === asks.others;
   const first = (ordered ? instance.kernel.many_hits_address() : instance.kernel.many_ids_address()) >>> 2;
   for (let k = 0; k <= count; k++) offsets[k] = words[ends + k]!;
   for (let n = 0; n < total; n++) {

@@ -7,13 +7,12 @@
 // that is loose, and a pass over the pairs.
 import { known, tellTouching } from './answers.ts';
 import { badValue } from './errors.ts';
+import { asks } from './generated/abi.ts';
 import { grow, Kept, meet, reachOut, roomFor, rowMore, type Side } from './kept-pairs.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { everything, nobody } from './query-options.ts';
 
 const where = 'pairsWith';
-/** What the kernel is asked: the boxes that overlap a box, and that it meets by its filter. Answers are slots. */
-const meeting = 8;
 
 /** `keptOf` holds what is kept with each other space. */
 export function pairsWith(
@@ -206,7 +205,7 @@ function ask(
     }
     tellTouching(other, where, undefined);
     to.fill(nobody, at + count * step, at + count * (step + 1));
-    other.kernel.ask_many(meeting, count, everything, 1);
+    other.kernel.ask_many(asks.meeting, count, everything, 1);
     return other.kernel.offsets_address() >>> 2;
   } catch (error) {
     other.recover(error, where);

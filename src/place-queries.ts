@@ -1,6 +1,7 @@
 // The questions about places: who collides with whom, and what is in a box, at a point, or in a circle.
-import { area, copyIds, isNumber, number, point, radiusAt } from './answers.ts';
+import { area, copyIds, isNumber, number, point } from './answers.ts';
 import { badId, badQuestion, badValue, checkOut, corners, isId } from './errors.ts';
+import { radiusAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { type BoxOptions, boxOptions, checkDistance, type IdsOptions } from './query-options.ts';
 

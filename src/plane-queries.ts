@@ -1,6 +1,7 @@
 // The question about planes: what a camera sees.
-import { area, planesAt } from './answers.ts';
+import { area } from './answers.ts';
 import { badValue, checkNumberArray } from './errors.ts';
+import { planesAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import type { PlanesOptions } from './query-options.ts';
 

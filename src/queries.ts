@@ -7,12 +7,8 @@ import {
   firstAccepted,
   isNumber,
   isPlace,
-  limitAt,
-  near,
   none,
   number,
-  onRay,
-  onWay,
   order,
   point,
   point2,
@@ -23,6 +19,7 @@ import {
   visitOrder,
 } from './answers.ts';
 import { badHit, badQuestion, badValue, checkOptions, checkOut, isHit, isSize, sweep2, sweep3 } from './errors.ts';
+import { limitAt, orderNear, orderRay, orderWay } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import {
   checkDistance,
@@ -57,9 +54,9 @@ export function rayCast(
   if (options?.out !== undefined && !isHit(options.out)) badHit('rayCast: out', options.out, 'distance');
   if (options?.accept !== undefined) {
     const hit: RayHit = options.out ?? { id: 0, distance: 0, normal: [] };
-    return firstAccepted(instance, 'rayCast', onRay, options, hit, options.accept as Accept) ? hit : undefined;
+    return firstAccepted(instance, 'rayCast', orderRay, options, hit, options.accept as Accept) ? hit : undefined;
   }
-  if (order(instance, 'rayCast', onRay, options, 1) === 0) return undefined;
+  if (order(instance, 'rayCast', orderRay, options, 1) === 0) return undefined;
   const hit: RayHit = options?.out ?? { id: 0, distance: 0, normal: [] };
   hit.distance = instance.doubleView()[readHit(instance, 0, hit)]!;
   return hit;
@@ -78,13 +75,13 @@ export function rayCastAll(
 ): RayHit[] {
   options = ray(instance, 'rayCastAll', farOptions, a, b, c, d, e, f, options);
   if (options?.visit !== undefined) {
-    visitOrder(instance, 'rayCastAll', onRay, options, everything, options.visit as Visitor);
+    visitOrder(instance, 'rayCastAll', orderRay, options, everything, options.visit as Visitor);
     return none as RayHit[];
   }
   const out = options?.out ?? [];
   checkOut('rayCastAll', out);
   for (let k = 0; k < out.length; k++) if (!isHit(out[k])) badHit(`rayCastAll: out[${k}]`, out[k], 'distance');
-  const count = order(instance, 'rayCastAll', onRay, options, everything);
+  const count = order(instance, 'rayCastAll', orderRay, options, everything);
   for (let k = 0; k < count; k++) {
     const hit = out[k] ?? spare.pop() ?? { id: 0, distance: 0, normal: [] };
     hit.distance = instance.doubleView()[readHit(instance, k, hit)]!;
@@ -140,15 +137,15 @@ export function sweep(
   }
   checkOptions('sweep', options, sweepOptions);
   if (options?.visit !== undefined) {
-    visitOrder(instance, 'sweep', onWay, options, everything, options.visit as Visitor);
+    visitOrder(instance, 'sweep', orderWay, options, everything, options.visit as Visitor);
     return undefined;
   }
   if (options?.out !== undefined && !isHit(options.out)) badHit('sweep: out', options.out, 'time');
   if (options?.accept !== undefined) {
     const hit: SweepHit = options.out ?? { id: 0, time: 0, normal: [] };
-    return firstAccepted(instance, 'sweep', onWay, options, hit, options.accept as Accept) ? hit : undefined;
+    return firstAccepted(instance, 'sweep', orderWay, options, hit, options.accept as Accept) ? hit : undefined;
   }
-  if (order(instance, 'sweep', onWay, options, 1) === 0) return undefined;
+  if (order(instance, 'sweep', orderWay, options, 1) === 0) return undefined;
   const hit: SweepHit = options?.out ?? { id: 0, time: 0, normal: [] };
   hit.time = instance.doubleView()[readHit(instance, 0, hit)]!;
   return hit;
@@ -177,14 +174,14 @@ export function nearest(
   checkDistance('nearest: maxDistance', maxDistance);
   instance.io()[limitAt] = maxDistance;
   if (options?.visit !== undefined) {
-    visitOrder(instance, 'nearest', near, options, wanted, options.visit);
+    visitOrder(instance, 'nearest', orderNear, options, wanted, options.visit);
     return none as number[];
   }
   const out = options?.out ?? [];
   checkOut('nearest', out);
   const distances = options?.distances;
   if (distances !== undefined && !Array.isArray(distances)) badValue('nearest: distances', distances, 'an array', true);
-  const count = order(instance, 'nearest', near, options, wanted);
+  const count = order(instance, 'nearest', orderNear, options, wanted);
   const words = instance.wordView();
   const first = instance.kernel.hits_address();
   for (let n = 0; n < count; n++) out[n] = words[(first >>> 2) + 4 * n + 2]!;

@@ -2,9 +2,9 @@
 import { badInPlace } from './boxes.ts';
 import type { Dimensions } from './dimensions.ts';
 import { badValue } from './errors.ts';
+import { snapshotFaults, techniques } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { readStats, type Stats } from './stats.ts';
-import { techniques } from './techniques.ts';
 import { bytesOf } from './values.ts';
 
 /** Bytes in front of what stands in the space, and the version of them that this library writes. */
@@ -71,18 +71,18 @@ function snapshotBytes(value: unknown): Uint8Array {
   );
 }
 
-/** `fault` is kernel/space/snapshot.hpp's SnapshotFault. */
+/** `fault` is the number of one of `snapshotFaults`. */
 function badSnapshot(fault: number, bytes: Uint8Array, dimensions: Dimensions): never {
   const technique = techniques[bytes[7]!] ?? `number ${bytes[7]}`;
-  const reasons = [
-    '',
-    `got ${bytes.length} bytes that are not a snapshot, expected those of snapshot()`,
-    `got a snapshot of format ${bytes[4]}, expected at most ${newest}: it was made by a newer version of this library`,
-    `got ${bytes.length} bytes, which is not the snapshot's length: it was cut off, or something follows it`,
-    'the snapshot is damaged: its checksum or its header is wrong',
-    `got a snapshot of a space with ${bytes[5]! & 15} dimensions, expected ${dimensions}`,
-    `got a snapshot of a space with the technique ${technique}, which is not available here: 'broadphase/all' has all`,
-    'the snapshot has contents that no space can have, so snapshot() did not make it',
-  ];
-  throw new RangeError(`restore: ${reasons[fault]}`);
+  const reasons: Record<(typeof snapshotFaults)[number], string> = {
+    none: '',
+    foreign: `got ${bytes.length} bytes that are not a snapshot, expected those of snapshot()`,
+    newer: `got a snapshot of format ${bytes[4]}, expected at most ${newest}: it was made by a newer version of this library`,
+    length: `got ${bytes.length} bytes, which is not the snapshot's length: it was cut off, or something follows it`,
+    damaged: 'the snapshot is damaged: its checksum or its header is wrong',
+    dimensions: `got a snapshot of a space with ${bytes[5]! & 15} dimensions, expected ${dimensions}`,
+    technique: `got a snapshot of a space with the technique ${technique}, which is not available here: 'broadphase/all' has all`,
+    content: 'the snapshot has contents that no space can have, so snapshot() did not make it',
+  };
+  throw new RangeError(`restore: ${reasons[snapshotFaults[fault]!]}`);
 }

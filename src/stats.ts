@@ -1,15 +1,18 @@
 // The counters of the last update, read out of the kernel's memory (kernel/search/stats.hpp).
+import {
+  bytesStat,
+  candidatesStat,
+  cellsStat,
+  entriesStat,
+  pairsStat,
+  reasonStat,
+  reasons,
+  techniqueStat,
+  techniques,
+  testsStat,
+} from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-import { type TechniqueName, techniques } from './techniques.ts';
-
-const reasons = [
-  'asked for',
-  'a handful of boxes',
-  'what was found is kept: boxes rest or move little',
-  'all is found anew: how boxes move is being watched',
-  'all is found anew: boxes move too far, or there are few',
-  'all is found anew: after a snapshot, no update before may show in the order of pairs',
-] as const;
+import type { TechniqueName } from './techniques.ts';
 
 /** Why a technique ran. */
 export type Reason = (typeof reasons)[number];
@@ -49,12 +52,12 @@ export const noStats = (): Stats => ({
 /** Makes the counters those of the last update. */
 export function readStats(instance: KernelInstance, stats: Stats): void {
   const from = instance.statsView();
-  stats.tests = from[0]!;
-  stats.candidates = from[1]!;
-  stats.pairs = from[2]!;
-  stats.cells = from[3]!;
-  stats.entries = from[4]!;
-  stats.bytes = from[5]!;
-  stats.technique = techniques[from[6]!]!;
-  stats.reason = reasons[from[7]!]!;
+  stats.tests = from[testsStat]!;
+  stats.candidates = from[candidatesStat]!;
+  stats.pairs = from[pairsStat]!;
+  stats.cells = from[cellsStat]!;
+  stats.entries = from[entriesStat]!;
+  stats.bytes = from[bytesStat]!;
+  stats.technique = techniques[from[techniqueStat]!]!;
+  stats.reason = reasons[from[reasonStat]!]!;
 }

@@ -1,24 +1,10 @@
 // The techniques by name, and which of them this build has.
 
 import { badValue } from './errors.ts';
+import { techniques } from './generated/abi.ts';
 import { builtTechniques } from './kernel/load.ts';
 
-/** All that there are, in the order of the kernel's numbers, which stand in snapshots: new ones go before 'auto'. */
-export const techniques = [
-  'brute-force',
-  'spatial-grid',
-  'retained-grid',
-  'home-cell-grid',
-  'hierarchical-grid',
-  'sweep-and-prune',
-  'strip-sweep',
-  'quadtree',
-  'bsp-tree',
-  'r-tree',
-  'aabb-tree',
-  'incremental',
-  'auto',
-] as const;
+export { techniques };
 
 /** The name of a technique. */
 export type TechniqueName = (typeof techniques)[number];

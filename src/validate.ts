@@ -1,15 +1,6 @@
-// What is wrong with a space whose invariants do not hold, in words.
+// A look into a space: whether its invariants hold, and the cells that it searched in.
+import { broken } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-
-/** By the kernel's number of them: see Space::validate in kernel/space/space.hpp. */
-const broken = [
-  '',
-  'ids and slots do not name each other, at id',
-  'a box has a NaN or a minimum above its maximum, id',
-  'a box is not what its numbers are rounded to, id',
-  '',
-  'a pair is not in order, number',
-];
 
 export function validate(instance: KernelInstance): void {
   const code = instance.kernel.validate();

@@ -153,7 +153,7 @@ describe.skipIf(!installed)('broadphase join', () => {
     ]);
     expect(await wrong(file('boxes.parquet'), file('boxes.parquet'))).toEqual([
       2,
-      expect.stringContaining('is to be read'),
+      expect.stringContaining('is an input'),
     ]);
   });
 });

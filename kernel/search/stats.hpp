@@ -2,8 +2,15 @@
 #pragma once
 #include "base/simd.hpp"
 
-/// Why a technique ran, in the order of `reasons` in src/broad-phase.ts.
-enum class Reason : u32 { asked_for, handful, kept, watching, moving, ordered };
+/// Why a technique ran. The comments are the words of `stats.reason`: scripts/abi.mjs takes them from here.
+enum class Reason : u32 {
+  asked_for,  // asked for
+  handful,    // a handful of boxes
+  kept,       // what was found is kept: boxes rest or move little
+  watching,   // all is found anew: how boxes move is being watched
+  moving,     // all is found anew: boxes move too far, or there are few
+  ordered,    // all is found anew: after a snapshot, no update before may show in the order of pairs
+};
 
 struct Stats {
   f64 tests = 0;       // boxes tested against boxes

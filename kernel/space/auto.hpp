@@ -1,5 +1,5 @@
 // What `auto` stands for in an update, and how that is told.
-// Which of them, and why (the words are those of `reasons` in src/broad-phase.ts):
+// Which of them, and why (the words are those of Reason in search/stats.hpp):
 //   - A handful of boxes: all against all, which costs less than to look at them first.
 //   - From the first snapshot on, strip sweep: it keeps nothing, so that no update before shows in the order of pairs.
 //   - Else incremental, which answers by what it keeps where that costs less, by strip sweep where it does not, and

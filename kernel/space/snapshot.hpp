@@ -37,7 +37,7 @@ enum SnapshotPart : u8 {
   has_groups = 128
 };
 
-/// Why bytes are refused: src/snapshot.ts says it in words.
+/// Why bytes are refused: src/snapshot.ts says it in words, by these names.
 enum class SnapshotFault : u32 { none, foreign, newer, length, damaged, dimensions, technique, content };
 
 class Snapshot {

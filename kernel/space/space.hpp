@@ -9,6 +9,15 @@
 #include "space/questions.hpp"
 #include "space/settle.hpp"
 
+/// What `validate` finds. The comments are what it says: scripts/abi.mjs takes them from here.
+enum class Broken : u32 {
+  nothing,  // nothing
+  ids,  // ids and slots do not name each other, at id
+  box,  // a box has a NaN or a minimum above its maximum, id
+  rounded,  // a box is not what its numbers are rounded to, id
+  pair,  // a pair is not in order, number
+};
+
 template <int D> class Space {
   const Settings& options_;
   SceneBuilder<D> builder_;
@@ -126,17 +135,17 @@ template <int D> class Space {
     stats.bytes = f64(heap::used);
   }
 
-  /// The number of the first invariant that does not hold (see src/broad-phase.ts), or 0; `detail`: where.
-  SMALL u32 validate(u32& detail) {
+  /// The first invariant that does not hold; `detail`: where.
+  SMALL Broken validate(u32& detail) {
     store.see_written();
     detail = 0;
     const Ids& ids = store.ids;
-    if (!ids.valid()) return 1;
+    if (!ids.valid()) return Broken::ids;
     i32 bad = store.numbers.written.in_place() ? -1 : store.numbers.first_bad(ids.count());
-    u32 broken = 2;
+    Broken broken = Broken::box;
     if (bad < 0) {
       bad = store.numbers.first_unrounded(ids.count());
-      broken = 3;
+      broken = Broken::rounded;
     }
     if (bad >= 0) {
       detail = ids.id(u32(bad));
@@ -145,9 +154,9 @@ template <int D> class Space {
     for (u64 p = 0; p < pairs.count; p++) {
       u32 a = u32(pairs.list[p]), b = u32(pairs.list[p] >> 32);
       detail = u32(p);
-      if (a >= b) return 5;
+      if (a >= b) return Broken::pair;
     }
-    return 0;
+    return Broken::nothing;
   }
 
  private:

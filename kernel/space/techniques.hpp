@@ -16,7 +16,8 @@
 #include "techniques/strip_sweep.hpp"
 #include "techniques/sweep_and_prune.hpp"
 
-/// In the order of BroadPhase.techniques.
+/// In the order of BroadPhase.techniques, which scripts/abi.mjs makes of them. Their numbers stand in snapshots, so new ones
+/// go in front of `automatic`, which is another number there.
 enum class Technique : u32 {
   brute_force,
   spatial_grid,

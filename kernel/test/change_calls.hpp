@@ -160,7 +160,7 @@ template <int D> class ChangeCalls {
     CHECK(space_.update() == i32(bad));
     CHECK(space_.pairs.count == pairs);
     u32 detail;
-    CHECK(space_.validate(detail) == 0);
+    CHECK(space_.validate(detail) == Broken::nothing);
     set(bad, good);
   }
 };

@@ -35,7 +35,7 @@ template <int D> struct Fixture {
   }
   void boxes_unchanged() {
     u32 detail;
-    bool same = space.validate(detail) == 0 && instance->ids.count() == model.count();
+    bool same = space.validate(detail) == Broken::nothing && instance->ids.count() == model.count();
     for (u32 id : model.ids()) {
       Box<D> held;
       same &= space.store.get(id, held.data()) && held == model.at(id);

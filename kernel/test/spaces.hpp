@@ -24,7 +24,7 @@ template <int D> void check_pairs(Space<D>& space, const PairList& expected) {
   CHECK(space.update() == -1);
   CHECK(sorted_pairs(space) == expected);
   u32 detail;
-  CHECK(space.validate(detail) == 0);
+  CHECK(space.validate(detail) == Broken::nothing);
   space.structure();
 }
 
@@ -233,7 +233,7 @@ template <int D> void check_rounding() {
     CHECK(space.store.get(3, held.data()));
     CHECK(held == box);
     u32 detail;
-    CHECK(space.validate(detail) == 0);
+    CHECK(space.validate(detail) == Broken::nothing);
     f32* floats = space.store.expose(4) + 3 * 2 * D;
     for (u32 n = 0; n < 2 * D; n++) CHECK(bits<u32>(floats[n]) == bits<u32>(f32(x)));
   }
@@ -258,7 +258,7 @@ template <int D> void check_exposed() {
   boxes[4 * 2 * D + 1] = std::nanf("");
   CHECK(space.update() == 4);
   CHECK(space.pairs.count == 10);
-  CHECK(space.validate(detail) == 0);
+  CHECK(space.validate(detail) == Broken::nothing);
 
   CHECK(space.store.remove(1));  // box 4 moves to the slot of box 1
   CHECK(space.update() == 4);
@@ -266,13 +266,13 @@ template <int D> void check_exposed() {
   Box<D> rounded = cube<D>(0.1, 0.1);
   set(space, 2, rounded.data());
   CHECK(space.update() == 4);
-  CHECK(space.validate(detail) == 0);
+  CHECK(space.validate(detail) == Broken::nothing);
 
   Box<D> good = cube<D>(0, 0);
   set(space, 4, good.data());
   CHECK(space.update() == -1);
   CHECK(space.pairs.count == 3);
-  CHECK(space.validate(detail) == 0);
+  CHECK(space.validate(detail) == Broken::nothing);
 }
 
 template <int D> void check_bad_boxes() {

@@ -79,7 +79,7 @@ template <int D> struct Trial {
 
   void compare() {
     u32 detail;
-    CHECK(space.validate(detail) == 0);
+    CHECK(space.validate(detail) == Broken::nothing);
     CHECK(ids.count() == model.count());
     bool same = true;
     for (u32 id : model.ids()) {

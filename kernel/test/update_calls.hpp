@@ -119,7 +119,7 @@ template <int D> class UpdateCalls {
     }
     if (how == 3) {
       u32 detail;
-      CHECK(space_.validate(detail) == 0);
+      CHECK(space_.validate(detail) == Broken::nothing);
       restored_others();
     } else {
       model_ = saved_->model;
@@ -149,7 +149,7 @@ template <int D> class UpdateCalls {
     CHECK(space_.save() == -1);
     CHECK(space_.update() == -1);
     u32 detail;
-    CHECK(space_.validate(detail) == 0);
+    CHECK(space_.validate(detail) == Broken::nothing);
     for (u32 id : model_.ids()) {
       space_.store.filter(ids_.slot(id), ~0u, ~0u);
       for (u32 bit : {u32(is_static), u32(is_red), u32(is_blue)}) space_.store.exclude(ids_.slot(id), bit, false);

@@ -174,6 +174,8 @@ function show(name: string): void {
   broad.clear();
   narrow.clear();
   step();
+  // A picture that stands still is to show something that touches.
+  for (let frame = 0; frame < settling && scene.hits.length === 0; frame++) step();
   draw();
   report();
 }

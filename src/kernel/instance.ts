@@ -1,13 +1,12 @@
 // One instance of the kernel, which is one space: its functions, views of its memory, and what to do when that ends.
 // Growing memory cuts views off: their length is then 0, and they are made again.
 import type { Dimensions } from '../dimensions.ts';
-import { instantiate, type KernelExports } from './load.ts';
+import { ioLength, type KernelExports, statsLength } from '../generated/abi.ts';
+import { instantiate } from './load.ts';
 import { Ring, ringHead } from './ring.ts';
 
 /** A number of views kept, so that pair counts seen lately make no garbage. */
 const viewsKept = 256;
-/** Numbers in the kernel's array: see kernel/abi.cpp. */
-export const ioLength = 48;
 /** Through how many worlds a ray or a way may lead, where they wrap around: each costs a search. */
 const mostWorlds = 1000;
 
@@ -130,7 +129,7 @@ export class KernelInstance {
   /** The counters of the last update. */
   statsView(): Float64Array {
     if (this.#stats.length === 0) {
-      this.#stats = new Float64Array(this.kernel.memory.buffer, this.kernel.stats_address(), 8);
+      this.#stats = new Float64Array(this.kernel.memory.buffer, this.kernel.stats_address(), statsLength);
     }
     return this.#stats;
   }

@@ -2,83 +2,9 @@
 // The module is inlined as text and compiled on first use, synchronously, so that `new BroadPhase()` works everywhere
 // without waiting; `init` is for hosts that forbid that or want to load the bytes themselves. Builds of the library
 // with all techniques take the other text (scripts/every-technique.mjs).
+import type { KernelExports } from '../generated/abi.ts';
 import * as kernel from '../generated/kernel-lean.ts';
 import { bytesOf, isModule } from '../values.ts';
-
-/** The exported functions of kernel/abi.cpp. Addresses come as signed numbers: `>>> 0` those that can be beyond 2 GiB. */
-export interface KernelExports {
-  memory: WebAssembly.Memory;
-  __stack_pointer: WebAssembly.Global;
-  io_address(): number;
-  open_space(dimensions: number): void;
-  set_cell_size(): void;
-  set_margin(margin: number): void;
-  set_wrap(): void;
-  set_bounds(): void;
-  reserve(count: number): void;
-  ring_address(): number;
-  take(count: number): void;
-  remove(id: number): number;
-  has(id: number): number;
-  get(id: number): number;
-  size(): number;
-  clear(): void;
-  set_filter(id: number, layer: number, mask: number): number;
-  set_static(id: number, on: number): number;
-  set_enabled(id: number, on: number): number;
-  set_touching(on: number): void;
-  most_reach(): number;
-  meet_around(): number;
-  set_group(id: number, group: number): number;
-  set_reach(id: number, distance: number): number;
-  get_rule(id: number): number;
-  list_ids(): number;
-  contents(): void;
-  stage(count: number): number;
-  stage_exact(count: number): number;
-  replace(count: number, doubles: number): number;
-  expose(count: number): number;
-  staged_number(index: number, doubles: number): number;
-  save(): number;
-  stage_snapshot(size: number): number;
-  restore(): number;
-  split(red: number): void;
-  techniques(): number;
-  set_technique(technique: number): void;
-  update(): number;
-  pairs_address(): number;
-  pair_count(): number;
-  set_events(): void;
-  began_address(): number;
-  began_count(): number;
-  ended_address(): number;
-  ended_count(): number;
-  is_pair(a: number, b: number): number;
-  partners(id: number): number;
-  answers_address(): number;
-  ask_area(mask: number, ignored: number, from: number, most: number): number;
-  ask_planes(planes: number, mask: number, ignored: number, from: number, most: number): number;
-  ask_order(kind: number, mask: number, ignored: number, after: number, most: number): number;
-  stage_questions(numbers: number): number;
-  bad_question(kind: number, count: number): number;
-  ask_many(kind: number, count: number, mask: number, most: number): number;
-  offsets_address(): number;
-  many_ids_address(): number;
-  many_hits_address(): number;
-  hits_address(): number;
-  log_epoch(): number;
-  log_count(): number;
-  log_address(): number;
-  seen_count(): number;
-  see_rows(count: number): void;
-  updates(): number;
-  stats_address(): number;
-  structure(): number;
-  structure_count(): number;
-  validate(): number;
-  recover(): number;
-  begin_anew(): number;
-}
 
 /** The exported functions of kernel/decoder.cpp. */
 interface DecoderExports {

@@ -1,0 +1,12 @@
+// What scripts/abi.mjs reads out of kernel/ is all that there is.
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { expect, test } from 'vitest';
+import { abi } from '../../scripts/abi.mjs';
+
+test('each function that the kernel exports stands in the interface of TypeScript', () => {
+  const wasm = readFileSync(fileURLToPath(new URL('../../build/kernel.wasm', import.meta.url)));
+  const exported = WebAssembly.Module.exports(new WebAssembly.Module(wasm)).filter(({ kind }) => kind === 'function');
+  const listed = [...abi().matchAll(/^ {2}(\w+)\(/gm)].map(([, name]) => name);
+  expect(listed.sort()).toEqual(exported.map(({ name }) => name).sort());
+});
