@@ -1,7 +1,7 @@
-// How a space asks its kernel and reads what it answers: what all questions share.
-// The kernel answers (kernel/questions/queries.hpp); the files of the questions check them and write them into its array of numbers;
-// here the answers are copied to where they are wanted. A visitor gets them in parts, so that the search ends where it
-// says so, and may ask questions itself.
+// How a space queries its kernel and reads the answers: the code that all queries share. The kernel answers
+// (kernel/questions/queries.hpp); the files of the queries check them and write them into its array of numbers; here
+// the answers are copied to where they are wanted. A visitor gets them in parts, so that the search ends where it says
+// so, and may make queries itself.
 import { badQuestion, badValue, checkOptions, checkOut, maxId } from './errors.ts';
 import { afterAt, ioLength, orderNear, orderRay, orderWay, touchingAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
@@ -31,7 +31,7 @@ type Hit = { id: number; distance?: number; time?: number; normal: number[] };
 export type Visitor = (id: number, rank: number, hit?: Hit) => unknown;
 export type Accept = (id: number, hit: Hit) => unknown;
 
-/** What is remembered of a question while its visitor is called, which may ask other questions. */
+/** The state of a query saved while its visitor is called, which may make other queries. */
 class Visit {
   readonly question = new Float64Array(ioLength);
   readonly ids = new Uint32Array(part);
@@ -40,7 +40,7 @@ class Visit {
   readonly hits = { [orderRay]: { id: 0, distance: 0, normal: [] }, [orderWay]: { id: 0, time: 0, normal: [] } };
 }
 
-// One for each question whose visitor is being called, of whichever space: a visitor may ask again.
+// One for each query whose visitor is being called, of whichever space: a visitor may ask again.
 const visits: Visit[] = [];
 let visiting = 0;
 
@@ -278,7 +278,7 @@ function walk(
   }
 }
 
-/** Copies the kernel's hits, which other questions will overwrite. */
+/** Copies the kernel's hits, which other queries will overwrite. */
 function keepHits(instance: KernelInstance, visit: Visit, count: number): void {
   const first = instance.kernel.hits_address();
   const words = instance.wordView();
@@ -305,7 +305,7 @@ function writeNormal(instance: KernelInstance, side: number, normal: number[]): 
   normal.length = instance.dimensions;
 }
 
-/** Remembers the question that stands in the kernel's array. */
+/** Remembers the query that stands in the kernel's array. */
 function startVisit(instance: KernelInstance): Visit {
   const level = visiting++;
   let visit = visits[level];

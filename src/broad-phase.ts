@@ -59,18 +59,18 @@ type Inspect = (value: unknown, options: unknown) => string;
 /**
  * Finds every overlapping pair among boxes that move. Reads like a Map from id to box.
  *
- * Boxes are closed: touching boxes overlap, unless `touching` is false. Boxes of zero size are points, infinite ones are half planes; both
- * are legal. The pairs are exactly those of the numbers given, doubles included, whatever the technique.
+ * Boxes are closed: touching boxes overlap, unless `touching` is false. Boxes of zero size are points, infinite ones
+ * are half-planes; both are legal. Every technique finds exactly the pairs of the numbers given, doubles included.
  *
- * Rays and sweeps meet a box where their way leads into a face of it: along a face or away from it is no hit.
+ * Rays and sweeps hit a box if their path leads into one of its faces; a path along a face or away from it is no hit.
  *
- * Questions (`queryBox` to `nearest`, `isColliding`, `collisionsOf`) are answered by what the last update saw: boxes
- * that were set, moved or deleted since then make no difference until the next, and before the first update there is
- * nothing. A large space that has not been asked keeps no copy of its boxes (above 16,384, and 4,096 written in
- * place): its first question is to follow an update, or throws. All is decided in double precision. The options are read at each
- * call; to make no garbage, keep and reuse them with an `out` in them, whose answers stay about as many. All questions
- * throw RangeError for NaN, a minimum above its maximum, infinite points, ways and directions, negative distances, and
- * masks and ids out of range; TypeError for other than numbers and for a wrong number of them.
+ * Queries (`queryBox` to `nearest`, `isColliding`, `collisionsOf`) see the boxes of the last update: changes since then
+ * have no effect until the next, and before the first update there are no boxes. A large space that was never queried
+ * keeps no copy of its boxes (above 16,384, or 4,096 written in place): its first query must come right after an
+ * update, or it throws. Everything is decided in double precision. Options are read at each call; to make no garbage,
+ * reuse the options object with an `out` in it, with roughly constant numbers of answers. All queries throw RangeError
+ * for NaN, a minimum above its maximum, infinite points, motions and directions, negative distances, and masks and ids
+ * out of range; TypeError for values other than numbers and for a wrong number of them.
  *
  * @example
  * const space = new BroadPhase();
@@ -79,8 +79,8 @@ type Inspect = (value: unknown, options: unknown) => string;
  */
 export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   /**
-   * The names of the techniques there are, in order: with `import 'broadphase'` the few that games need, with
-   * `import 'broadphase/all'`, or after `init` with `broadphase/kernel.wasm`, every one.
+   * The names of the available techniques, in order: with `import 'broadphase'` the few that games need; with `import
+   * 'broadphase/all'`, or after `init` with `broadphase/kernel.wasm`, all of them.
    *
    * @example
    * BroadPhase.techniques.includes('auto'); // → true
@@ -102,10 +102,10 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   #watcher: Watcher | undefined;
 
   /**
-   * An empty space. Ready at once: nothing has to be awaited.
+   * An empty space, ready at once: there is nothing to await.
    *
    * @throws RangeError or TypeError that names the option
-   * @throws Error where WebAssembly with SIMD is missing or forbidden
+   * @throws Error if WebAssembly with SIMD is missing or forbidden
    *
    * @example
    * new BroadPhase({ dimensions: 3, events: true }).dimensions; // → 3
@@ -247,7 +247,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
 
   /**
-   * The numbers box `id` was given with, or `undefined` where there is none.
+   * The numbers that box `id` was given, or `undefined` if there is no such box.
    * @param id an integer from 0 to 2^24 - 1
    * @throws RangeError for a bad id
    *
@@ -260,7 +260,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
    * The same without garbage.
    * @param id an integer from 0 to 2^24 - 1
    * @param out filled with 4 numbers (3D: 6) and returned
-   * @throws TypeError where it is no array, or one of fixed length that is too short
+   * @throws TypeError if it is not an array, or a typed array that is too short
    *
    * @example
    * const space = new BroadPhase();
@@ -447,7 +447,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
 
   /**
-   * What JSON has of a space, and what is printed of it: not its boxes, which `snapshot` saves.
+   * How a space is printed, and serialized to JSON: without its boxes, which `snapshot` saves.
    *
    * @example
    * const space = new BroadPhase().set(7, 0, 0, 1, 1);
@@ -455,9 +455,9 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
    */
   toJSON():
     | {
-        /** As of the space. */
+        /** That of the space. */
         dimensions: 2 | 3;
-        /** As of the space. */
+        /** That of the space. */
         technique: TechniqueName;
         /** How many boxes there are. */
         size: number;
@@ -465,7 +465,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
         pairs: number;
       }
     | {
-        /** Of a space that was disposed of there is nothing else to say. */
+        /** The only property after `dispose`. */
         disposed: true;
       } {
     if (this.#instance.isDisposed) return { disposed: true };
@@ -488,8 +488,8 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
 
   /**
-   * For broadphase/trace: calls `watcher` after each update from now on; without one, no longer. Returns what the
-   * options say about pairs.
+   * For broadphase/trace: from now on calls `watcher`, if any, after each update. Returns the options that concern
+   * pairs.
    * @internal
    */
   [watch](watcher?: Watcher): World {

@@ -1,5 +1,5 @@
-// Many questions in one call: numbers of all of them in, the answers of all of them out, in typed arrays.
-// The kernel answers them (kernel/questions/bulk.hpp); here they are checked, and the answers copied.
+// Many queries in one call: all their numbers in, all their answers out, in typed arrays. The kernel answers them
+// (kernel/questions/bulk.hpp); here they are checked, and the answers copied.
 import { isNumber, known, number, point2, point3, tellTouching, tooFar } from './answers.ts';
 import type { Dimensions } from './dimensions.ts';
 import {
@@ -89,7 +89,7 @@ const questions = {
   nearestsOfAll: { kind: asks.others, names: nobodys, parts: ofParts, options: ofAllOptions },
 } satisfies Record<string, Question>;
 
-/** Checks questions, asks them, and collects the answers: of each at most so many. */
+/** Checks queries, runs them, and collects the answers, up to a limit for each. */
 export function askMany(
   instance: KernelInstance,
   where: keyof typeof questions,
@@ -209,7 +209,7 @@ function copyHit(instance: KernelInstance, to: Answer, n: number, at: number): v
   }
 }
 
-/** Says what is wrong with the numbers of a question. */
+/** Says what is wrong with the numbers of a query. */
 function badNumbers(where: string, numbers: ArrayLike<number>, k: number, names: readonly string[]): never {
   const given = Array.prototype.slice.call(numbers, k * names.length, (k + 1) * names.length);
   const what = `${where}: question ${k}`;
@@ -218,7 +218,7 @@ function badNumbers(where: string, numbers: ArrayLike<number>, k: number, names:
   badQuestion(what, given, round ? names.slice(0, -1) : names, number);
 }
 
-/** One id for each question. */
+/** One id for each query. */
 function checkIgnored(where: string, ids: ArrayLike<number>, count: number): void {
   where += ': ignoreEach';
   if (!isTypedArray(ids, 'Uint32Array') && !Array.isArray(ids)) badValue(where, ids, 'a Uint32Array or an array', true);

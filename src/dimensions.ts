@@ -29,31 +29,31 @@ export type MovingBoxOfId<D extends Dimensions> = D extends 2
 /** The coordinates of a point. */
 export type Point<D extends Dimensions> = D extends 2 ? [x: number, y: number] : [x: number, y: number, z: number];
 
-/** Where a ray begins and where it points. */
+/** The origin and the direction of a ray. */
 export type Ray<D extends Dimensions> = D extends 2
   ? [...Point<2>, directionX: number, directionY: number]
   : [...Point<3>, directionX: number, directionY: number, directionZ: number];
 
-/** What `queryBox` asks about: a box, and options. */
+/** The arguments of `queryBox`: a box, and options. */
 export type BoxQuestion<D extends Dimensions, Options> = D extends 2
   ? [...Box<2>, options?: Options]
   : [...Box<3>, options?: Options];
-/** What `queryPoint` asks about: a point, and options. */
+/** The arguments of `queryPoint`: a point, and options. */
 export type PointQuestion<D extends Dimensions, Options> = D extends 2
   ? [...Point<2>, options?: Options]
   : [...Point<3>, options?: Options];
-/** What `rayCast` and `rayCastAll` ask about: a ray, and options. */
+/** The arguments of `rayCast` and `rayCastAll`: a ray, and options. */
 export type RayQuestion<D extends Dimensions, Options> = D extends 2
   ? [...Ray<2>, options?: Options]
   : [...Ray<3>, options?: Options];
-/** What `sweep` asks about: a box that moves, and options. */
+/** The arguments of `sweep`: a moving box, and options. */
 export type SweepQuestion<D extends Dimensions, Options> = D extends 2
   ? [...MovingBox<2>, options?: Options]
   : [...MovingBox<3>, options?: Options];
-/** What `nearest` asks about: a point, how many boxes, and options. */
+/** The arguments of `nearest`: a point, how many boxes, and options. */
 export type NearestQuestion<D extends Dimensions, Options> = D extends 2
   ? [...Point<2>, k: number, options?: Options]
   : [...Point<3>, k: number, options?: Options];
 
-/** What `queryCircle` and `querySphere` ask about: a centre, a radius, and options. */
+/** The arguments of `queryCircle` and `querySphere`: a centre, a radius, and options. */
 export type RoundQuestion<D extends Dimensions, Options> = [...Point<D>, radius: number, options?: Options];

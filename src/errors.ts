@@ -203,7 +203,7 @@ function edits(from: string, to: string): number {
   return row[to.length]!;
 }
 
-/** A question whose numbers are not what they should be: `names` says which, `expected` what, in front. */
+/** Reports wrong numbers of a query: `names` are their names, `expected` what each must be. */
 export function badQuestion(
   where: string,
   given: readonly unknown[],

@@ -47,12 +47,12 @@ function plain(options?: BroadPhaseOptions<Dimensions>): number {
 }
 
 /**
- * Every overlapping pair of an array of boxes, once: `[a0, b0, a1, b1, …]` with a < b, indices into the array.
- * For boxes that move, a {@link BroadPhase} that is kept is faster. Up to 64 MiB of memory stay for the next call.
+ * Every overlapping pair of an array of boxes, once: `[a0, b0, a1, b1, …]` with a < b, indices into the array. For
+ * boxes that move, a {@link BroadPhase} is faster. Up to 64 MiB of memory stay allocated for the next call.
  *
  * @param boxes interleaved: minX, minY, maxX, maxY (3D: minX, minY, minZ, maxX, maxY, maxZ), box after box
  * @param options those of {@link BroadPhase}: `dimensions: 3` for boxes of six numbers
- * @returns an array of its own, which stays
+ * @returns a new array, independent of later calls
  * @throws RangeError or TypeError that names the first bad box or option
  *
  * @example
@@ -72,8 +72,8 @@ export function findPairs(boxes: Boxes, options?: BroadPhaseOptions<Dimensions>)
  * @param red interleaved boxes, as for {@link findPairs}
  * @param blue the same; the two together at most 2^24 boxes
  * @param options those of {@link BroadPhase}: `dimensions: 3` for boxes of six numbers
- * @returns an array of its own, which stays
- * @throws RangeError or TypeError that names the first bad box (blue ones are counted on from the red) or option
+ * @returns a new array, independent of later calls
+ * @throws RangeError or TypeError that names the first bad box (blue boxes are numbered after the red ones) or option
  *
  * @example
  * const players = [0, 0, 10, 10];

@@ -1,5 +1,5 @@
 /**
- * The library: boxes in, overlapping pairs out, and questions between. `broadphase/all` has the same API and every
+ * The library: boxes in, overlapping pairs out, and queries in between. `broadphase/all` has the same API and every
  * technique. Numbers are in whatever units the boxes are given in; ids are integers from 0 to 2^24 - 1.
  *
  * @module broadphase

@@ -21,30 +21,37 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
   /** One of {@link BroadPhase.techniques}. Default `'auto'`. */
   technique?: Technique;
   /**
-   * For grids, which are in `broadphase/all`: the side of a cell, or one number per axis, above 0. `auto` has no
-   * grid, and does not look at it. One so small that boxes would stand in very many cells is doubled until they do
-   * not. Left out: chosen from the boxes.
+   * For `spatial-grid`, `retained-grid` and `home-cell-grid`, in `broadphase/all`: the side of a cell, or one number
+   * per axis, above 0. `auto` uses no grid, and ignores it. A size so small that boxes would be in very many cells is
+   * doubled until they are not. Default: chosen from the boxes.
    */
   cellSize?: number | readonly number[];
-  /** For `spatial-grid`, in `broadphase/all`: the world that is cut into cells, minima then maxima. Boxes outside are found all the same. */
+  /**
+   * For `spatial-grid` and `retained-grid`, in `broadphase/all`: the part of the world that is divided into cells,
+   * minima then maxima. Boxes outside are still found.
+   */
   bounds?: readonly number[];
   /**
-   * The size of a world that wraps around, along each axis: what leaves it on one side comes in on the other, as in
-   * Asteroids. Boxes may be given anywhere; two are a pair where they overlap once both are moved by whole worlds. A
-   * box as long as the world, or without an end, reaches all around. The numbers stay as they were given. Questions see
-   * a copy of each box in every world, and answer each once: see the guide to queries. Numbers above 0, up to 1e300. Left out: the world has no end.
+   * The size of a world that wraps around, along each axis: what leaves it on one side enters on the other, as in
+   * Asteroids. Boxes may be given anywhere; two are a pair if they overlap after both are shifted by whole worlds. A
+   * box as long as the world, or infinite, reaches all around. The numbers stay as they were given. Queries see a copy
+   * of each box in every repetition of the world, and return each box once: see the guide to queries. Numbers above 0,
+   * up to 1e300. Default: the world is unbounded.
    */
   wrap?: readonly number[];
   /**
-   * Whether boxes that only touch overlap: in pairs, events, and, unless they say otherwise, questions about places.
-   * Default true. Where false, a box without size overlaps only what it is inside of.
+   * Whether boxes that only touch overlap: in pairs, events, and, unless they say otherwise, queries about places.
+   * Default true. If false, a box of zero size overlaps only the boxes it is inside of.
    */
   touching?: boolean;
-  /** Whether every update finds out which pairs began and ended, for `began`. Default false. */
+  /** Whether every update determines which pairs began and ended, for `began` and `ended`. Default false. */
   events?: boolean;
-  /** For `aabb-tree`, in `broadphase/all`: how far a box may move before the tree changes, above 0. Left out: from the motion seen. */
+  /**
+   * For `aabb-tree`, in `broadphase/all`: how far a box may move before the tree changes, above 0. Default: chosen from
+   * the observed motion.
+   */
   margin?: number;
-  /** A hint: how many boxes there will be, 0 … 2^24. Saves growing while they are added. */
+  /** A hint: how many boxes there will be, 0 … 2^24. Avoids growing while they are added. */
   capacity?: number;
 }
 
@@ -61,14 +68,14 @@ const optionNames: readonly (keyof BroadPhaseOptions)[] = [
   'capacity',
 ];
 
-/** The arguments of `new BroadPhase`: a space of other than two dimensions has to say so. */
+/** The arguments of `new BroadPhase`: `dimensions` is required unless it is 2. */
 export type ConstructorOptions<D extends Dimensions, Technique extends TechniqueName = LeanTechnique> = 2 extends D
   ? [options?: BroadPhaseOptions<D, Technique>]
   : [options: BroadPhaseOptions<D, Technique> & DimensionsSaid<D>];
 
-/** What a space of other than two dimensions has to be given. */
+/** The option that a space needs unless it is 2D. */
 export interface DimensionsSaid<D extends Dimensions> {
-  /** The number of dimensions: it has to be said where it is not 2. */
+  /** The number of dimensions: required unless it is 2. */
   dimensions: NoInfer<D>;
 }
 

@@ -3,7 +3,7 @@
 // space with fewer boxes each box that moves has a list of what is near in the other: what overlaps its box when that was
 // grown. While it stays within the grown box, its pairs are among these. A box of the other space that changes is loose:
 // it counts in no list, and asks for itself in each call. Where many are loose all lists are made anew.
-// Cost of a call: about 50 ns for each box that moved within its grown box, one question for each that left it and for each
+// Cost of a call: about 50 ns for each box that moved within its grown box, one query for each that left it and for each
 // that is loose, and a pass over the pairs.
 import { known, tellTouching } from './answers.ts';
 import { badValue } from './errors.ts';
@@ -165,7 +165,7 @@ function askLoose(instance: KernelInstance, kept: Kept, other: KernelInstance): 
 }
 
 /**
- * Whether the boxes of two rows overlap, the first of which is here and answered a question about the other. Where no box
+ * Whether the boxes of two rows overlap, the first of which is here and answered a query about the other. Where no box
  * here reaches beyond itself the answer said so.
  */
 function meets(instance: KernelInstance, its: Float64Array, answer: number, rows: Float64Array, row: number): boolean {

@@ -1,4 +1,4 @@
-// The questions about places: who collides with whom, and what is in a box, at a point, or in a circle.
+// The queries about places: who collides with whom, and what is in a box, at a point, or in a circle.
 import { area, copyIds, isNumber, number, point } from './answers.ts';
 import { badId, badQuestion, badValue, checkOut, corners, isId } from './errors.ts';
 import { radiusAt } from './generated/abi.ts';

@@ -1,11 +1,11 @@
-// The question about planes: what a camera sees.
+// The query about planes: what a camera sees.
 import { area } from './answers.ts';
 import { badValue, checkNumberArray } from './errors.ts';
 import { planesAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import type { PlanesOptions } from './query-options.ts';
 
-/** How many planes a question may have. */
+/** How many planes a query may have. */
 const most = 8;
 const names = ['nx, ny, d', 'nx, ny, nz, d'];
 

@@ -1,5 +1,5 @@
 // What a space can be asked between two updates: who collides with whom, what is there, what is in view, what is
-// ahead, what is near. Everything is answered as of the last update; what the questions need is made at the first
+// ahead, what is near. Everything is answered as of the last update; what the queries need is made at the first
 // after it. Here are what is ahead and what is near; the others are in plane-queries.ts and place-queries.ts.
 import {
   type Accept,

@@ -1,23 +1,23 @@
-// What the questions of queries.ts may be given, and what they answer; and the checks of it.
+// The options and the results of the queries in queries.ts, and their checks.
 import { badId, badNumber, badValue, checkBits, isId, isSize } from './errors.ts';
 
-/** What every question may be given, and an `out` or a `visit` of its own. */
+/** Options of every query, each of which adds an `out` or a `visit` of its own. */
 export interface QueryOptions {
   /** Only boxes with a layer in it: 32 bits, as for `setFilter`. Default: all boxes. */
   mask?: number;
-  /** A box that is left out, most often the one that asks, or several: a few, for each is compared with each answer. */
+  /** A box to leave out, usually the one that asks, or a few: each is compared with each answer. */
   ignore?: number | readonly number[];
 }
 
-/** What questions about places may be given. */
+/** Options of queries about places. */
 export interface AreaOptions {
-  /** Whether boxes that only touch what is asked about are answers. Default: as the option of the space says, true. */
+  /** Whether boxes that only touch count as answers. Default: the space's option, which is true by default. */
   touching?: boolean;
 }
 
-/** Options of questions answered by ids. */
+/** Options of queries that return ids. */
 export interface IdsOptions extends QueryOptions, AreaOptions {
-  /** Filled and returned, instead of a new array. Keep it, and the options, and asking makes no garbage. */
+  /** Filled and returned, instead of a new array. If you reuse it and the options, queries make no garbage. */
   out?: number[];
   /** Called for each answer instead of collecting them; `false` ends the search. The answer is then empty. */
   visit?: (id: number) => unknown;
@@ -25,7 +25,7 @@ export interface IdsOptions extends QueryOptions, AreaOptions {
 
 /** Options of {@link BroadPhase.queryBox}. */
 export interface BoxOptions extends IdsOptions {
-  /** Whether boxes have to be wholly inside; they may touch the sides, unless `touching` is false. Default false. */
+  /** Whether boxes must be wholly inside; they may touch the sides, unless `touching` is false. Default false. */
   within?: boolean;
 }
 
@@ -45,19 +45,19 @@ export interface NearestOptions extends QueryOptions {
   maxDistance?: number;
   /** Filled and returned, instead of a new array. */
   out?: number[];
-  /** Filled with the distance of each answer, in the order of these. */
+  /** Filled with the distance of each answer, in the same order. */
   distances?: number[];
   /** Called for each answer, the nearest first, instead of collecting them; `false` ends the search. */
   visit?: (id: number, distance: number) => unknown;
 }
 
-/** What a ray meets. */
+/** What a ray hits. */
 export interface RayHit {
   /** Of the box. */
   id: number;
-  /** From the origin to the box, in units of the world; 0 where the ray begins at its face or inside. */
+  /** From the origin to the box, in units of the world; 0 if the ray starts at its face or inside. */
   distance: number;
-  /** Of the face that is hit, against the ray: one number per axis, -1, 0 or 1; all 0 where the ray begins inside. */
+  /** Of the face that was hit, against the ray: one number per axis, -1, 0 or 1; all 0 if the ray starts inside. */
   normal: number[];
 }
 
@@ -65,7 +65,10 @@ export interface RayHit {
 export interface RayOptions extends QueryOptions {
   /** How far the ray reaches, at least 0. Default: no limit. */
   maxDistance?: number;
-  /** Whether a hit counts: asked of each, the first first, until one does. The hit is the one that will be returned. */
+  /**
+   * Whether a hit counts: called for each hit, from the first on, until it returns true. The hit is the object that
+   * will be returned.
+   */
   accept?: (id: number, hit: Readonly<RayHit>) => boolean;
   /** Filled and returned, instead of a new object. */
   out?: RayHit;
@@ -75,50 +78,53 @@ export interface RayOptions extends QueryOptions {
 export interface RayAllOptions extends QueryOptions {
   /** How far the ray reaches, at least 0. Default: no limit. */
   maxDistance?: number;
-  /** Filled and returned instead of a new array; the objects in it are used again. */
+  /** Filled and returned instead of a new array; the objects in it are reused. */
   out?: RayHit[];
   /**
-   * Called for each answer, the first first, instead of collecting them; `false` ends the search. The hit is the same
+   * Called for each answer, from the first on, instead of collecting them; `false` ends the search. The hit is the same
    * object each time.
    */
   visit?: (id: number, distance: number, hit: Readonly<RayHit>) => unknown;
 }
 
-/** What a moving box meets. */
+/** What a moving box hits. */
 export interface SweepHit {
   /** Of the box. */
   id: number;
   /**
-   * The share of the way, 0 … 1, that is done when they touch; 0 where they touch or overlap from the start. It is
-   * rounded towards the start: `maxX + dx * time` is never beyond the face.
+   * The fraction of the motion, 0 … 1, until they touch; 0 if they touch or overlap from the start. It is rounded
+   * towards the start: `maxX + dx * time` is never beyond the face.
    */
   time: number;
-  /** Of the face that is hit, against the motion: as in {@link RayHit}. */
+  /** Of the face that was hit, against the motion: as in {@link RayHit}. */
   normal: number[];
 }
 
 /** Options of {@link BroadPhase.sweep}. */
 export interface SweepOptions extends QueryOptions {
-  /** Whether a hit counts: asked of each, by time, until one does. The hit is the one that will be returned. */
+  /**
+   * Whether a hit counts: called for each hit, by time, until it returns true. The hit is the object that will be
+   * returned.
+   */
   accept?: (id: number, hit: Readonly<SweepHit>) => boolean;
   /** Filled and returned, instead of a new object. */
   out?: SweepHit;
   /**
-   * Called for each box on the way, by time, instead of the first being returned; `false` ends the search. The hit is the
+   * Called for each box on the path, by time, instead of returning the first; `false` ends the search. The hit is the
    * same object each time.
    */
   visit?: (id: number, time: number, hit: Readonly<SweepHit>) => unknown;
 }
 
-/** Answers of many questions. */
+/** Answers to many queries. */
 export interface ManyIds {
-  /** The answers of question k, from `offsets[k]` up to `offsets[k + 1] - 1`. */
+  /** The ids: the answers to query k are from `offsets[k]` up to `offsets[k + 1] - 1`. */
   ids: Uint32Array;
-  /** One more than questions: the last is the number of all answers. */
+  /** One more than there are queries: the last is the number of all answers. */
   offsets: Uint32Array;
 }
 
-/** Answers of {@link BroadPhase.nearests}. */
+/** Answers to {@link BroadPhase.nearests}. */
 export interface ManyNearest extends ManyIds {
   /** Of each answer. */
   distances: Float64Array;
@@ -144,28 +150,28 @@ export interface ManySweepHits extends ManyIds {
   normals: Int8Array;
 }
 
-/** Options of many questions. */
+/** Options of many queries. */
 export interface ManyOptions<Answer = ManyIds> {
   /** Only boxes with a layer in it: 32 bits, as for `setFilter`. Default: all boxes. */
   mask?: number;
-  /** Of each question a box that is left out of its answers, most often the one that asks; any id, in use or not. */
+  /** For each query a box to leave out of its answers, usually the one that asks; any id, in use or not. */
   ignoreEach?: Uint32Array | readonly number[];
-  /** The answer of an earlier call, which is filled and returned; arrays that are too short are replaced. */
+  /** The result of an earlier call, which is filled and returned; arrays that are too short are replaced. */
   out?: Answer;
 }
 
-/** Options of many questions about places. */
+/** Options of many queries about places. */
 export interface ManyAreaOptions extends ManyOptions, AreaOptions {}
 
 /** Options of {@link BroadPhase.queryBoxes}. */
 export interface ManyBoxOptions extends ManyAreaOptions {
-  /** Whether boxes have to be wholly inside; they may touch the sides, unless `touching` is false. Default false. */
+  /** Whether boxes must be wholly inside; they may touch the sides, unless `touching` is false. Default false. */
   within?: boolean;
 }
 
-/** Options of many questions that reach far. */
+/** Options of many queries with a maximum distance. */
 export interface ManyFarOptions<Answer> extends ManyOptions<Answer> {
-  /** How far each reaches, at least 0. Default: no limit. */
+  /** The largest distance of each, at least 0. Default: no limit. */
   maxDistance?: number;
 }
 
@@ -199,7 +205,7 @@ export function othersIgnored(options: QueryOptions | undefined): readonly numbe
   return typeof ignore === 'object' && ignore.length > 1 ? ignore : undefined;
 }
 
-/** The options of each kind of question. */
+/** The options of each kind of query. */
 export const idsOptions = ['mask', 'ignore', 'out', 'visit', 'touching'] as const;
 export const boxOptions = [...idsOptions, 'within'] as const;
 export const farOptions = ['mask', 'ignore', 'maxDistance', 'out', 'visit'] as const;

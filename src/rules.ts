@@ -2,11 +2,11 @@
 import { badNumber, checkBits, checkBoolean, checkId, isFinitePositive, noBox } from './errors.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 
-/** Whom a box meets: see {@link BroadPhase.setFilter}. */
+/** What a box meets: see {@link BroadPhase.setFilter}. */
 export interface Filter {
   /** What the box is: 32 bits. */
   layer: number;
-  /** Whom it meets: 32 bits. */
+  /** What it meets: 32 bits. */
   mask: number;
 }
 

@@ -19,11 +19,11 @@ export type Reason = (typeof reasons)[number];
 
 /** Counters of the last update. */
 export interface Stats {
-  /** The technique that ran: what `auto` chose. */
+  /** The technique that ran: with `auto`, the one it chose. */
   technique: TechniqueName;
-  /** Why it ran: where `auto` chose it, what it saw. */
+  /** Why it ran: with `auto`, the reason for its choice. */
   reason: Reason;
-  /** Boxes tested against boxes. */
+  /** Tests of one box against another. */
   tests: number;
   /** Pairs found in float32, before the exact test in double precision and the last of the filters. */
   candidates: number;
@@ -31,7 +31,7 @@ export interface Stats {
   pairs: number;
   /** Cells, strips or nodes in use. */
   cells: number;
-  /** Places of boxes in them: more than there are boxes where a box stands in several. */
+  /** Entries of boxes in them: more than the number of boxes if a box is in several. */
   entries: number;
   /** Bytes of memory in use by the space. */
   bytes: number;

@@ -14,9 +14,9 @@ inline constexpr u64 has_begun = u64(1) << 30, has_ended = u64(1) << 62;
 inline constexpr u64 pair_marks = smaller_gone | larger_gone | has_begun | has_ended;
 
 class Events {
-  Pairs before_;       // of the last update
-  Buffer<u8> met_;     // per pair of those, whether it is among the pairs now
-  Buffer<u32> gone_;   // a bit an id: deleted since the last update
+  Pairs before_;  // of the last update
+  Buffer<u8> met_;  // per pair of those, whether it is among the pairs now
+  Buffer<u32> gone_;  // a bit an id: deleted since the last update
   u32 gone_words_ = 0;
   bool any_gone_ = false;
 

@@ -1,19 +1,19 @@
-// A question, which boxes it is about, and the list of what is met or near.
+// A query, the boxes it is about, and the list of hits or neighbours.
 #pragma once
 #include "questions/index.hpp"
 
 /// What a question is asked with.
 template <int D> struct Question {
   f64 lo[D] = {}, hi[D] = {};  // the box, which may be a point
-  f64 along[D] = {};           // what a moving box moves by
-  f64 radius = 0;              // of a circle; negative: none, or `within`
-  f64 limit = 0;               // the largest rank
-  f64 length = 0;              // of the way, where its share is to be ranked by distance; else 1
-  bool stops = false;          // times are to be stopped at: see meeting.hpp
-  bool touching = true;        // of areas: whether what only touches counts
-  u32 mask = 0;                // layers; all bits: every box, even one without a layer
-  u32 ignored = 0;             // an id
-  u32 layer = 0;               // where it is a box of another space that asks: its own; else 0
+  f64 along[D] = {};  // what a moving box moves by
+  f64 radius = 0;  // of a circle; negative: none, or `within`
+  f64 limit = 0;  // the largest rank
+  f64 length = 0;  // of the way, where its share is to be ranked by distance; else 1
+  bool stops = false;  // times are to be stopped at: see meeting.hpp
+  bool touching = true;  // of areas: whether what only touches counts
+  u32 mask = 0;  // layers; all bits: every box, even one without a layer
+  u32 ignored = 0;  // an id
+  u32 layer = 0;  // where it is a box of another space that asks: its own; else 0
 
   static constexpr f64 within = -2;  // in place of a radius: boxes are to be within the box, wholly
 

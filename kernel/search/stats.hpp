@@ -6,10 +6,10 @@
 enum class Reason : u32 {
   asked_for,  // asked for
   handful,    // a handful of boxes
-  kept,       // what was found is kept: boxes rest or move little
-  watching,   // all is found anew: how boxes move is being watched
-  moving,     // all is found anew: boxes move too far, or there are few
-  ordered,    // all is found anew: after a snapshot, no update before may show in the order of pairs
+  kept,       // candidates are retained: boxes are at rest or move little
+  watching,   // full rebuild: how boxes move is being observed
+  moving,     // full rebuild: boxes move too far, or there are few
+  ordered,    // full rebuild: after a snapshot, earlier updates must not affect the order of pairs
 };
 
 struct Stats {

@@ -1,9 +1,10 @@
-// What `auto` stands for in an update, and how that is told.
-// Which of them, and why (the words are those of Reason in search/stats.hpp):
-//   - A handful of boxes: all against all, which costs less than to look at them first.
-//   - From the first snapshot on, strip sweep: it keeps nothing, so that no update before shows in the order of pairs.
-//   - Else incremental, which answers by what it keeps where that costs less, by strip sweep where it does not, and
-//     counts work, not time, to know.
+// Which technique `auto` runs in an update, and why. The choices (their wording for users is that of Reason in
+// search/stats.hpp):
+//   - A handful of boxes: brute force, which costs less than looking at them first.
+//   - From the first snapshot on, strip sweep: it retains nothing, so that earlier updates do not affect the order of
+//     pairs.
+//   - Otherwise incremental, which answers from its candidates when that costs less and by strip sweep when it does not.
+//     It decides by counting work, not time.
 #pragma once
 #include "search/stats.hpp"
 #include "space/snapshot.hpp"

@@ -1,4 +1,4 @@
-// The techniques of a space at work: which one ran last, what it found on the way, and its structure as boxes.
+// Runs the techniques of a space: which one ran last, its counters, and its structure as boxes.
 #pragma once
 #include "space/scene_builder.hpp"
 #include "space/techniques.hpp"

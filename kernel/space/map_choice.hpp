@@ -1,6 +1,6 @@
-// Which numbers are searched in place of doubles that float32 cannot hold, and when others serve better.
-// Idea: gap_map.hpp has the map. A box that rounding makes a point along an axis is a candidate in vain for whoever
-// stands there: where there are many, another map is looked for at once, else every 16th update.
+// Chooses the map from doubles to the float32 that are searched, and decides when another would serve better.
+// Idea: gap_map.hpp has the map. A box that rounding collapses into a point along an axis is a needless candidate for
+// all boxes there: if there are many such boxes, another map is tried at once, otherwise every 16th update.
 #pragma once
 #include "boxes/gap_map.hpp"
 

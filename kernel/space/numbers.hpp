@@ -1,8 +1,7 @@
-// The numbers of the boxes, by slot.
-// Boxes live twice over where they must: as float32, which every technique searches, and, from the first box on that
-// float32 cannot hold, as the doubles that were given. They are rounded so that the order of numbers is kept (see
-// gap_map.hpp), and so only pairs of which two bounds are equal in float32 are in doubt. Boxes that float32 holds pay
-// nothing. Every change allocates before it writes.
+// The numbers of the boxes, by slot. Boxes are stored as float32, which every technique searches, and, from the first
+// box on that does not fit float32, also as the doubles given. Rounding is monotone (see gap_map.hpp), so only pairs
+// with two bounds equal in float32 are in doubt. Boxes that fit float32 cost nothing extra. Every change allocates
+// before it writes.
 #pragma once
 #include "space/map_choice.hpp"
 #include "space/written.hpp"
@@ -33,7 +32,7 @@ template <int D> class Numbers {
     return rounding_ ? smaller(all, exact_.capacity() / width) : all;
   }
   /// Room for `count` boxes, of which the first `keep` stay.
-  void make_room(u64 count, u32 keep) {
+  SMALL void make_room(u64 count, u32 keep) {
     if (written.in_place() && written.shown() == 0 && count * width + padding > boxes_.capacity()) {
       written.move(boxes_, larger(count * width + padding, boxes_.capacity() + boxes_.capacity() / 2), keep);
     }

@@ -1,5 +1,5 @@
-// What boxes have of their own beside their numbers, by slot: rules, groups and reaches. Most spaces give none of them,
-// and then nothing is kept.
+// Settings of boxes besides their numbers, by slot: rules, groups and reaches. Most spaces use none, and then nothing
+// is stored.
 #pragma once
 #include "boxes/per_box.hpp"
 #include "rules/filters.hpp"

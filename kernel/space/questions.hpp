@@ -1,5 +1,5 @@
-// The questions of a space: what is asked, who is asked, and where the answers stand.
-// Questions see what the last update saw: see seen.hpp.
+// The queries of a space: their arguments, the code that answers them, and the place of the answers. Queries see the
+// boxes of the last update: see seen.hpp.
 #pragma once
 #include "questions/bulk.hpp"
 #include "questions/plane_query.hpp"

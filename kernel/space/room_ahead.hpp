@@ -1,6 +1,5 @@
-// How much memory is taken before it is needed: growing it later would cut off the views that JavaScript holds.
-// Memory that is not touched costs nothing. The numbers are `stats.bytes` for each box of ordinary scenes, and a little
-// more.
+// How much memory is reserved ahead: growing it later would detach JavaScript's views. Untouched memory costs nothing.
+// The numbers are `stats.bytes` per box in ordinary scenes, and a little more.
 #pragma once
 #include "base/heap.hpp"
 

@@ -1,6 +1,7 @@
-// From what stands in a space to the scene that is searched: boxes grown by their reaches, without those that meet
-// nobody, with ghosts where the world wraps around.
-// Cost: nothing where no box has a reach or a rule and the world does not wrap around; else a copy of the boxes for each.
+// Builds the scene to search from a space: boxes enlarged by their reaches, without those that can meet nobody, and
+// with ghosts if the world wraps around.
+// Cost: nothing if no box has a reach or a rule and the world does not wrap around; otherwise a copy of the boxes for
+// each.
 #pragma once
 #include "rules/wrap.hpp"
 #include "space/store.hpp"

@@ -1,6 +1,6 @@
-// What questions see: the boxes as the last update saw them.
-// While nothing has changed since, the boxes themselves are that; the index takes a copy before the first change. Large
-// spaces that nobody has asked are spared it, and then cannot say.
+// What queries see: the boxes of the last update. While nothing has changed since, these are the boxes themselves; the
+// index takes a copy before the first change. Large spaces that were never queried skip the copy, and then cannot
+// answer.
 #pragma once
 #include "boxes/changes.hpp"
 #include "questions/index.hpp"

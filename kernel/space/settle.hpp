@@ -1,5 +1,5 @@
-// From the pairs of slots that a technique has found in float32 to those that are reported.
-// Only pairs of which two bounds are equal in float32 are in doubt: they are tested again in the numbers given.
+// Turns the pairs of slots that a technique found in float32 into the pairs to report. Only pairs with two bounds equal
+// in float32 are in doubt: they are tested again with the numbers given.
 #pragma once
 #include "space/store.hpp"
 
@@ -38,7 +38,7 @@ NOINLINE u64* retest(const Filters& filters, const T* boxes, const u64* from, co
 /// Keeps, of the pairs in doubt, those that overlap in the numbers given, or grown from these. `noted`: whether the
 /// technique says which are in doubt; else all are.
 template <int D>
-void settle_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles, bool noted, bool touching) {
+SMALL void settle_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles, bool noted, bool touching) {
   const Filters& filters = store.own.filters;
   const f32* boxes = store.numbers.boxes();
   u64* list = pairs.list.data();

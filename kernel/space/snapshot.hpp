@@ -1,9 +1,9 @@
-// A space as bytes, to go back to or to save: what its bytes say, and whether they are to be believed.
-// A header, then what stands in the space, in the order of the slots: the pairs of the last update, where events are
-// kept; the boxes, as float32 where that holds all of them; ids, when boxes came, layers, masks, groups, reaches and exclusion bits, each
-// only where it says something. What techniques keep is not in it: it is built again, and the pairs and their order do not depend
-// on it. The checksum turns 8 bytes at a time into another number, each of them into a different one, so that no
-// change within 8 bytes goes unseen, and others do once in 2^64.
+// A space as bytes, to go back to or to save: their format, and their validation. A header, then the contents of the
+// space, in the order of the slots: the pairs of the last update, if events are on; the boxes, as float32 if that
+// represents all of them; ids, the order of addition, layers, masks, groups, reaches and exclusion bits, each only if
+// it differs from the default. What techniques retain is not included: it is rebuilt, and the pairs and their order do
+// not depend on it. The checksum maps 8 bytes at a time by a bijection, so that every change within 8 bytes is
+// detected, and others are missed once in 2^64.
 // From: the mixing of a multiplication and a shift is that of many fast hashes, such as MurmurHash (A. Appleby).
 #pragma once
 #include "boxes/per_box.hpp"

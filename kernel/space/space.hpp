@@ -1,7 +1,7 @@
-// A space: what stands in it, the technique that finds the pairs, and the exactness of the answer.
-// An update is a row of steps: what was written is noted, the scene is built, a technique searches it, what it has found
-// is settled in the numbers given, and the pairs are published. What was set waits in the ring (ring.hpp) until JavaScript
-// flushes it, at the latest before an update.
+// A space: its contents, the technique that finds the pairs, and the exactness of the answer. An update is a sequence
+// of steps: changes are recorded, the scene is built, a technique searches it, pairs in doubt are decided with the
+// numbers given, and the pairs are published. Boxes that were set wait in the ring (ring.hpp) until JavaScript flushes
+// it, at the latest before an update.
 #pragma once
 #include "pairs/lookups.hpp"
 #include "space/auto.hpp"

@@ -1,6 +1,6 @@
-// What stands in a space: boxes by id, and what each has of its own.
-// Whoever has to know of a change is told before it: the index, which copies what the last update saw, and the events,
-// which keep who was deleted. Every change allocates before it writes: when memory ends, the store is as it was.
+// The contents of a space: boxes by id, and their settings. Two parts are notified before a change: the index, which
+// copies the boxes of the last update, and the events, which record deleted boxes. Every change allocates before it
+// writes: if memory runs out, the store is as it was.
 #pragma once
 #include "boxes/changed_ids.hpp"
 #include "boxes/ring.hpp"
@@ -132,7 +132,7 @@ template <int D> class Store {
 
   /// Takes what was staged in place of all boxes, as ids 0 … count - 1. Returns the first bad id, or -1;
   /// where there is one, nothing changes.
-  i32 replace(u32 count, bool doubles) {
+  SMALL i32 replace(u32 count, bool doubles) {
     bool rounded;
     i32 bad = numbers.check_staged(count, doubles, rounded);
     if (bad >= 0) return bad;
@@ -207,7 +207,7 @@ template <int D> class Store {
   }
 
   /// The id of the first bad box among those written in place, or -1.
-  i32 bad_in_place() const {
+  SMALL i32 bad_in_place() const {
     i32 bad = numbers.written.in_place() ? numbers.first_bad(ids.count()) : -1;
     return bad < 0 ? -1 : i32(ids.id(u32(bad)));  // since it was written, a removal may have moved it
   }

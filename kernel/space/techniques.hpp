@@ -1,5 +1,5 @@
-// The techniques of one space, by name. A new one is a header in techniques/, and four lines here.
-// A build may leave some out: TECHNIQUES has a bit for each that it has, in the order of the enumeration.
+// The techniques of one space, by name. A new one is a header in techniques/, and four lines here. A build may leave
+// some out: TECHNIQUES has a bit for each that it includes, in the order of the enumeration.
 #pragma once
 #include <type_traits>
 

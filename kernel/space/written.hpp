@@ -1,7 +1,6 @@
-// What was written since the last update, and where: the slots that changed, and memory that was handed out.
-// Memory that boxes() has handed out is written without a call. It is looked at when somebody asks, and in each update.
-// Where the boxes need more room than it has, they move elsewhere, and it stays: what is written there is copied in, and
-// what changes in another way is copied out.
+// What was written since the last update: the slots that changed, and the memory that boxes() handed out. That memory
+// is written without a call, so it is compared before boxes are read, and in each update. If the boxes outgrow it, they
+// move elsewhere, and it stays: values written there are copied in, and other changes are copied out.
 #pragma once
 #include "boxes/changes.hpp"
 

@@ -20,10 +20,10 @@ template <int D> class AabbTree {
   static constexpr u32 width = 2 * D;
   static constexpr u32 padding = 4;  // vector loads may read this many floats past the last box
   static constexpr u32 rests = continues_1;  // the exclusion bit of all that did not move
-  static constexpr f32 horizon = 8;      // updates that a fat box reaches ahead, at most: fewer in a crowd
+  static constexpr f32 horizon = 8;  // updates that a fat box reaches ahead, at most: fewer in a crowd
   static constexpr u32 crowd_size = 64;
-  static constexpr f32 aside_share = 0.5f; // and to all sides, in motions of one update
-  static constexpr u32 bulk_share = 2;   // all is built anew when one box in so many moved
+  static constexpr f32 aside_share = 0.5f;  // and to all sides, in motions of one update
+  static constexpr u32 bulk_share = 2;  // all is built anew when one box in so many moved
   // The order is, when each box has moved so many times; a little earlier where an update has little else to do.
   static constexpr u32 worn = 4, worn_early = 2, little_share = 8;
   static constexpr u32 spare_share = 16;  // one place in so many is kept for boxes to come

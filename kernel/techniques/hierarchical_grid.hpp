@@ -31,7 +31,7 @@ template <int D> class HierarchicalGrid {
   static constexpr u32 most_near = D == 2 ? 6 : 18;
   struct Level {
     CellTable<D> cells;
-    Place last;           // the last place that was looked around
+    Place last;  // the last place that was looked around
     Run near[most_near];  // what was found there
     u32 near_count;
   };
@@ -42,7 +42,7 @@ template <int D> class HierarchicalGrid {
   u8 level_of_[classes] = {};  // class
   u32 level_count_ = 0;
   Buffer<Run> runs_;
-  Buffer<u32> cells_;   // per slot its class, then its cell
+  Buffer<u32> cells_;  // per slot its class, then its cell
   Buffer<u32> starts_;  // per cell
   Items<D> ordered_;
   Lanes<D> lanes_;

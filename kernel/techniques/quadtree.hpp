@@ -34,10 +34,10 @@ template <int D> class Quadtree {
   };
 
   struct Node {
-    Bounds all;         // of the boxes from here to `behind`
+    Bounds all;  // of the boxes from here to `behind`
     Bounds own;
-    u32 first, last;    // its own boxes
-    u32 behind;         // the node after all that are below it
+    u32 first, last;  // its own boxes
+    u32 behind;  // the node after all that are below it
   };
 
   HilbertOrder<D> order_;

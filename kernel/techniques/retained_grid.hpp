@@ -31,16 +31,16 @@ template <int D> class RetainedGrid {
   Buffer<Cell> cells_;
   Buffer<u32> entries_;  // slots with their marks
   u32 entries_end_ = 0;
-  Buffer<f32> boxes_;    // of the last update
+  Buffer<f32> boxes_;  // of the last update
   Buffer<u32> tags_;
-  Buffer<u8> moved_;     // per slot, whether it changed with this update
-  u32 count_ = 0;        // of boxes in the cells; 0: all is to be built
-  f64 placed_ = 0, tests_ = 0;              // entries, and tests if all cells were dirty
+  Buffer<u8> moved_;  // per slot, whether it changed with this update
+  u32 count_ = 0;  // of boxes in the cells; 0: all is to be built
+  f64 placed_ = 0, tests_ = 0;  // entries, and tests if all cells were dirty
   f64 built_placed_ = 0, built_tests_ = 0;  // the same when the cells were built
-  f64 effort_ = 0;       // entries looked at while boxes were moved
-  Buffer<u64> found_;    // the pairs of the last update, in the order of their slots
+  f64 effort_ = 0;  // entries looked at while boxes were moved
+  Buffer<u64> found_;  // the pairs of the last update, in the order of their slots
   u64 found_count_ = 0;
-  Pairs fresh_;          // those of the dirty cells
+  Pairs fresh_;  // those of the dirty cells
   PairOrder pair_order_;
   // For the search of dirty cells.
   Buffer<u32> picked_, end_;

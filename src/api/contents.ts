@@ -19,9 +19,9 @@ export interface Contents<D extends Dimensions> {
    * Adds box `id`, or moves it: 2D `set(id, minX, minY, maxX, maxY)`, 3D `set(id, minX, minY, minZ, maxX, maxY, maxZ)`.
    * Chainable.
    *
-   * @param box an id, which is an integer from 0 to 2^24 - 1: ids near 0 without gaps are best; the least coordinates, in
-   *   the units of your world: any numbers but NaN, infinite ones too; then the largest ones, not below the least
-   * @throws RangeError for a bad id, for NaN, and for a minimum above its maximum; TypeError for other than
+   * @param box an id, which is an integer from 0 to 2^24 - 1: ids from 0 on without gaps are best; the minima, in the
+   *   units of your world: any numbers but NaN, infinite ones too; then the maxima, not below the minima
+   * @throws RangeError for a bad id, for NaN, and for a minimum above its maximum; TypeError for values other than
    *   numbers and for a wrong number of them. The space is as before.
    *
    * @example
@@ -37,12 +37,13 @@ export interface Contents<D extends Dimensions> {
   set(...box: BoxOfId<D>): this;
 
   /**
-   * Adds or moves box `id` for swept tests: for what moves so fast that it would pass others between two frames. The
-   * box is given as it stands, and how far it moves until the next frame; it is kept as the bounds of the whole way, so
-   * that its pairs are all it may meet. Which it does meet, when and on which side, `sweep` with the same numbers tells.
-   * 2D `setSwept(id, minX, minY, maxX, maxY, dx, dy)`, 3D `setSwept(id, minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz)`.
+   * Adds or moves box `id` for swept tests: for boxes so fast that they would pass through others between two frames.
+   * Give the box as it is now, and how far it moves until the next frame. It is stored as the bounds of its whole path,
+   * so that its pairs are everything it may hit. To find out what it does hit, when and on which side, call `sweep`
+   * with the same numbers. 2D `setSwept(id, minX, minY, maxX, maxY, dx, dy)`, 3D `setSwept(id, minX, minY, minZ, maxX,
+   * maxY, maxZ, dx, dy, dz)`.
    *
-   * @param box an id; where the box stands now, as for `set`; how far it moves along each axis: finite numbers
+   * @param box an id; the box as it is now, as for `set`; how far it moves along each axis: finite numbers
    * @throws as `set` does. The space is as before.
    *
    * @example
@@ -60,10 +61,9 @@ export interface Contents<D extends Dimensions> {
   setSwept(...box: MovingBoxOfId<D>): this;
 
   /**
-   * Adds box `id`, or moves it, by its centre and half its size, such as the box of a circle:
-   * `setCentred(id, x, y, radius, radius)`. 2D `setCentred(id, x, y, halfWidth, halfHeight)`, 3D
-   * `setCentred(id, x, y, z, halfWidth, halfHeight, halfDepth)`. The box is that of the four (six) sums, each rounded as
-   * sums are.
+   * Adds or moves box `id`, given its centre and half its size, such as the box of a circle: `setCentred(id, x, y,
+   * radius, radius)`. 2D `setCentred(id, x, y, halfWidth, halfHeight)`, 3D `setCentred(id, x, y, z, halfWidth,
+   * halfHeight, halfDepth)`. The box consists of the four (six) sums, each rounded like any sum of doubles.
    *
    * @param box an id; the centre: finite numbers; half the size along each axis: at least 0
    * @throws RangeError and TypeError that name the id and the number. The space is as before.
@@ -79,12 +79,12 @@ export interface Contents<D extends Dimensions> {
   setCentred(...box: CentredBoxOfId<D>): this;
 
   /**
-   * Replaces all boxes, by ids 0 … count - 1.
+   * Replaces all boxes by boxes with the ids 0 … count - 1.
    *
    * @param boxes 4 (2D) or 6 (3D) numbers for each box, as `set` takes them, one box after the other
-   * @param count how many boxes to take; default: all there are
-   * @throws RangeError that names the first bad id and its value, or a length that does not fit; TypeError for
-   *   other than an array of numbers. The space is as before.
+   * @param count how many boxes to take; default: all in the array
+   * @throws RangeError that names the first bad id and its value, or a length that does not fit; TypeError for anything
+   *   but an array of numbers. The space is as before.
    *
    * @example
    * const space = new BroadPhase();
@@ -94,15 +94,16 @@ export interface Contents<D extends Dimensions> {
   setAll(boxes: Boxes, count?: number): this;
 
   /**
-   * The fastest way in: an array over the kernel's own memory for the boxes of ids 0 … count - 1, to be written
-   * in place, as float32, before `update()`. Ids from count on are removed; new ones are points at the origin. This call
-   * makes every box float32, rounded to the nearest: boxes that only nearly touched as doubles may be pairs then.
+   * The fastest way to give boxes: a view of the kernel's own memory for the boxes with the ids 0 … count - 1, to be
+   * written in place, as float32, before `update()`. Boxes with ids from count on are removed; new ones are points at
+   * the origin. This call rounds every box to the nearest float32: boxes that nearly touched as doubles may then be
+   * pairs.
    *
-   * Ask for the array before each time it is written: it costs next to nothing and makes no garbage. Until `setAll`,
-   * `clear` or `restore` it shows what `set` does at once, and what is written to it afterwards counts instead, in place
-   * of doubles too. A double that `set` has given stays one until its box is written otherwise than it is shown. After
-   * `delete`, and after `update`, ask again: its rows may stand for other boxes then, or memory has grown and cut it
-   * off. `update()` checks what was written, and throws where the array was cut off and not asked for again since.
+   * Call this again each time before you write: it costs next to nothing and makes no garbage. Until `setAll`, `clear`
+   * or `restore`, the array shows at once what `set` does, and what you write to it afterwards replaces that, doubles
+   * too. Doubles given with `set` remain until you write other values over their rounded ones. After `delete`, and
+   * after `update`, call it again: its rows may then hold other boxes, or memory has grown and detached it. `update()`
+   * checks what was written, and throws if the array was detached and not requested again since.
    *
    * @param count how many boxes, 0 … 2^24
    * @throws RangeError for a bad count
@@ -121,8 +122,8 @@ export interface Contents<D extends Dimensions> {
   boxes(count: number): Float32Array;
 
   /**
-   * Takes box `id` away, with its filter.
-   * @param id an integer from 0 to 2^24 - 1, of a box or not
+   * Removes box `id`, with its filter.
+   * @param id an integer from 0 to 2^24 - 1, in use or not
    * @returns whether there was one
    * @throws RangeError for a bad id
    *
@@ -135,7 +136,7 @@ export interface Contents<D extends Dimensions> {
   delete(id: number): boolean;
 
   /**
-   * Takes all boxes away, with their filters.
+   * Removes all boxes, with their filters.
    *
    * @example
    * const space = new BroadPhase();
@@ -158,9 +159,9 @@ export interface Contents<D extends Dimensions> {
   get<Out extends Float32Array | Float64Array | number[]>(id: number, out: Out): Out | undefined;
 
   /**
-   * The ids of all boxes, in the order of a Map: that in which they were added. Those that `setAll` and `boxes` give come
-   * by number. Boxes may be set and deleted meanwhile: those that are gone when their turn comes are left out, new ones
-   * are not visited. Takes a copy of all ids.
+   * The ids of all boxes, in the order of a Map: the order in which they were added. Those given by `setAll` and
+   * `boxes` come in numerical order. You may set and delete boxes in the loop: boxes deleted before their turn are
+   * skipped, and new ones are not visited. It copies all ids.
    *
    * @example
    * const space = new BroadPhase();

@@ -1,4 +1,4 @@
-// Many questions in one call: numbers of all of them in, the answers of all of them out.
+// Many queries in one call: all their numbers in, all their answers out.
 import type {
   ManyAreaOptions,
   ManyBoxOptions,
@@ -11,16 +11,16 @@ import type {
   ManySweepHits,
 } from '../query-options.ts';
 
-/** Many questions in one call: numbers of all of them in, the answers of all of them out. */
+/** Many queries in one call: all their numbers in, all their answers out. */
 export interface ManyQuestions {
   /**
-   * The boxes in each of many boxes, as `queryBox` answers each: those of question k are `ids[offsets[k]]` up to
-   * `ids[offsets[k + 1] - 1]`. One call for all, and no array for each.
+   * The boxes in each of many boxes, as `queryBox` returns them: those of query k are `ids[offsets[k]]` up to
+   * `ids[offsets[k + 1] - 1]`. One call for all, without an array for each.
    *
-   * @param boxes the numbers of each, minima first, one box behind the other
-   * @param options `ignoreEach[k]` is left out of the answers of question k; an `out` is filled and returned: the answer of
-   *   an earlier call, whose arrays are kept while they are long enough, and may then be longer than the answers
-   * @throws as all questions do, naming the number of the question: see {@link BroadPhase}
+   * @param boxes the numbers of each, minima first, box after box
+   * @param options `ignoreEach[k]` is left out of the answers to query k; `out`, the result of an earlier call, is
+   *   filled and returned: its arrays are reused while they are long enough, and may then be longer than the answers
+   * @throws as all queries do, with the number of the query: see {@link BroadPhase}
    *
    * @example
    * const space = new BroadPhase().setAll([0, 0, 10, 10, 5, 5, 15, 15]);
@@ -41,8 +41,8 @@ export interface ManyQuestions {
   queryPoints(points: ArrayLike<number>, options?: ManyAreaOptions): ManyIds;
 
   /**
-   * The boxes in each of many circles, in 3D of many spheres: of each its centre, then its radius. As
-   * {@link BroadPhase.queryBoxes}.
+   * The boxes in each of many circles, in 3D of many spheres: for each its centre, then its radius. As {@link
+   * BroadPhase.queryBoxes}.
    *
    * @example
    * const space = new BroadPhase().set(7, 0, 0, 10, 10).update();
@@ -51,8 +51,8 @@ export interface ManyQuestions {
   queryCircles(circles: ArrayLike<number>, options?: ManyAreaOptions): ManyIds;
 
   /**
-   * The first box that each of many rays meets, as `rayCast`: one answer, or none, a ray. As {@link BroadPhase.queryBoxes},
-   * with the distances and the normals, of which each has one number per axis.
+   * The first box that each of many rays hits, as `rayCast`: at most one answer per ray. As {@link
+   * BroadPhase.queryBoxes}, with the distances and the normals, each of one number per axis.
    *
    * @example
    * const space = new BroadPhase().set(7, 10, -5, 20, 5).update();
@@ -64,8 +64,8 @@ export interface ManyQuestions {
   rayCasts(rays: ArrayLike<number>, options?: ManyFarOptions<ManyRayHits>): ManyRayHits;
 
   /**
-   * The first box that each of many moving boxes meets, as `sweep`: of each its box, then its way. As
-   * {@link BroadPhase.rayCasts}.
+   * The first box that each of many moving boxes hits, as `sweep`: for each its box, then its motion. As {@link
+   * BroadPhase.rayCasts}.
    *
    * @example
    * const space = new BroadPhase().set(7, 21, -5, 22, 5).update();

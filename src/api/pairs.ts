@@ -5,10 +5,10 @@ import type { Dimensions } from '../dimensions.ts';
 /** The pairs: of an update, what began and ended with it, and with another space. */
 export interface Pairs<D extends Dimensions> {
   /**
-   * Brings the pairs up to date with the boxes. Chainable.
+   * Finds the pairs of the boxes as they are now. Chainable.
    * @throws RangeError that names the first bad box written through `boxes()`; the pairs stay as they were
-   * @throws Error where the array that `boxes()` gave has been cut off by growing memory and not been asked for again
-   * @throws RangeError where memory ends: the pairs are empty, and the space works again once there are fewer
+   * @throws Error if the array of `boxes()` was detached by growing memory and not requested again
+   * @throws RangeError if memory runs out: the pairs are empty, and the space works again once it has fewer boxes
    *
    * @example
    * const space = new BroadPhase();
@@ -19,10 +19,10 @@ export interface Pairs<D extends Dimensions> {
   update(): this;
 
   /**
-   * Each overlapping pair of ids once, `[a0, b0, a1, b1, …]` with a < b, as of the last update: boxes that were deleted
-   * since are still named. The order
-   * depends only on the calls made. A view of the kernel's memory: valid until the next `update()`, or until adding
-   * many boxes at once makes memory grow; then its length is 0. There is room for some boxes, and for all questions.
+   * Each overlapping pair of ids once, `[a0, b0, a1, b1, …]` with a < b, as of the last update: boxes deleted since are
+   * still in it. The order depends only on the calls made. A view of the kernel's memory: valid until the next
+   * `update()`, or until adding many boxes at once makes memory grow; then its length is 0. Adding a few boxes, or
+   * making queries, does not invalidate it.
    *
    * @example
    * const space = new BroadPhase();
@@ -33,8 +33,9 @@ export interface Pairs<D extends Dimensions> {
   get pairs(): Uint32Array;
 
   /**
-   * Each pair of `pairs`, `[a, b]`: to write `for (const [a, b] of space.eachPair())`. Several times as slow as a loop over
-   * `pairs`, and makes garbage for each. Walks a copy: boxes may be changed, and updated, meanwhile.
+   * Each pair of `pairs`, `[a, b]`: for loops such as `for (const [a, b] of space.eachPair())`. Several times as slow
+   * as a loop over `pairs`, and makes garbage for each pair. It iterates over a copy: you may change boxes, and update,
+   * in the loop.
    *
    * @example
    * const space = new BroadPhase().setAll([0, 0, 10, 10, 5, 5, 15, 15]).update();
@@ -51,11 +52,11 @@ export interface Pairs<D extends Dimensions> {
   get pairCount(): number;
 
   /**
-   * The pairs that the last update found and the one before did not, as in `pairs` and in their order: with `events:
-   * true` only. A view of the kernel's memory: valid as long as `pairs`.
+   * The pairs that the last update found and the previous one did not, in the form and order of `pairs`; requires
+   * `events: true`. A view of the kernel's memory: valid as long as `pairs`.
    *
-   * A pair whose box was deleted has ended with the next update, and has begun with it too where the id was set again
-   * and overlaps again: it is another box. Boxes that `setAll`, `boxes` and `clear` take away were deleted.
+   * If a box is deleted, its pairs end with the next update. They also begin with it if the id was set again and
+   * overlaps again, since it is another box. Boxes that `setAll`, `boxes` and `clear` remove count as deleted.
    *
    * @throws Error without `events: true`
    *
@@ -68,7 +69,7 @@ export interface Pairs<D extends Dimensions> {
   get began(): Uint32Array;
 
   /**
-   * The pairs that the update before the last found and the last did not, or whose boxes were deleted in between: see
+   * The pairs that the previous update found and the last one did not, or whose boxes were deleted in between: see
    * {@link BroadPhase.began}. In the order that they had in `pairs`.
    *
    * @throws Error without `events: true`
@@ -82,8 +83,8 @@ export interface Pairs<D extends Dimensions> {
   get ended(): Uint32Array;
 
   /**
-   * Whether boxes `a` and `b` are a pair of the last update: constant time after the first question.
-   * @param a an integer from 0 to 2^24 - 1, of a box or not; so is `b`
+   * Whether boxes `a` and `b` are a pair of the last update, in constant time after the first query.
+   * @param a an integer from 0 to 2^24 - 1, in use or not; so is `b`
    * @throws RangeError for a bad id
    *
    * @example
@@ -95,12 +96,12 @@ export interface Pairs<D extends Dimensions> {
   isColliding(a: number, b: number): boolean;
 
   /**
-   * The ids of the boxes that are in a pair with box `id` in the last update, in the order of `pairs`: takes time
-   * proportional to the answer, after the first question.
+   * The ids of the boxes that are in a pair with box `id` as of the last update, in the order of `pairs`. Takes time
+   * proportional to the answer, after the first query.
    *
-   * @param id an integer from 0 to 2^24 - 1, of a box or not
-   * @param out filled and returned, if given; else a new array
-   * @throws RangeError for a bad id; TypeError where `out` is no array
+   * @param id an integer from 0 to 2^24 - 1, in use or not
+   * @param out filled and returned, if given; otherwise a new array
+   * @throws RangeError for a bad id; TypeError if `out` is not an array
    *
    * @example
    * const space = new BroadPhase();
@@ -111,13 +112,14 @@ export interface Pairs<D extends Dimensions> {
 
   /**
    * Every pair of a box here and a box of another space, `[here0, there0, here1, there1, …]`, as of the last update of
-   * each: such as of a level at rest and of what moves in it. Kept from call to call, at the cost of what has changed since.
-   * Filters and reaches count as between boxes of one space, boxes that are off are in no pair, and which are static or in
-   * a group makes no difference. The order depends on the calls made. The array stays as it is until the next call.
+   * each: for example of a level at rest and the things that move in it. The pairs are retained between calls, so a
+   * call costs only what has changed. Filters and reaches count as between boxes of one space, boxes that are off are
+   * in no pair, and static boxes and groups make no difference. The order depends on the calls made. The array stays as
+   * it is until the next call.
    *
-   * @param other a space of as many dimensions, and of the same `wrap` and `touching`
-   * @throws TypeError for what is no other space; RangeError for one with another of these; Error for
-   *   one that was disposed of, and as questions do: see {@link BroadPhase}
+   * @param other a space with the same `dimensions`, `wrap` and `touching`
+   * @throws TypeError for anything but another space; RangeError for one that differs in these; Error for one that was
+   *   disposed, and as queries do: see {@link BroadPhase}
    *
    * @example
    * const level = new BroadPhase().set(0, 0, 0, 10, 1).set(1, 10, 0, 20, 1).update();

@@ -23,13 +23,13 @@ import type {
 /** What a space can be asked between two updates: what is there, in view, ahead, near. */
 export interface Questions<D extends Dimensions> {
   /**
-   * The ids of the boxes that overlap or touch a box, which may be infinite: in no particular order, but the same one
-   * until the next update. 2D: `queryBox(minX, minY, maxX, maxY, options?)`, 3D:
-   * `queryBox(minX, minY, minZ, maxX, maxY, maxZ, options?)`.
+   * The ids of the boxes that overlap or touch a box, which may be infinite. The order is arbitrary, but the same until
+   * the next update. 2D: `queryBox(minX, minY, maxX, maxY, options?)`, 3D: `queryBox(minX, minY, minZ, maxX, maxY,
+   * maxZ, options?)`.
    *
-   * @param question the least coordinates, in the units of your world: any numbers but NaN; then the largest ones, not
-   *   below the least; then options, if any
-   * @throws as all questions do: see {@link BroadPhase}
+   * @param question the minima, in the units of your world: any numbers but NaN; then the maxima, not below the minima;
+   *   then options, if any
+   * @throws as all queries do: see {@link BroadPhase}
    *
    * @example
    * const space = new BroadPhase();
@@ -50,10 +50,10 @@ export interface Questions<D extends Dimensions> {
   queryBox(...question: BoxQuestion<D, BoxOptions>): number[];
 
   /**
-   * The ids of the boxes that hold a point or touch it: as {@link BroadPhase.queryBox}. 2D: `queryPoint(x, y, options?)`, 3D:
-   * `queryPoint(x, y, z, options?)`.
+   * The ids of the boxes that contain or touch a point: as {@link BroadPhase.queryBox}. 2D: `queryPoint(x, y,
+   * options?)`, 3D: `queryPoint(x, y, z, options?)`.
    *
-   * @param question where it is: finite coordinates; then options, if any
+   * @param question the point: finite coordinates; then options, if any
    *
    * @example
    * const space = new BroadPhase();
@@ -91,20 +91,20 @@ export interface Questions<D extends Dimensions> {
   querySphere(...question: D extends 3 ? RoundQuestion<3, IdsOptions> : never): number[];
 
   /**
-   * The ids of the boxes that are not wholly behind any of up to eight planes, such as the six of a camera's view: in no
-   * particular order. A plane is a normal n and an offset d; a point p is behind it where n · p + d, summed in doubles
-   * along x, y and z in turn, is below 0. A box is behind it where all of it is; what touches it is not. The planes may
-   * bound anything convex, or nothing: without planes all boxes are meant. A box near a corner of the view may be
-   * outside of it and yet behind no single plane: it is among the answers.
+   * The ids of the boxes that are not wholly behind any of up to eight planes, such as the six of a camera's view, in
+   * arbitrary order. A plane is a normal n and an offset d; a point p is behind it if n · p + d, summed in doubles
+   * along x, y and z in turn, is below 0. A box is behind it if all of it is; a box that touches it is not. The planes
+   * may bound anything convex, or nothing: without planes all boxes are answers. A box near a corner of the view may be
+   * outside it and yet not behind any single plane: it is among the answers.
    *
    * In a world that wraps around, a box is in view if it is where it stands in the world, its minimum from 0 on, or one
    * world further along any axes. It is in the answer once, and inside if one of these copies is.
    *
    * @param planes 4 numbers for each plane, its normal, of any length, and its offset: `[nx, ny, nz, d, …]`; in 2D 3:
    *   `[nx, ny, d, …]`. All finite
-   * @param options as for `queryBox`; `visit` is told which boxes are wholly inside, in front of all planes: what is in
-   *   them need not be looked at again
-   * @throws as all questions do: see {@link BroadPhase}
+   * @param options as for `queryBox`; `visit` also gets whether the box is wholly inside, in front of all planes, so
+   *   that its parts need not be tested again
+   * @throws as all queries do: see {@link BroadPhase}
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
@@ -123,15 +123,15 @@ export interface Questions<D extends Dimensions> {
   queryPlanes(planes: Float32Array | Float64Array | readonly number[], options?: PlanesOptions): number[];
 
   /**
-   * The first box that a ray meets, or `undefined`: of several at the same distance as in `sweep`.
-   * The direction may have any length; where it has none the ray is a point. A ray that begins at a face meets it
-   * where it leads into the box, at distance 0; one that leads along it or away does not. One that begins inside has
-   * distance 0 and no normal. Edges and corners count. 2D:
-   * `rayCast(x, y, directionX, directionY, options?)`, 3D: `rayCast(x, y, z, directionX, directionY, directionZ, options?)`.
+   * The first box that a ray hits, or `undefined`; ties are decided as in `sweep`. The direction may have any length;
+   * if it is 0, the ray is a point. A ray that starts on a face hits it, at distance 0, if it leads into the box; one
+   * that leads along it or away does not. One that starts inside has distance 0 and a normal of zeros. Edges and
+   * corners count. 2D: `rayCast(x, y, directionX, directionY, options?)`, 3D: `rayCast(x, y, z, directionX, directionY,
+   * directionZ, options?)`.
    *
-   * @param question where the ray begins, and where it points: finite numbers; then options, if any
+   * @param question the origin of the ray, and its direction: finite numbers; then options, if any
    * @returns the box, the distance to it in the units of your world, and the normal of the side that was hit
-   * @throws as all questions do: see {@link BroadPhase}
+   * @throws as all queries do: see {@link BroadPhase}
    *
    * @example
    * const space = new BroadPhase();
@@ -150,11 +150,10 @@ export interface Questions<D extends Dimensions> {
   rayCast(...question: RayQuestion<D, RayOptions>): RayHit | undefined;
 
   /**
-   * All boxes that a ray meets, by distance and then by id: as {@link BroadPhase.rayCast}. 2D: `rayCastAll(x, y,
-   * directionX, directionY, options?)`, 3D:
-   * `rayCastAll(x, y, z, directionX, directionY, directionZ, options?)`.
+   * All boxes that a ray hits, by distance and then by id: as {@link BroadPhase.rayCast}. 2D: `rayCastAll(x, y,
+   * directionX, directionY, options?)`, 3D: `rayCastAll(x, y, z, directionX, directionY, directionZ, options?)`.
    *
-   * @param question where the ray begins, and where it points: finite numbers; then options, if any
+   * @param question the origin of the ray, and its direction: finite numbers; then options, if any
    *
    * @example
    * const space = new BroadPhase();
@@ -169,17 +168,17 @@ export interface Questions<D extends Dimensions> {
   rayCastAll(...question: RayQuestion<D, RayAllOptions>): RayHit[];
 
   /**
-   * The first box that a moving box meets, or `undefined`: the swept test for what is too fast to be looked at from
-   * frame to frame. It meets what its way leads into: who stands on a floor meets it only on a way down. Where it
-   * overlaps a box from the start the time is 0, and the normal all 0. Of several met at the same time, faces come
-   * before corners, then the smallest id. A box that is in the space meets itself: name it in `ignore`. Who stops at
-   * `x + dx * time` touches, up to rounding, and never ends inside: see the guide to queries. 2D: `sweep(minX, minY,
-   * maxX, maxY, dx, dy, options?)`, 3D: `sweep(minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz, options?)`.
+   * The first box that a moving box hits, or `undefined`: the swept test for boxes that move too fast to be tested
+   * frame by frame. It hits the boxes that its path leads into: a box on a floor hits it only when it moves down. If it
+   * overlaps a box from the start, the time is 0 and the normal is all zeros. Of several hit at the same time, faces
+   * come before corners, then the smallest id. A box that is in the space hits itself: name it in `ignore`. A box that
+   * stops at `x + dx * time` touches, up to rounding, and never ends inside: see the guide to queries. 2D: `sweep(minX,
+   * minY, maxX, maxY, dx, dy, options?)`, 3D: `sweep(minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz, options?)`.
    *
-   * @param question where the box stands now: any numbers but NaN; how far it moves along each axis: finite numbers; then
+   * @param question the box as it is now: any numbers but NaN; how far it moves along each axis: finite numbers; then
    *   options, if any
-   * @returns the box, the share of the way until they touch, and the normal of the side that was hit
-   * @throws as all questions do: see {@link BroadPhase}
+   * @returns the box, the fraction of the motion until they touch, and the normal of the side that was hit
+   * @throws as all queries do: see {@link BroadPhase}
    *
    * @example
    * const space = new BroadPhase();
@@ -201,9 +200,10 @@ export interface Questions<D extends Dimensions> {
    * `nearest(x, y, k, options?)`, 3D:
    * `nearest(x, y, z, k, options?)`.
    *
-   * @param question where from: finite coordinates; how many: an integer from 1 on, or Infinity for all; then options, if any
-   * @returns fewer than k where there are no more, or none within `maxDistance`
-   * @throws as all questions do: see {@link BroadPhase}
+   * @param question a point: finite coordinates; how many boxes: an integer from 1 on, or Infinity for all; then
+   *   options, if any
+   * @returns fewer than k ids if there are no more boxes, or no more within `maxDistance`
+   * @throws as all queries do: see {@link BroadPhase}
    *
    * @example
    * const space = new BroadPhase();

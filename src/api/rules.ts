@@ -4,16 +4,17 @@ import type { Filter } from '../rules.ts';
 /** Who may be a pair with whom: filters, groups, static boxes, boxes that are off, and reaches. */
 export interface Rules {
   /**
-   * Says whom box `id` meets: a pair is reported where each one's layer has a bit in the other's mask, so that a box
-   * of layer 0 is in none. Both are 32 bits; without a filter both have all bits set, so that a box meets all but those
-   * that want to meet nobody. Applied before and inside the search: boxes that ignore each other cost little, boxes
-   * that can meet nobody cost nothing. The filter belongs to the id: it stays when the box moves, by whatever call,
-   * and goes with `delete` and `clear`.
+   * Sets which boxes box `id` meets: two boxes are a pair only if the layer of each has a bit in the other's mask, so a
+   * box with layer 0 is in no pair. Both are 32 bits. Without a filter all bits are set, so that a box meets all boxes
+   * that do not exclude it. Filters are applied before and inside the search: boxes that ignore each other cost little,
+   * and boxes that can meet nobody cost nothing. The filter belongs to the id: it stays when the box moves, by whatever
+   * call, and ends with `delete` and `clear`.
    *
-   * @param id an integer from 0 to 2^24 - 1, of a box that is there
-   * @param layer what the box is: an integer from 0 to 2^32 - 1, most often one bit
-   * @param mask whom it meets: the same, most often some bits. Write `~bits >>> 0` for all but some
-   * @throws RangeError for a bad id or one that has no box, and for other than 32 bits; TypeError for other than numbers
+   * @param id an integer from 0 to 2^24 - 1, of an existing box
+   * @param layer what the box is: an integer from 0 to 2^32 - 1, usually one bit
+   * @param mask what it meets: the same, usually a few bits. Write `~bits >>> 0` for all but a few
+   * @throws RangeError for a bad id or one without a box, and for more than 32 bits; TypeError for values other than
+   *   numbers
    *
    * @example
    * const space = new BroadPhase();
@@ -27,8 +28,8 @@ export interface Rules {
   setFilter(id: number, layer: number, mask: number): this;
 
   /**
-   * The layer and the mask that `setFilter` gave box `id`: all bits of both where it gave none, `undefined` where there is
-   * no box.
+   * The layer and the mask that `setFilter` gave box `id`: all bits set if it has no filter, `undefined` if there is no
+   * such box.
    * @param id an integer from 0 to 2^24 - 1
    * @throws RangeError for a bad id
    *
@@ -40,12 +41,12 @@ export interface Rules {
   filterOf(id: number): Filter | undefined;
 
   /**
-   * Says whether box `id` is static: two static boxes are never a pair. Static boxes may be moved like others. Belongs
-   * to the id, as filters do.
+   * Sets whether box `id` is static: two static boxes are never a pair. Static boxes can be moved like others. The
+   * setting belongs to the id, as filters do.
    *
-   * @param id an integer from 0 to 2^24 - 1, of a box that is there
-   * @param isStatic true unless told
-   * @throws RangeError for a bad id or one that has no box; TypeError for other than a boolean
+   * @param id an integer from 0 to 2^24 - 1, of an existing box
+   * @param isStatic default true
+   * @throws RangeError for a bad id or one without a box; TypeError for anything but a boolean
    *
    * @example
    * const space = new BroadPhase();
@@ -56,7 +57,7 @@ export interface Rules {
   setStatic(id: number, isStatic?: boolean): this;
 
   /**
-   * Whether box `id` is static, as `setStatic` has it: not where there is none.
+   * Whether box `id` is static, as set by `setStatic`; false if there is no such box.
    * @param id an integer from 0 to 2^24 - 1
    * @throws RangeError for a bad id
    *
@@ -67,12 +68,12 @@ export interface Rules {
 
   /**
    * Switches box `id` off, or on again. A box that is off keeps its numbers and its filter, and can be set, moved and
-   * deleted; it is in no pair and in no answer from the next update on, which ends its pairs. Belongs to the id, as
-   * filters do. While some box is off, an update looks at all boxes and pairs, also where little changes.
+   * deleted. From the next update on it is in no pair and in no answer, and its pairs have ended. The setting belongs
+   * to the id, as filters do. While any box is off, an update visits all boxes and pairs, even if little changes.
    *
-   * @param id an integer from 0 to 2^24 - 1, of a box that is there
+   * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param enabled whether it takes part
-   * @throws RangeError for a bad id or one that has no box; TypeError for other than a boolean
+   * @throws RangeError for a bad id or one without a box; TypeError for anything but a boolean
    *
    * @example
    * const space = new BroadPhase();
@@ -83,7 +84,7 @@ export interface Rules {
   setEnabled(id: number, enabled: boolean): this;
 
   /**
-   * Whether box `id` takes part, as `setEnabled` has it: not where there is none.
+   * Whether box `id` is on, as set by `setEnabled`; false if there is no such box.
    * @param id an integer from 0 to 2^24 - 1
    * @throws RangeError for a bad id
    *
@@ -93,13 +94,14 @@ export interface Rules {
   isEnabled(id: number): boolean;
 
   /**
-   * Puts box `id` into a group: two boxes of one group are never a pair. For what belongs together, such as the parts of
-   * a ragdoll, or a ship and its bullets. Group 0 is none. Questions take no notice of groups. Belongs to the id, as
-   * filters do.
+   * Puts box `id` into a group: two boxes of one group are never a pair. For things that belong together, such as the
+   * parts of a ragdoll, or a ship and its bullets. Group 0 means none. Queries ignore groups. The setting belongs to
+   * the id, as filters do.
    *
-   * @param id an integer from 0 to 2^24 - 1, of a box that is there
+   * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param group an integer from 0 to 2^32 - 1
-   * @throws RangeError for a bad id or one that has no box, and for other than 32 bits; TypeError for other than numbers
+   * @throws RangeError for a bad id or one without a box, and for more than 32 bits; TypeError for values other than
+   *   numbers
    *
    * @example
    * const space = new BroadPhase();
@@ -110,7 +112,7 @@ export interface Rules {
   setGroup(id: number, group: number): this;
 
   /**
-   * The group of box `id`: 0 where it is in none, `undefined` where there is no box.
+   * The group of box `id`: 0 if it is in none, `undefined` if there is no such box.
    * @param id an integer from 0 to 2^24 - 1
    * @throws RangeError for a bad id
    *
@@ -120,13 +122,15 @@ export interface Rules {
   groupOf(id: number): number | undefined;
 
   /**
-   * Says how far box `id` reaches: it is in a pair while the two boxes overlap once each is grown by its reach to all
-   * sides. For contacts that a physics engine wants to know of before they come. `get` and questions see the box itself.
-   * Belongs to the id, as filters do. While some box has a reach, an update looks at all boxes.
+   * Sets how far box `id` reaches: it is in a pair while the two boxes overlap with each one enlarged by its reach on
+   * all sides. For contacts that a physics engine needs ahead of time. `get` and queries see the box itself. The
+   * setting belongs to the id, as filters do. While any box has a reach, an update visits all boxes.
    *
-   * @param id an integer from 0 to 2^24 - 1, of a box that is there
-   * @param distance in units of the world: finite, at least 0. The sides of the grown box are sums, each rounded as sums are
-   * @throws RangeError for a bad id or one that has no box, and for a bad distance; TypeError for other than numbers
+   * @param id an integer from 0 to 2^24 - 1, of an existing box
+   * @param distance in units of the world: finite, at least 0. The sides of the enlarged box are sums, each rounded
+   *   like any sum of doubles
+   * @throws RangeError for a bad id or one without a box, and for a bad distance; TypeError for values other than
+   *   numbers
    *
    * @example
    * const space = new BroadPhase().set(7, 0, 0, 10, 10).set(9, 13, 0, 20, 10);
@@ -136,7 +140,7 @@ export interface Rules {
   setReach(id: number, distance: number): this;
 
   /**
-   * How far box `id` reaches: 0 where `setReach` never said, `undefined` where there is no box.
+   * How far box `id` reaches: 0 unless `setReach` was called, `undefined` if there is no such box.
    * @param id an integer from 0 to 2^24 - 1
    * @throws RangeError for a bad id
    *

@@ -6,7 +6,7 @@ import type { TechniqueName } from '../techniques.ts';
 /** A space as a whole: how it searches and what that took, saved and restored, checked and let go of. */
 export interface Upkeep {
   /**
-   * Counters of the last update: the same object every time.
+   * Counters of the last update, always in the same object.
    *
    * @example
    * const { stats } = new BroadPhase().setAll([0, 0, 10, 10, 5, 5, 15, 15]).update();
@@ -18,7 +18,7 @@ export interface Upkeep {
   /**
    * The technique, which may be changed at any time, and takes effect with the next update: the pairs stay the same.
    *
-   * @throws RangeError or TypeError for what is not the name of one that this build has
+   * @throws RangeError or TypeError for anything but the name of a technique of this build
    *
    * @example
    * const space = new BroadPhase();
@@ -29,8 +29,8 @@ export interface Upkeep {
   set technique(name: LeanTechnique);
 
   /**
-   * The boxes of the cells, strips or nodes that the last update used, to draw: 4 numbers (3D: 6) each, as `setAll`'s. A
-   * view of the kernel's memory: valid until the next call.
+   * The boxes of the cells, strips or nodes that the last update used, to draw: 4 numbers (3D: 6) each, as for
+   * `setAll`. A view of the kernel's memory: valid until the next call.
    *
    * @example
    * const space = new BroadPhase({ technique: 'strip-sweep' });
@@ -40,14 +40,15 @@ export interface Upkeep {
   structure(): Float32Array;
 
   /**
-   * What stands in the space, as bytes to go back to with `restore`, or to save: boxes as they were given, ids, their order,
-   * filters, groups, reaches, which boxes are static, the technique, and with `events: true` the pairs of the last update, and those
-   * that began and ended with it. Options of the constructor are not in it. A box takes 16 bytes in 2D and 24 in 3D, twice that where some box is not a
-   * float32, 4 more where ids have gaps, and 4 where a box was deleted before another, up to 9 more with filters, 4 with groups, 8 with reaches; a pair 8.
+   * The contents of the space as bytes, to go back to with `restore`, or to save: boxes as they were given, ids, their
+   * order, filters, groups, reaches, which boxes are static, and the technique. With `events: true` they include the
+   * pairs of the last update, and those that began and ended with it. Constructor options are not included. A box takes
+   * 16 bytes in 2D and 24 in 3D, or twice that if any box does not fit float32. Add 4 if ids have gaps, 4 if a box was
+   * deleted before a later one, up to 9 with filters, 4 with groups, 8 with reaches. A pair takes 8.
    *
-   * From the first call on, and from `restore` on, the order of the pairs depends on what stands in the space alone,
-   * so that a restored space gives them in the very order of the one that went on. `auto` then keeps nothing from
-   * update to update, and `incremental` sorts its pairs.
+   * From the first call of this or `restore` on, the order of the pairs depends on the contents of the space alone, so
+   * that a restored space gives them in the same order as the original. `auto` then retains nothing between updates,
+   * and `incremental` sorts its pairs.
    *
    * @throws RangeError that names the first bad box written through `boxes()`
    *
@@ -62,20 +63,19 @@ export interface Upkeep {
   snapshot(): Uint8Array<ArrayBuffer>;
 
   /**
-   * Puts what stood in a space when `snapshot` was called in place of all that stands in this one. From there on the
-   * same calls give the same pairs, in the same order, as they gave there, whatever either space did before, where the
-   * two were made with the same options.
+   * Replaces the contents of this space with those of a snapshot. From there on the same calls give the same pairs, in
+   * the same order, as in the original, whatever either space did before, if the two were created with the same
+   * options.
    *
-   * A restored space is as after an update of the boxes that it now has: `pairs`, `isColliding`, `collisionsOf` and all
-   * questions answer by them. With `events: true`, `began` and `ended` are those that the space of the snapshot had, and
-   * what begins and ends with the next update does so against the pairs that it had: events come again as they came
-   * there, and what happened only in frames that were taken back does not end. A snapshot of a space without events has
-   * no pairs to tell them from: all begin.
+   * A restored space is as after an update with the boxes it now has: `pairs`, `isColliding`, `collisionsOf` and all
+   * queries answer for them. With `events: true`, `began` and `ended` are those of the snapshot's space, and the next
+   * update compares with the pairs it had. So the same events come again, and pairs that existed only in the frames you
+   * went back over do not end. A snapshot of a space without events has no previous pairs: all begin.
    *
-   * @param bytes what `snapshot` gave, in this version of the library or an older one
-   * @throws RangeError that says why for bytes that are damaged, cut off, of other dimensions, or no snapshot at all;
-   *   TypeError for other than bytes. The space is as before.
-   * @throws RangeError where memory ends while the pairs are found: the boxes are restored, the pairs are empty
+   * @param bytes the result of `snapshot`, in this version of the library or an older one
+   * @throws RangeError that gives the reason for bytes that are damaged, truncated, of other dimensions, or not a
+   *   snapshot; TypeError for anything but bytes. The space is as before.
+   * @throws RangeError if memory runs out during the search: the boxes are restored, the pairs are empty
    *
    * @example
    * const space = new BroadPhase();
@@ -85,7 +85,7 @@ export interface Upkeep {
 
   /**
    * Checks every invariant of the space, in time proportional to boxes and pairs.
-   * @throws Error that says what is broken, which would be a fault of this library
+   * @throws Error that says what is broken, which would be a bug in this library
    *
    * @example
    * new BroadPhase().set(7, 0, 0, 1, 1).validate().size; // → 1
@@ -93,7 +93,7 @@ export interface Upkeep {
   validate(): this;
 
   /**
-   * Lets go of the memory at once; it also goes with the object. Any call after this throws.
+   * Frees the memory at once; otherwise it is freed with the object. Any later call throws.
    *
    * @example
    * const space = new BroadPhase();

@@ -25,13 +25,13 @@ export interface DrawOptions {
   pairs?: boolean;
   /** Whether the cells, strips or nodes of the technique are drawn. Default false. */
   cells?: boolean;
-  /** Whether the fullest cells are filled, the more the fuller. Default false. */
+  /** Whether the fullest cells are filled, the fuller the stronger. Default false. */
   hot?: boolean;
-  /** Rays to ask and draw: each its origin, its direction, and the largest distance if there is one, 4 or 5 numbers. */
+  /** Rays to cast and draw: for each its origin, its direction, and optionally the maximum distance, 4 or 5 numbers. */
   rays?: readonly (readonly number[])[];
   /** Some other colours. */
   colors?: Partial<Colors>;
-  /** How wide lines are, in pixels of the canvas. Default 1. */
+  /** The width of lines, in pixels of the canvas. Default 1. */
   lineWidth?: number;
 }
 
@@ -48,10 +48,10 @@ const inside = 0.15;
 const hotInside = 0.5;
 
 /**
- * Draws a space of two dimensions: its boxes, those in a pair in another colour, and what else the options say. Units are
- * those of the world: the transform of the context says where that is. The context is left as it was.
+ * Draws a 2D space: its boxes, those in a pair in another colour, and whatever the options add. Coordinates are those
+ * of the world, under the context's current transform. The context is left as it was.
  *
- * @throws RangeError for a space of three dimensions, TypeError for an option that there is not; nothing is drawn then
+ * @throws RangeError for a 3D space, TypeError for an unknown option; nothing is drawn then
  *
  * @example
  * const space = new BroadPhase().set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();

@@ -1,6 +1,6 @@
 // How full the cells of a technique are. A box counts in the smallest cell that its lower corner is in, so that the
 // nodes of a tree, which lie in one another, are not all as hot as what is in them. Which cells a corner is in is a
-// question to a space of the cells, some corners at a time: nodes that cover the world a thousand times over would
+// query to a space of the cells, some corners at a time: nodes that cover the world a thousand times over would
 // make more pairs with all corners than there is memory. It is of the class of the one that is looked at, so that who
 // imports the small library does not get the large one with it.
 import type { BroadPhase } from 'broadphase';
@@ -9,8 +9,9 @@ import type { BroadPhase } from 'broadphase';
 const atOnce = 1000;
 
 /**
- * How many boxes stand in each cell of `structure()`, in its order. Each box counts once: in the smallest cell that has
- * its lower corner, or in none. Slower than an update: some hundredths of a second for 100,000 boxes, for an `aabb-tree` seconds.
+ * The number of boxes in each cell of `structure()`, in its order. Each box counts once: in the smallest cell that
+ * contains its lower corner, or in none. Slower than an update: a few hundredths of a second for 100,000 boxes, for an
+ * `aabb-tree` seconds.
  *
  * @example
  * const space = new BroadPhase({ technique: 'strip-sweep' });

@@ -1,6 +1,6 @@
 /**
- * To see what a space holds: its boxes, pairs, cells and rays, drawn on a canvas, or as line segments for any renderer.
- * Made for debugging: it costs time per box drawn, and makes some garbage.
+ * Shows a space: its boxes, pairs, cells and rays, drawn on a canvas, or as line segments for any renderer. Made for
+ * debugging: it costs time for every box, and makes some garbage.
  *
  * @module broadphase/draw
  */

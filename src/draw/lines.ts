@@ -6,9 +6,9 @@ import { checkRay, Shapes, type Sink } from './shapes.ts';
 const firstRoom = 1020;
 
 /**
- * Line segments in one Float32Array, for whatever draws lines: three.js, PixiJS, regl, WebGL itself. Each segment is two
- * points, of 2 numbers each, in 3D of 3. The array is kept and grows.
- * Reading the space makes some garbage: this is for debugging.
+ * Line segments in one Float32Array, for anything that draws lines: three.js, PixiJS, regl, WebGL itself. Each segment
+ * is two points, of 2 numbers each, in 3D of 3. The array is reused and grows. Reading the space makes some garbage:
+ * this is for debugging.
  *
  * @example
  * const space = new BroadPhase().set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
@@ -18,9 +18,9 @@ const firstRoom = 1020;
 export class Lines {
   /** 2 or 3: how many numbers a point has. */
   readonly dimensions: 2 | 3;
-  /** Where the points are; longer than what is in use. It is another one after it has grown. */
+  /** The points; the array is longer than the part in use. Growing replaces it by another array. */
   data: Float32Array<ArrayBuffer>;
-  /** How many numbers of `data` are in use. */
+  /** The number of elements of `data` in use. */
   length = 0;
   readonly #sink: Sink;
 
@@ -57,7 +57,7 @@ export class Lines {
   }
 
   /**
-   * Forgets all lines, and keeps the room. Chainable.
+   * Removes all lines, and keeps the array. Chainable.
    *
    * @example
    * new Lines().clear().length; // → 0
@@ -78,8 +78,9 @@ export class Lines {
   }
 
   /**
-   * Adds the edges of all boxes: 4 each, in 3D 12. Sides without an end are cut off where the finite boxes end. Chainable.
-   * @throws RangeError where the space has other dimensions, as all methods do
+   * Adds the edges of all boxes: 4 each, in 3D 12. Infinite boxes are clipped to the extent of the finite ones.
+   * Chainable.
+   * @throws RangeError if the space has other dimensions, as all methods do
    *
    * @example
    * new Lines().addBoxes(new BroadPhase({ dimensions: 3 })); // throws RangeError: addBoxes: got a space of 3 dimensions, expected 2
@@ -138,9 +139,9 @@ export class Lines {
   }
 
   /**
-   * Asks a ray, and adds it as far as it gets, with the normal and the edges of the box where it hits one. Chainable.
-   * @param ray the origin, the direction, and the largest distance where there is one: 4 or 5 numbers, in 3D 6 or 7
-   * @throws RangeError or TypeError where `rayCast` does
+   * Casts a ray, and adds it up to what it hits, with the normal and the edges of the box. Chainable.
+   * @param ray the origin, the direction, and optionally the maximum distance: 4 or 5 numbers, in 3D 6 or 7
+   * @throws RangeError or TypeError as `rayCast` does
    *
    * @example
    * const space = new BroadPhase().update();

@@ -20,14 +20,14 @@ let module: WebAssembly.Module | undefined;
 let techniques = 0;
 
 /**
- * Gives the library its kernel, once, before the first `new BroadPhase()`. Not needed where WebAssembly may be
- * compiled synchronously from inlined bytes, which is nearly everywhere; meant for pages with a strict content
- * security policy and for hosts that load modules their own way. `broadphase/kernel.wasm` has every technique.
+ * Gives the library its kernel, once, before the first `new BroadPhase()`. Not needed if WebAssembly may be compiled
+ * synchronously from inlined bytes, as it nearly always may. Meant for pages with a strict content security policy and
+ * for hosts that load modules in their own way. `broadphase/kernel.wasm` has every technique.
  *
  * In a page: `init(await WebAssembly.compileStreaming(fetch(address)))`.
  *
  * @param source the bytes of `broadphase/kernel.wasm`, or a module compiled from them
- * @throws TypeError where it is neither; Error where the bytes cannot be compiled
+ * @throws TypeError if it is neither; Error if the bytes cannot be compiled
  *
  * @example
  * init('kernel.wasm' as never); // throws TypeError: init: got kernel.wasm, expected a WebAssembly.Module

@@ -2,19 +2,19 @@
 import { badValue, checkBox } from '../errors.ts';
 
 /**
- * What changed for one zone among the boxes that another owned, as typed arrays to send as they are. Deltas of one zone
- * have to arrive in the order in which they were made, and none may get lost.
+ * What changed for one zone among the boxes that another owned, as typed arrays to send as they are. The deltas of one
+ * zone must arrive in order, and none may be lost.
  */
 export interface Delta {
   /** The zone that tells. */
   from: number;
   /** The zone that is told. */
   to: number;
-  /** The boxes to which something happened. */
+  /** The boxes that changed. */
   ids: Uint32Array;
-  /** For each id what happened: 0, it is new or has moved; 1, it comes into sight; 16, it is gone. */
+  /** The change of each id: 0, it is new or has moved; 1, it comes into sight; 16, it is gone. */
   changes: Uint8Array;
-  /** For each id its box, unless it is gone; behind it the box as of the update before, if it comes into sight. */
+  /** For each id its box, unless it is gone; followed by its box as of the previous update, if it comes into sight. */
   boxes: Float64Array;
 }
 

@@ -1,6 +1,6 @@
 /**
- * How a world is cut into zones, so that several processes, or workers, find together exactly what one space would. There
- * is no network in it: what zones have to tell each other comes as typed arrays, to be sent in whatever way.
+ * Cuts a world into zones, so that several processes or workers together find exactly what one space would. It does no
+ * networking: the messages between zones are typed arrays, for you to send.
  *
  * @module broadphase/shard
  */

@@ -11,9 +11,9 @@ import type { Zones } from './zones.ts';
 
 /** Options of {@link Shard}. */
 export interface ShardOptions {
-  /** Called for each box that comes into the space, and before it counts: the place for `setFilter` and its like. */
+  /** Called for each box that enters the space, before it counts: the place for `setFilter` and the like. */
   entered?: (id: number) => void;
-  /** What {@link Shard.state} gave: the shard goes on from there. */
+  /** The result of {@link Shard.state}: the shard continues from there. */
   state?: Delta;
 }
 
@@ -49,13 +49,16 @@ interface Seen {
 export class Shard {
   /** Which zone this is. */
   readonly zone: number;
-  /** What the zone sees, for queries and filters. Only the shard sets and deletes its boxes, and updates it. */
+  /**
+   * The space with all boxes that the zone sees, for queries and filters. Only the shard may set and delete its boxes,
+   * and update it.
+   */
   readonly space: BroadPhase<2 | 3>;
   /** Ids that other zones own since the last exchange. */
   readonly given: number[] = [];
   /** Ids that this zone owns since the last update. */
   readonly taken: number[] = [];
-  /** The pairs that this zone reports: `[a0, b0, a1, b1, …]` with a < b. An array of its own, which stays. */
+  /** The pairs that this zone reports: `[a0, b0, a1, b1, …]` with a < b. A new array, independent of later calls. */
   pairs = new Uint32Array();
   /** Of all pairs of the world that began with the last update, those that this zone reports. */
   began = new Uint32Array();
@@ -78,7 +81,7 @@ export class Shard {
   /**
    * @param zones how the world is cut, the same in every process
    * @param zone which of them this is, from 0
-   * @param space an empty one with `events: true`, and with `dimensions` and `wrap` as the zones have them
+   * @param space an empty one with `events: true`, and with the same `dimensions` and `wrap` as the zones
    * @throws RangeError or TypeError that names what does not fit
    *
    * @example
@@ -98,8 +101,8 @@ export class Shard {
   }
 
   /**
-   * Adds a box that this zone owns, or moves one. Boxes may be added anywhere: at the exchange the zone with its lower
-   * corner becomes the owner. An id is free again after an exchange in which it was deleted.
+   * Adds or moves a box that this zone owns. Boxes may be added anywhere: at the exchange the zone that contains its
+   * lower corner becomes the owner. An id is free again after an exchange in which it was deleted.
    *
    * @throws as `set` of a BroadPhase does. All is as before.
    *
@@ -114,7 +117,7 @@ export class Shard {
   }
 
   /**
-   * Deletes a box that this zone owns. Gives whether there was one.
+   * Deletes a box that this zone owns. Returns whether there was one.
    *
    * @throws RangeError for a box that another zone owns
    *
@@ -186,9 +189,9 @@ export class Shard {
   }
 
   /**
-   * Brings pairs and events up to date. Chainable.
+   * Updates pairs and events. Chainable.
    *
-   * @param deltas what other zones gave at their exchanges for this one
+   * @param deltas those that the exchanges of other zones returned for this one
    * @throws RangeError for a delta that is for another zone
    *
    * @example
@@ -231,7 +234,7 @@ export class Shard {
   }
 
   /**
-   * Tells a zone all anew at the next exchange: one that was started again without its state.
+   * Sends a zone everything again at the next exchange: for one that was restarted without its state.
    *
    * @example
    * const shard = new Shard(new Zones({ borders: { x: [100] } }), 0, new BroadPhase({ events: true }));
@@ -249,7 +252,8 @@ export class Shard {
   }
 
   /**
-   * Drops all that another zone owns: one that is out of reach. With the next update it is as if it had been deleted.
+   * Drops all boxes of another zone: for one that is unreachable. With the next update it is as if they had been
+   * deleted.
    *
    * @example
    * const zones = new Zones({ borders: { x: [100] } });
@@ -264,9 +268,9 @@ export class Shard {
   }
 
   /**
-   * The shard as it is, as typed arrays: for a process that goes on in its place. Zones and filters are not in it.
+   * The shard's state as typed arrays, for a process that continues in its place. Zones and filters are not included.
    *
-   * @throws Error where boxes have changed that the other zones were not told of, or that were not updated
+   * @throws Error if boxes have changed since the last exchange or update
    *
    * @example
    * const zones = new Zones({ borders: { x: [100] } });

@@ -7,18 +7,18 @@ import { badValue, checkWrap } from '../errors.ts';
 
 const names = ['x', 'y', 'z'] as const;
 
-/** Where a world is cut: ascending coordinates along each axis that is cut, such as `{ x: [100, 200] }`. */
+/** Where a world is cut: ascending coordinates along each divided axis, such as `{ x: [100, 200] }`. */
 export type Borders = Partial<Record<'x' | 'y' | 'z', readonly number[]>>;
 
 /** Options of {@link Zones}. */
 export interface ZonesOptions {
-  /** Where the world is cut. n borders along an axis make n + 1 zones; the outer ones reach on without end. */
+  /** Where the world is cut. n borders along an axis make n + 1 zones; the outer ones are unbounded. */
   borders: Borders;
   /** 2 or 3. Default 2. */
   dimensions?: 2 | 3;
   /** How far a box may move, along each axis, from one exchange to the next update but one. Default 0. */
   margin?: number;
-  /** The size of a world that wraps around, as for `BroadPhase`. Borders are then between 0 and that. */
+  /** The size of a world that wraps around, as for `BroadPhase`. Borders are then between 0 and this size. */
   wrap?: readonly number[];
 }
 
@@ -40,7 +40,8 @@ interface Cut {
 
 /**
  * A world cut into zones along one axis or several. Zones are counted along x first: zone 0 has the lowest coordinates.
- * Zones are half open: a border belongs to the zone above it. It never changes; for other borders make another.
+ * Zones are half-open: a border belongs to the zone above it. The object never changes; for other borders create
+ * another.
  *
  * @example
  * const zones = new Zones({ borders: { x: [100, 200], y: [50] } });
@@ -83,7 +84,7 @@ export class Zones {
   }
 
   /**
-   * The zone that owns a box: the one with its lower corner.
+   * The zone that owns a box: the one that contains its lower corner.
    *
    * @example
    * new Zones({ borders: { x: [100] } }).ownerOf([100, 0, 120, 20]); // → 1
@@ -93,7 +94,7 @@ export class Zones {
   }
 
   /**
-   * The zones that must see a box, its owner too: those it reaches into when it grows by the margin on all sides.
+   * The zones that must see a box, its owner included: those that it overlaps when enlarged by the margin on all sides.
    *
    * @example
    * new Zones({ borders: { x: [100] }, margin: 5 }).seenBy([80, 0, 96, 20]); // → [0, 1]
@@ -115,8 +116,8 @@ export class Zones {
   }
 
   /**
-   * The zone that reports a pair of boxes that overlap: the one with the larger of their two lower corners. It sees
-   * both. Give the two always in the same order, such as that of their ids.
+   * The zone that reports a pair of overlapping boxes: the one that contains the larger of their two lower corners. It
+   * sees both. Always pass the two in the same order, such as that of their ids.
    *
    * @example
    * new Zones({ borders: { x: [100] } }).reporterOf([80, 0, 130, 20], [110, 0, 120, 20]); // → 1

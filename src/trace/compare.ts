@@ -4,11 +4,11 @@ import { type FrameSource, worldOf } from './format.ts';
 import { begin, type ReplayOptions, timeUpdate } from './replay.ts';
 import { type Summary, summarize } from './statistics.ts';
 
-/** Options of {@link compare}: those of the spaces that are compared, too. */
+/** Options of {@link compare}, including those of the spaces to compare. */
 export interface CompareOptions extends Omit<ReplayOptions, 'technique'> {
-  /** Which techniques; left out: all of {@link BroadPhase.techniques}. */
+  /** Which techniques. Default: all of {@link BroadPhase.techniques}. */
   techniques?: readonly TechniqueName[];
-  /** How often the frames are gone through; each frame counts with its fastest time (3). */
+  /** How often the frames are run; each frame counts with its fastest time. Default 3. */
   passes?: number;
   /** Called after each frame of each pass. */
   progress?: (done: number, total: number) => void;
@@ -22,20 +22,21 @@ export interface Compared {
   times: number[];
   /** The summary of the times. */
   ms: Summary;
-  /** Boxes tested against boxes, on average. */
+  /** Tests of one box against another, on average. */
   tests: number;
   /** The most memory in use. */
   bytes: number;
-  /** What ran: for `auto`, what it chose. */
+  /** The technique that ran: with `auto`, the one it chose. */
   ran: TechniqueName[];
-  /** The first frame whose pairs are not those of the first technique; `null` where they all agree. */
+  /** The first frame whose pairs differ from those of the first technique; `null` if all agree. */
   disagrees: number | null;
 }
 
 /**
- * Plays the frames with every technique, taking turns in each frame, so that what else the machine does hits all.
+ * Runs the frames with every technique, in turns within each frame, so that other load on the machine affects all
+ * alike.
  *
- * @returns one result for each technique, in the order in which they were named
+ * @returns one result for each technique, in the given order
  *
  * @example
  * const space = new BroadPhase();

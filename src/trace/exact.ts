@@ -6,9 +6,9 @@ import { marks } from './format.ts';
 const idLimit = 2 ** 24;
 
 /**
- * The pairs of closed boxes that overlap and may meet. Box k has the id `ids[k]`, or k; `rules` are those of
- * {@link Frame.rules}, `own` has its groups and reaches, and says
- * whether boxes that only touch are pairs. In a world that wraps around every two boxes are looked at.
+ * The pairs of closed boxes that overlap and may meet. Box k has the id `ids[k]`, or k; `rules` are those of {@link
+ * Frame.rules}, `own` has its groups and reaches, and says whether boxes that only touch are pairs. In a world that
+ * wraps around every two boxes are compared.
  *
  * @param given minima then maxima, box after box
  * @returns the sorted set of pairs, one number for each: the smaller id times 2^24, plus the larger

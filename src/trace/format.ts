@@ -5,7 +5,7 @@ import type { Own, World } from '../watch.ts';
 /** Like PNG's: not text, and broken visibly by whatever changes line ends. */
 export const magic = Uint8Array.of(0x89, 0x42, 0x50, 0x54, 0x0d, 0x0a, 0x1a, 0x0a);
 
-/** The version that is written, and the newest that is read. */
+/** The version that is written, and the newest that can be read. */
 export const formatVersion = 2;
 
 /** Magic, version (2 bytes), dimensions, what kind of world, checksum of those twelve. */
@@ -42,7 +42,7 @@ export const maxBoxes = 2 ** 24;
 export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10 + 16 + 5 + 8) + 64 + 24;
 
 /**
- * A trace that cannot be read: what is wrong, and where.
+ * A trace that cannot be read, with the error and its place.
  *
  * @example
  * openTrace(new Uint8Array(4)); // throws TraceError: trace: header, byte 0: not a trace
@@ -71,19 +71,19 @@ export class TraceError extends Error {
 export interface Frame extends Own, World {
   /** From 0. */
   readonly index: number;
-  /** How many boxes stand in the space. */
+  /** The number of boxes in the space. */
   readonly count: number;
-  /** The id of each box, all different; `undefined` where they are 0 … count - 1. */
+  /** The id of each box, all different; `undefined` if they are 0 … count - 1. */
   readonly ids: Uint32Array | undefined;
-  /** Layer, mask, and marks of each box, 1 where it is static plus 2 where it is off; left out where none has a rule of its own. */
+  /** Layer, mask, and flags of each box: 1 if it is static, plus 2 if it is off. Absent if no box has a rule of its own. */
   readonly rules?: Uint32Array | undefined;
-  /** Minima then maxima of each box: float32 where that holds all of them exactly. */
+  /** Minima then maxima of each box: as float32 if that represents all of them exactly. */
   readonly boxes: Float32Array | Float64Array;
-  /** How many boxes are new or differ from the frame before. */
+  /** How many boxes are new or differ from the previous frame. */
   readonly changed: number;
 }
 
-/** Frames to go through, as often as wanted: a trace or an imported recording. */
+/** Frames that can be iterated any number of times: a trace or an imported recording. */
 export interface FrameSource extends Iterable<Frame>, World {
   /** How many axes its boxes have. */
   readonly dimensions: 2 | 3;

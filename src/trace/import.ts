@@ -14,8 +14,8 @@ const maxEmptyFrames = 1e6;
 
 /**
  * Unpacks gzip, in browsers and in Node.
- * @param most how many bytes it may become: 1 GiB unless told
- * @throws TraceError where it is not sound, and as soon as it gives more than `most` bytes
+ * @param most how many bytes it may become; default 1 GiB
+ * @throws TraceError if the data is damaged, and as soon as it exceeds `most` bytes
  *
  * @example
  * const packed = new Blob(['boxes']).stream().pipeThrough(new CompressionStream('gzip'));
@@ -87,8 +87,8 @@ export const openPlain = (bytes: Uint8Array, options?: OpenOptions): FrameSource
   isRecording(bytes) ? importRecording(bytes) : openTrace(bytes, options);
 
 /**
- * Opens a trace or a recording, gzipped or not.
- * @throws TraceError where it is broken
+ * Opens a trace or a raw recording, gzipped or not.
+ * @throws TraceError if it is damaged
  *
  * @example
  * const space = new BroadPhase();
@@ -104,7 +104,7 @@ export async function openAny(bytes: Uint8Array, options?: OpenOptions): Promise
 
 /**
  * A raw recording of the same frames.
- * @throws RangeError where that layout cannot hold them: ids, rules, doubles, or a number of boxes that changes
+ * @throws RangeError if that layout cannot represent them: ids, rules, doubles, or a changing number of boxes
  *
  * @example
  * const space = new BroadPhase();

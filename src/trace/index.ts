@@ -1,5 +1,6 @@
 /**
- * Record a game, read the trace, and find out what suits it best. Times are in milliseconds; frames are counted from 0.
+ * Record a game, read the trace, and find the best options for it. Times are in milliseconds; frames are counted from
+ * 0.
  *
  * @module broadphase/trace
  */

@@ -18,14 +18,14 @@ import {
 /** How a trace is opened. */
 export interface OpenOptions {
   /**
-   * For the trace of a run that crashed: take the whole frames up to where the file is cut off or broken, instead of
-   * throwing. What was left out is then told by {@link Trace.fault}.
+   * For the trace of a run that crashed: reads the intact frames up to where the file is truncated or damaged, instead
+   * of throwing. {@link Trace.fault} then says what is wrong.
    */
   salvage?: boolean;
 }
 
 /**
- * A trace held as bytes. Its lengths and checksums were right when it was opened; go through it with `for … of`.
+ * A trace in memory. Its lengths and checksums were verified when it was opened; iterate over it with `for … of`.
  *
  * @example
  * const space = new BroadPhase();
@@ -39,11 +39,11 @@ export class Trace implements FrameSource {
   readonly dimensions: 2 | 3;
   /** How many frames there are. */
   readonly frames: number;
-  /** The size of the world along each axis, where it wraps around. */
+  /** The size of the world along each axis, if it wraps around. */
   readonly wrap: readonly number[] | undefined;
   /** Whether boxes that only touch are pairs. */
   readonly touching: boolean;
-  /** With `salvage`: what is wrong with the file behind its last good frame. */
+  /** With `salvage`: what is wrong with the file after its last intact frame. */
   readonly fault: TraceError | undefined;
   readonly #bytes: Uint8Array;
   readonly #version: number;
@@ -76,7 +76,7 @@ export class Trace implements FrameSource {
     return 'Trace';
   }
 
-  /** The frames, one after the other: each is valid until the next. */
+  /** The frames in order, each valid until the next. */
   *[Symbol.iterator](): Generator<Frame> {
     const decoder = new FrameDecoder(this.dimensions, this.#version, this.#world);
     let at = headerBytes;
@@ -111,8 +111,8 @@ export interface StreamedFrame extends Frame {
 }
 
 /**
- * The frames of a trace while it arrives, each as soon as its bytes are there; no more than one frame is kept.
- * @throws TraceError as {@link openTrace}, after the frames that are good
+ * The frames of a trace as it arrives, each as soon as its bytes are there; only one frame is kept in memory.
+ * @throws TraceError as {@link openTrace}, after the intact frames
  *
  * @example
  * const space = new BroadPhase();

@@ -6,7 +6,7 @@ import { badValue, checkOptions } from '../errors.ts';
 import { type Watcher, watch } from '../watch.ts';
 import { TraceWriter } from './writer.ts';
 
-/** What a recording asks of a stream of Node. */
+/** What a recording needs of a Node stream. */
 export interface NodeSink {
   /** Takes some bytes, and calls back when they are written or lost. */
   write(bytes: Uint8Array, done: (error?: Error | null) => void): unknown;
@@ -14,20 +14,20 @@ export interface NodeSink {
   end(done: () => void): unknown;
   /** Listens for errors, and for the end. */
   on(event: 'error' | 'close', listener: (error?: Error) => void): unknown;
-  /** Whether it takes no more bytes, where it says so. */
+  /** Whether it accepts no more bytes, if it says so. */
   readonly writableEnded?: boolean;
-  /** Whether it is of no use any more, where it says so. */
+  /** Whether it was destroyed, if it says so. */
   readonly destroyed?: boolean;
 }
 
 /** Options of {@link record}. */
 export interface RecordOptions {
-  /** Where the bytes go, frame by frame: a WritableStream or a stream of Node. Left out: they are kept in memory. */
+  /** Where the bytes go, frame by frame: a WritableStream or a Node stream. Default: they are kept in memory. */
   to?: WritableStream<Uint8Array> | NodeSink;
 }
 
 /**
- * A recording that is going on, or was stopped: what {@link record} gives.
+ * A recording in progress or stopped: the result of {@link record}.
  *
  * @example
  * const space = new BroadPhase();
@@ -38,8 +38,8 @@ export interface RecordOptions {
  */
 export class Recording {
   /**
-   * What has stopped the recording before `stop()` was called: an error of the stream, or one in writing a frame. The
-   * game goes on, and frames from then on are not recorded.
+   * What ended the recording before `stop()` was called: an error of the stream, or one in writing a frame. The game
+   * continues, and later frames are not recorded.
    */
   fault: unknown;
   #space: BroadPhase<2 | 3> | undefined;
@@ -48,7 +48,7 @@ export class Recording {
   #byteLength = 0;
   #stopped: Promise<void> | undefined;
 
-  /** Begins at once: see {@link record}. */
+  /** Starts at once: see {@link record}. */
   constructor(space: BroadPhase<2 | 3>, options: RecordOptions = {}) {
     if (typeof space?.[watch] !== 'function') badValue('record', space, 'a BroadPhase', true);
     checkOptions('record', options, ['to']);
@@ -72,7 +72,7 @@ export class Recording {
   }
 
   /**
-   * How many updates have been recorded.
+   * The number of updates recorded.
    *
    * @example
    * record(new BroadPhase()).frames; // → 0
@@ -92,8 +92,8 @@ export class Recording {
   }
 
   /**
-   * The trace so far, complete with its end; the recording goes on.
-   * @throws Error where the bytes went to a stream
+   * The trace so far, complete with its end; the recording continues.
+   * @throws Error if the bytes went to a stream
    *
    * @example
    * const space = new BroadPhase();
@@ -116,7 +116,7 @@ export class Recording {
 
   /**
    * Ends the recording, and its stream.
-   * @throws what the stream failed with: the frames before that may have been written
+   * @throws the stream's error, if it failed: earlier frames may have been written
    *
    * @example
    * const recording = record(new BroadPhase());
@@ -128,7 +128,7 @@ export class Recording {
   }
 
   /**
-   * In a browser: offers the trace so far as a file to save. Elsewhere there is no page to do so in.
+   * In a browser: offers the trace so far as a file to save.
    *
    * @example
    * record(new BroadPhase()).download(); // throws ReferenceError

@@ -107,19 +107,19 @@ function sameIds(a: Uint32Array | undefined, b: Uint32Array | undefined): boolea
 /** How a space is set up to play frames into: its dimensions come from them. */
 export type ReplayOptions = Omit<BroadPhaseOptions, 'dimensions'>;
 
-/** What one update of a replay took and gave. */
+/** The time and the results of one update of a replay. */
 export interface ReplayedFrame {
   /** From 0. */
   index: number;
   /** How many boxes there were. */
   boxes: number;
-  /** How many of them were new or moved. */
+  /** How many of them are new or moved. */
   changed: number;
   /** Milliseconds of `update()` alone. */
   ms: number;
   /** The technique that ran. */
   technique: TechniqueName;
-  /** As in `stats` of a space, as are those that follow: boxes tested against boxes. */
+  /** As in the `stats` of a space, like those that follow: tests of one box against another. */
   tests: number;
   /** Pairs found in float32. */
   candidates: number;
@@ -131,13 +131,13 @@ export interface ReplayedFrame {
   entries: number;
   /** Bytes of memory in use. */
   bytes: number;
-  /** Where it was checked: how the pairs differ from the exact answer, `null` if they do not. */
+  /** If it was checked: how the pairs differ from the exact answer, or `null` if they do not. */
   difference?: Difference | null;
 }
 
 /**
- * Plays all frames, one result each. The first starts from nothing, all others from the frame before.
- * @param verify compare the pairs of each frame with an exact sweep that is written apart from the kernel
+ * Runs all frames, with one result for each. The first starts from nothing, all others from the previous frame.
+ * @param verify compare the pairs of each frame with an exact sweep, written independently of the kernel
  *
  * @example
  * const space = new BroadPhase();

@@ -1,20 +1,20 @@
 // Summaries of numbers, and histograms.
 
-/** The value that a share of the sorted values is not above. */
+/** The value that a given share of the sorted values does not exceed. */
 export function percentile(sorted: ArrayLike<number>, share: number): number {
   if (sorted.length === 0) return 0;
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
 }
 
-/** What numbers are like, in five; all are 0 where there are none. */
+/** A summary of numbers in five values; all are 0 if there are no numbers. */
 export interface Summary {
   /** The least. */
   min: number;
-  /** Their sum over how many there are. */
+  /** The arithmetic mean. */
   mean: number;
-  /** Half of them are not above it. */
+  /** Half of them do not exceed it. */
   median: number;
-  /** 95 of 100 are not above it. */
+  /** 95 of 100 do not exceed it. */
   p95: number;
   /** The largest. */
   max: number;

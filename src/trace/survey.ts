@@ -6,7 +6,7 @@ import { type Frame, type FrameSource, worldOf } from './format.ts';
 import { applyFrame } from './replay.ts';
 import { type Bin, doublingHistogram, type Summary, summarize } from './statistics.ts';
 
-/** What is in a trace: see {@link survey}. Sizes are in the units of the boxes. */
+/** The contents of a trace: see {@link survey}. Sizes are in the units of the boxes. */
 export interface Survey {
   /** How many axes the boxes have. */
   dimensions: 2 | 3;
@@ -16,35 +16,35 @@ export interface Survey {
   ids: boolean;
   /** Whether any box is static or has a filter. */
   rules: boolean;
-  /** The size of the world along each axis, where it wraps around. */
+  /** The size of the world along each axis, if it wraps around. */
   wrap?: readonly number[];
-  /** False where boxes that only touch are no pairs. */
+  /** False if boxes that only touch are not pairs. */
   touching?: boolean;
-  /** Whether any number is no float32. */
+  /** Whether any number does not fit float32. */
   doubles: boolean;
   /** How many boxes a frame has. */
   boxes: Summary;
   /** How many pairs a frame has. */
   pairs: Summary;
-  /** The share of boxes that are new or moved, per frame after the first. */
+  /** The share of boxes that are new or moved, for each frame after the first. */
   moving: Summary;
-  /** The sides of the boxes of the frame in the middle, one summary an axis. */
+  /** The sides of the boxes in the middle frame, one summary per axis. */
   sides: Summary[];
   /** Minima then maxima of all finite boxes of that frame. */
   world: number[];
-  /** The area (3D: volume) of its boxes over that of the world. */
+  /** The area (3D: volume) of its boxes divided by that of the world. */
   density: number;
   /** Of that frame. */
   histograms: {
     /** The longest side of each box. */
     side: Bin[];
-    /** How many others each box overlaps. */
+    /** The number of other boxes that each box overlaps. */
     overlaps: Bin[];
   };
 }
 
 /**
- * Looks at all frames of a source.
+ * Examines all frames of a source.
  * @param progress called after each frame
  *
  * @example

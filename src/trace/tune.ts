@@ -13,21 +13,21 @@ import { longestSides } from './survey.ts';
 
 /** Options of {@link tune}. */
 export interface TuneOptions {
-  /** Which techniques are tried; left out: all of {@link BroadPhase.techniques}. `auto` is always measured too. */
+  /** Which techniques are tried. Default: all of {@link BroadPhase.techniques}. `auto` is always measured too. */
   techniques?: readonly TechniqueName[];
-  /** For how many seconds the finalists run against each other (8). */
+  /** For how many seconds the finalists run against each other. Default 8. */
   seconds?: number;
-  /** Try every technique with every value of each parameter on all frames: slow, and what the search is checked against. */
+  /** Tries every technique with every value of each parameter on all frames: slow; serves to check the search. */
   exhaustive?: boolean;
-  /** Called now and then: what is done, and how much of how much. */
+  /** Called now and then with what is being done, and the progress. */
   progress?: (what: string, done: number, total: number) => void;
 }
 
-/** What can be given to `new BroadPhase`. */
+/** Options for `new BroadPhase`. */
 export interface Candidate {
   /** Its name. */
   technique: TechniqueName;
-  /** As in `BroadPhaseOptions`; left out: chosen from the boxes. */
+  /** As in `BroadPhaseOptions`. Default: chosen from the boxes. */
   cellSize?: number;
   /** The same. */
   margin?: number;
@@ -47,7 +47,7 @@ const searched: readonly { parameter: Parameter; least: number; most: number }[]
 
 /** A candidate, and how it did. */
 export interface Measured extends Candidate {
-  /** Milliseconds of `update()` per frame: the fastest of all passes. */
+  /** Milliseconds of `update()` for each frame: the fastest of all passes. */
   times: number[];
   /** The summary of the times. */
   ms: Summary;
@@ -89,23 +89,23 @@ export interface TunedFrame {
   pairs: number;
 }
 
-/** What suits the frames best: see {@link tune}. */
+/** The best options for the frames: see {@link tune}. */
 export interface Tuned {
-  /** Recommended; `auto` itself where nothing is faster by more than the noise. */
+  /** The recommendation; `auto` itself if nothing is faster by more than the noise. */
   best: Measured;
   /** How `auto` did. */
   auto: Measured;
-  /** How many times faster than `auto` that is. */
+  /** The time of `auto` divided by that of the recommendation. */
   margin: number;
-  /** How much `auto` differs from itself: it runs twice, and this is the share by which the means differ. */
+  /** The noise: `auto` runs twice, and this is the relative difference of the two means. */
   noise: number;
-  /** All that ran on all frames, fastest first. */
+  /** All candidates that ran on all frames, fastest first. */
   finalists: Measured[];
   /** Mean milliseconds of each technique on a few frames, in its best setting, fastest first. */
   techniques: Screened[];
-  /** The same over each parameter, for techniques that heed it. */
+  /** The same for each value of a parameter, for techniques that use it. */
   curves: Curve[];
-  /** The frames that count: all that follow from one that was used too, of all frames or windows of a long trace. */
+  /** The frames that count: all whose previous frame was used too, of all frames or of windows of a long trace. */
   frames: TunedFrame[];
   /** To paste. */
   code: string;

@@ -166,7 +166,7 @@ class Crowds {
     const { pairCount, stats } = this.#crowd.kept;
     totals.updates++;
     totals.pairs += pairCount;
-    totals.kept += Number(stats.reason.includes('is kept'));
+    totals.kept += Number(stats.reason.includes('are retained'));
   }
 }
 

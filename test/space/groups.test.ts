@@ -146,7 +146,10 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
       return space.update().stats;
     };
     for (let k = 0; k < 40; k++) tremble(k % 2 ? 1e-3 : -1e-3);
-    expect(tremble(1e-3)).toMatchObject({ reason: 'what was found is kept: boxes rest or move little', tests: 0 });
+    expect(tremble(1e-3)).toMatchObject({
+      reason: 'candidates are retained: boxes are at rest or move little',
+      tests: 0,
+    });
   });
 
   test('snapshots hold it, in version 2, and spaces without groups give version 1', () => {

@@ -191,7 +191,7 @@ test.each([2, 3] as const)('what is kept takes little memory, %i dimensions', (d
     space.boxes(count).set(boxes);
     most = Math.max(most, space.update().stats.bytes / count);
   }
-  expect(space.stats.reason).toContain('is kept');
+  expect(space.stats.reason).toContain('are retained');
   expect(most, 'bytes a box').toBeLessThan(dimensions === 2 ? 240 : 360);
   space.dispose();
 });
@@ -222,7 +222,7 @@ test('few boxes that move fast among many at rest are found', () => {
       space.boxes(count).set(boxes);
       space.update();
     }
-    answered += Number(kept.stats.reason.includes('is kept'));
+    answered += Number(kept.stats.reason.includes('are retained'));
     expect(keysOf(kept.pairs), `frame ${frame}`).toEqual(keysOf(fresh.pairs));
   }
   expect(answered, 'updates answered from what is kept').toBeGreaterThan(50);
@@ -248,14 +248,14 @@ test('a box that jumps beside one that turns is not reported twice', () => {
     put(1, 45 + frame / 64, 0);
     space.update();
   }
-  expect(space.stats.reason).toMatch(/is kept/);
+  expect(space.stats.reason).toMatch(/are retained/);
   put(0, 6, 0); // both leave their fat boxes
   put(1, 51, 0);
   space.update();
   put(0, 20, 9); // one leaves it again; its new one reaches where the other was before it jumped
   put(1, 28, 15);
   space.update();
-  expect(space.stats.reason).toMatch(/is kept/);
+  expect(space.stats.reason).toMatch(/are retained/);
   expect([...space.pairs]).toEqual([0, 1]);
 });
 
@@ -312,7 +312,7 @@ test.each([2, 3] as const)(
         }
       }
       space.update();
-      if (frame % 2 === 0 && space.stats.reason.includes('is kept')) lists++;
+      if (frame % 2 === 0 && space.stats.reason.includes('are retained')) lists++;
       if (frame % 10 > 1) continue;
       expect(keysOf(space.pairs), `frame ${frame}`).toEqual(
         keysOf(findPairs(space.boxes(count).slice(), { dimensions })),
@@ -368,7 +368,7 @@ test('boxes that all stand in a row are kept too', () => {
       space.set(id, boxes[4 * id]!, 0, boxes[4 * id + 2]!, 10);
     }
     space.update();
-    if (space.stats.reason.includes('is kept')) answered++;
+    if (space.stats.reason.includes('are retained')) answered++;
     if (frame % 10 > 1) continue;
     expect(keysOf(space.pairs), `frame ${frame}`).toEqual(keysOf(findPairs(boxes)));
   }
@@ -405,7 +405,7 @@ test.each([2, 3] as const)(
         space.update();
         return frame < 195 ? [] : keysOf(space.pairs);
       });
-      if (spaces[0]!.stats.reason.includes('is kept')) answered++;
+      if (spaces[0]!.stats.reason.includes('are retained')) answered++;
       expect(found[0], `frame ${frame}`).toEqual(found[1]);
     }
     expect(answered, 'updates answered from what is kept').toBeGreaterThan(100);
@@ -443,8 +443,8 @@ test('what is kept of a world at rest is given up while more and more boxes begi
     fresh.setAll(boxes).update();
     if (frame % 5 === 0) expect(keysOf(kept.pairs), `frame ${frame}`).toEqual(keysOf(fresh.pairs));
     const { reason } = kept.stats;
-    if (frame < settled) atRest += Number(reason.includes('is kept'));
-    else givenUp += Number(reason.includes('is found anew'));
+    if (frame < settled) atRest += Number(reason.includes('are retained'));
+    else givenUp += Number(reason.includes('full rebuild'));
   }
   expect(atRest, 'updates answered from what is kept').toBeGreaterThan(50);
   expect(givenUp, 'updates answered anew').toBeGreaterThan(10);
@@ -465,8 +465,8 @@ test('auto says what it chose and why', () => {
     seen.add(`${space.stats.technique}: ${space.stats.reason}`);
   }
   expect([...seen]).toEqual([
-    'strip-sweep: all is found anew: how boxes move is being watched',
-    'incremental: what was found is kept: boxes rest or move little',
+    'strip-sweep: full rebuild: how boxes move is being observed',
+    'incremental: candidates are retained: boxes are at rest or move little',
   ]);
   for (let frame = 0; frame < 5; frame++) {
     for (let id = 0; id < 1000; id++) {
@@ -475,7 +475,7 @@ test('auto says what it chose and why', () => {
     }
     space.update();
   }
-  expect(space.stats.reason).toBe('all is found anew: boxes move too far, or there are few');
+  expect(space.stats.reason).toBe('full rebuild: boxes move too far, or there are few');
   space.snapshot();
   space.update();
   expect(space.stats.reason).toMatch(/after a snapshot/);

@@ -6,7 +6,7 @@ import { createMotion } from '../../bench/motions/index.ts';
 import { createScene } from '../../src/scenes/index.ts';
 import { keysOf } from '../support/reference.ts';
 
-const isKept = ({ stats }: { stats: { reason: string } }) => stats.reason.includes('is kept');
+const isKept = ({ stats }: { stats: { reason: string } }) => stats.reason.includes('are retained');
 
 test('where boxes are long along different axes, no list has many times as many candidates as pairs', () => {
   const count = 10_000;

@@ -266,7 +266,7 @@ describe('views of memory', () => {
       for (let k = 0; k < view.length; k++) view[k]! += (Math.floor(k / width) % 3) - 1;
       space.update();
     }
-    expect(space.stats.reason).toMatch(/is kept/);
+    expect(space.stats.reason).toMatch(/are retained/);
   });
 
   test('of boxes that were cut off are noticed by the next update', () => {
