@@ -1,1 +1,1 @@
-export function inline(bytes: Uint8Array): { alphabet: string; order: string; text: string };
+export function inline(wasm: Uint8Array): { alphabet: string; order: string; text: string; size: number };

@@ -2,6 +2,7 @@
 // Idea: bytes that occur often become one character each, the others two, of which the first is one of a few that
 // stand for nothing else. What repeats in the bytes thus repeats in the text, and no character needs an escape,
 // neither in a string, nor in HTML, nor in any encoding of the page. src/kernel/load.ts reads it.
+import { apart } from './streams.mjs';
 
 /** All of ASCII that can be seen, but what means something in strings and in HTML. */
 const characters = Array.from({ length: 94 }, (_, k) => String.fromCharCode(33 + k)).filter(
@@ -10,8 +11,10 @@ const characters = Array.from({ length: 94 }, (_, k) => String.fromCharCode(33 +
 /** So many of them begin a pair. */
 const prefixes = 3;
 
-/** `order`: the bytes of single characters, two hexadecimal digits each; `text`: what stands for the bytes. */
-export function inline(bytes) {
+/** A module of WebAssembly as text. `order`: the bytes of single characters, two hexadecimal digits each; `text`: what stands for
+ * the bytes of its streams; `size`: how many bytes the module has. */
+export function inline(wasm) {
+  const bytes = apart(wasm);
   const counts = new Uint32Array(256);
   for (const byte of bytes) counts[byte]++;
   const { length } = characters;
@@ -28,14 +31,17 @@ export function inline(bytes) {
     alphabet: characters.join(''),
     order: Buffer.from(order.subarray(0, single)).toString('hex'),
     text: Array.from(bytes, (byte) => written[byte]).join(''),
+    size: wasm.length,
   };
 }
 
 /** A kernel as a module of TypeScript, with how it is decoded, and what it knows. */
 export function moduleOf(wasm, decoder, techniques, dimensions) {
+  const { size, ...texts } = inline(wasm);
   const lines = [
     '// Made by scripts/kernel.mjs from kernel/: do not edit.',
-    ...Object.entries({ ...inline(wasm), decoder }).map(([key, value]) => `export const ${key} =\n  '${value}';`),
+    ...Object.entries({ ...texts, decoder }).map(([key, value]) => `export const ${key} =\n  '${value}';`),
+    `export const size = ${size};`,
     `export const dimensions: readonly (2 | 3)[] = [${dimensions.join(', ')}];`,
     `export type Technique = ${techniques.map((technique) => `'${technique}'`).join(' | ')};`,
   ];

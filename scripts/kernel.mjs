@@ -28,7 +28,8 @@ const kernels = [
 const compiler = JSON.parse(readFileSync(join(root, 'node_modules/@yowasp/clang/package.json'), 'utf8'));
 const common = createHash('sha256').update(JSON.stringify([flags, compiler.version]));
 for (const file of kernelSources()) common.update(file).update(readFileSync(join(root, file)));
-for (const script of ['inline.mjs', 'kernel.mjs']) common.update(readFileSync(join(root, 'scripts', script)));
+for (const script of ['inline.mjs', 'kernel.mjs', 'streams.mjs'])
+  common.update(readFileSync(join(root, 'scripts', script)));
 const sources = common.digest('hex');
 
 mkdirSync(join(root, 'build'), { recursive: true });

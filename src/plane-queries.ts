@@ -15,11 +15,6 @@ export function queryPlanes(
   options?: PlanesOptions,
 ): number[] {
   const where = 'queryPlanes';
-  if (instance.farthest < Number.POSITIVE_INFINITY) {
-    throw new Error(
-      `${where}: this world wraps around, expected a space without wrap, since planes would have no end in it`,
-    );
-  }
   checkNumberArray(where, planes);
   const width = instance.dimensions + 1;
   if (planes.length % width !== 0 || planes.length > most * width) {

@@ -4,11 +4,13 @@
 // again, and once no plane is left, everything in the block is inside and taken without tests. Distances are summed in
 // doubles, axis by axis. Each rounding is monotone, so no corner of a block is further behind than that of a box in it:
 // the answers equal those of testing box by box.
+// In a world that wraps around, the planes are moved by whole worlds, a turn each: a box is tested where it stands in the
+// world and one world further along each axis, and taken at the first turn at which it is behind no plane.
 // Cost, of 500,000 boxes in 3D: 0.03 ms for a view of 600 of them, 0.2 ms for 15,000, 1 ms for 66,000.
 // From: N. Greene, "Detecting Intersection of a Rectangular Solid and a Convex Polyhedron", Graphics Gems IV, 1994;
 // U. Assarsson and T. Möller, "Optimized View Frustum Culling Algorithms for Bounding Boxes", 2000.
 #pragma once
-#include "questions/queries.hpp"
+#include "questions/question.hpp"
 
 template <int D> struct Planes {
   static constexpr u32 most_planes = 8;
@@ -24,6 +26,11 @@ template <int D> class PlaneQuery {
 
   const Index<D>& index_;
   const Planes<D>& planes_;
+  f64 offset_[Planes<D>::most_planes];  // of the planes as they are looked for
+  const f64* const world_;  // where it wraps around
+  const f64 origin_[D] = {};
+  Copies copies_;  // only there, of its origin
+  u32 turn_ = 0;
   const Wanted<D> wanted_;
   const bool touching_;  // whether what only touches a plane is in front of it
   const bool takes_all_;  // what is inside, without a look at each box
@@ -36,21 +43,45 @@ template <int D> class PlaneQuery {
   PlaneQuery(const Index<D>& index, const Question<D>& asked, const Planes<D>& planes)
       : index_(index),
         planes_(planes),
+        world_(index.world()),
         wanted_(index, asked),
         touching_(asked.touching),
-        takes_all_(wanted_.all() && !index.holes()) {}
+        takes_all_(wanted_.all() && !index.holes() && !world_) {
+    __builtin_memcpy(offset_, planes.offset, sizeof(offset_));
+    if (world_) copies_.begin(world_, D, origin_, origin_);
+  }
 
   u32 looks() const { return looks_; }
 
   /// Writes the ids of the boxes that are not behind a plane: as Queries::area.
   SMALL u32 search(u32& from, u32 most, Buffer<u32>& answers) {
-    from_ = from;
     most_ = most;
-    from = walk(index_.top(), 0, (1u << planes_.count) - 1, answers) ? index_.places() : from_;
+    u32 places = index_.places(), turns = world_ ? Copies::turns(D) : 1;
+    turn_ = world_ ? from / places : 0;
+    for (from_ = from - turn_ * places; turn_ < turns; turn_++, from_ = 0) {
+      if (world_) aim();
+      if (walk(index_.top(), 0, (1u << planes_.count) - 1, answers)) continue;
+      from = turn_ * places + from_;
+      return found_;
+    }
+    from = turn_ * places;
     return found_;
   }
 
  private:
+  /// Moves the planes to a turn, and a little back, as much as roundings may amount to.
+  SMALL void aim() {
+    copies_.take(turn_);
+    for (u32 p = 0; p < planes_.count; p++) {
+      f64 moved = planes_.offset[p], size = __builtin_fabs(moved);
+      for (int a = 0; a < D; a++) {
+        moved -= planes_.normal[p][a] * (copies_.turn(a) * world_[a]);
+        size += __builtin_fabs(planes_.normal[p][a]) * 4 * world_[a];
+      }
+      offset_[p] = moved + size * 0x1p-48;
+    }
+  }
+
   /// Looks on which side of some planes, a bit each, the eight boxes of a block are. Returns a bit for each box that is
   /// behind none; `front` has, for each of the planes, a bit for each box that is in front of it.
   SHARED u32 look(const Block& block, u32 planes, u32 (&front)[Planes<D>::most_planes]) const {
@@ -71,8 +102,8 @@ template <int D> class PlaneQuery {
           foremost += splat(normal) * __builtin_convertvector(load<f32x2>((up ? block.hi : block.lo)[a] + lane), f64x2);
           hindmost += splat(normal) * __builtin_convertvector(load<f32x2>((up ? block.lo : block.hi)[a] + lane), f64x2);
         }
-        foremost += splat(planes_.offset[p]);
-        hindmost += splat(planes_.offset[p]);
+        foremost += splat(offset_[p]);
+        hindmost += splat(offset_[p]);
         left &= ~((touching_ ? below(foremost, f64x2{}) : at_most(foremost, f64x2{})) << lane);
         front[p] |= (touching_ ? at_most(f64x2{}, hindmost) : below(f64x2{}, hindmost)) << lane;
       }
@@ -81,9 +112,7 @@ template <int D> class PlaneQuery {
   }
 
   /// Which of the planes cut a box in the numbers it was given with; or `behind`.
-  SMALL u32 exactly(u32 place, u32 planes) const {
-    f64 box[2 * D];
-    index_.box(place, box);
+  SMALL u32 exactly(const f64* box, u32 planes) const {
     u32 cut = 0;
     for (; planes; planes &= planes - 1) {
       u32 p = u32(__builtin_ctz(planes));
@@ -100,6 +129,23 @@ template <int D> class PlaneQuery {
       if (!(touching_ ? hindmost >= 0 : hindmost > 0)) cut |= 1u << p;
     }
     return cut;
+  }
+
+  /// The same in a world that wraps around: 0 where any of its copies is inside; `behind` also where one of a turn
+  /// before is in front.
+  SMALL u32 exactly_around(const f64* box) const {
+    Copies at = copies_;
+    u32 least = behind;
+    for (u32 turn = 0; turn < Copies::turns(D); turn++) {
+      f64 copy[2 * D];
+      at.take(turn);
+      at.copy(box, copy);
+      u32 cut = exactly(copy, (1u << planes_.count) - 1);
+      if (turn < turn_ && cut != behind) return behind;
+      if (turn == turn_ && cut == behind) return behind;
+      if (least != 0 && cut != behind) least = cut;
+    }
+    return least;
   }
 
   /// Adds the answers from place `from_` on; false where there are more than are wanted: `from_` is then the next.
@@ -123,7 +169,11 @@ template <int D> class PlaneQuery {
   }
 
   bool offer(u32 place, u32 cut, Buffer<u32>& answers) {
-    if (cut && index_.rounded()) cut = exactly(place, cut);
+    if (world_ || (cut && index_.rounded())) {
+      f64 box[2 * D];
+      index_.box(place, box);
+      cut = world_ ? exactly_around(box) : exactly(box, cut);
+    }
     if (cut == behind || !wanted_(place)) return true;
     if (found_ == most_) {
       from_ = place;

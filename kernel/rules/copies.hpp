@@ -87,6 +87,9 @@ class Copies {
     }
   }
 
+  /// By how many worlds the question is moved along an axis.
+  f64 turn(int a) const { return turn_[a]; }
+
   SMALL bool same_turn(const Copies& other) const {
     bool same = true;
     for (int a = 0; a < axes_; a++) same &= turn_[a] == other.turn_[a];

@@ -91,7 +91,7 @@ export const nameOf = ({ technique, cellSize, margin }: Candidate): string =>
   (margin === undefined ? '' : `, margin of ${margin}`);
 
 /** So much larger is 'broadphase/all' than the library alone: kB, gzipped. */
-export const moreOfAll = 28;
+export const moreOfAll = 21;
 
 /** What is recommended, what it gains, and what it costs to load. */
 export function verdictOf({

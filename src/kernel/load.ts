@@ -10,7 +10,7 @@ import { bytesOf, isModule } from '../values.ts';
 interface DecoderExports {
   memory: WebAssembly.Memory;
   given(): number;
-  decode(count: number, prefixes: number, length: number): number;
+  decode(count: number, prefixes: number, length: number): void;
 }
 
 /** How many axes boxes may have in this build, the default first. */
@@ -77,32 +77,40 @@ function compile(bytes: BufferSource): WebAssembly.Module {
 }
 
 /**
- * The bytes that scripts/inline.mjs has written as text: see there. The first characters of the alphabet begin a pair; the
- * others stand for the bytes in `order`. A small module decodes it (kernel/decoder.cpp): half of what a page waits for.
+ * The module of `size` bytes that scripts/inline.mjs has written as text: see there. The first characters of the alphabet
+ * begin a pair; the others stand for the bytes in `order`. A small module decodes it (kernel/decoder.cpp): half of what a
+ * page waits for.
  */
 export function read({
   alphabet,
   order,
   text,
   decoder,
-}: Record<'alphabet' | 'order' | 'text' | 'decoder', string>): Uint8Array<ArrayBuffer> {
+  size,
+}: Record<'alphabet' | 'order' | 'text' | 'decoder', string> & { size: number }): Uint8Array<ArrayBuffer> {
   const made = compile(digits(decoder)); // first: it says so where there is no WebAssembly
   const { exports } = new WebAssembly.Instance(made);
   const { memory, given, decode } = exports as unknown as DecoderExports;
   const at = given();
-  const tables = 128 + 256;
-  const lacking = at + tables + text.length - memory.buffer.byteLength;
+  const tables = 128 + 128 + 256;
+  const end = at + tables + text.length; // of what is given: behind it comes what is made
+  const lacking = end + size - memory.buffer.byteLength;
   if (lacking > 0) memory.grow((lacking + 0xffff) >>> 16);
   const io = new Uint8Array(memory.buffer, at);
-  const { length } = alphabet;
-  for (let k = 0; k < length; k++) io[alphabet.charCodeAt(k)] = k;
   const single = digits(order);
+  const { length } = alphabet;
+  const prefixes = length - single.length;
+  for (let k = 0; k < length; k++) {
+    io[alphabet.charCodeAt(k)] = single[k - prefixes] ?? 0;
+    io[128 + alphabet.charCodeAt(k)] = k;
+  }
   // The bytes of pairs follow in ascending order.
   const bytes = new Set(single);
   for (let byte = 0; byte < 256; byte++) bytes.add(byte);
-  io.set([...bytes], 128);
+  io.set([...bytes].slice(single.length), 256);
   encodeInto(text, io.subarray(tables));
-  return io.subarray(tables, tables + decode(text.length, length - single.length, length));
+  decode(text.length, alphabet.charCodeAt(prefixes), length);
+  return new Uint8Array(memory.buffer, end, size);
 }
 
 /** The bytes that stand as two hexadecimal digits each. */

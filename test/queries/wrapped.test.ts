@@ -8,7 +8,7 @@ import { type Entry, Modelled } from '../support/model.ts';
 import { distance, type Entries, meeting } from '../support/query-reference.ts';
 import { runs, seed } from '../support/runs.ts';
 import { aBox, aWorld } from '../support/wrapped-boxes.ts';
-import { wrappedOverlap, wrappedWithin } from '../support/wrapped-reference.ts';
+import { worldsOf, wrappedOverlap, wrappedWithin } from '../support/wrapped-reference.ts';
 
 const ascending = (ids: Iterable<number>) => [...ids].sort((a, b) => a - b);
 
@@ -120,6 +120,63 @@ class Copied extends Modelled {
       .sort((a, b) => a.rank - b.rank || a.id - b.id);
   }
 
+  /** Up to four planes: some along an axis, some through places in whole steps. */
+  planes(): number[][] {
+    const size = this.wrap[0]!;
+    const offset = () => (this.#whole ? this.integer(96) / 32 - 1 : 3 * this.random() - 1) * size;
+    const normal = () => this.wrap.map(() => this.pick(0, 1, -1, this.random() - 0.5));
+    return Array.from({ length: this.integer(5) }, () => [...normal(), offset()]);
+  }
+
+  /** The boxes of which a copy is behind no plane, and whether one is inside: those in the world and one world away. */
+  inView(planes: readonly number[][], touching: boolean): Map<number, boolean> {
+    const d = this.wrap.length;
+    const isFront = (sum: number) => (touching ? sum >= 0 : sum > 0);
+    /** Of the foremost corner of a box, or of its hindmost. */
+    const sumOf = (box: readonly number[], plane: readonly number[], foremost: boolean) => {
+      let sum = 0;
+      for (let a = 0; a < d; a++) {
+        if (plane[a] !== 0) sum += plane[a]! * box[plane[a]! > 0 === foremost ? a + d : a]!;
+      }
+      return sum + plane[d]!;
+    };
+    const seen = new Map<number, boolean>();
+    for (const [id, { box }] of this.wanted()) {
+      let copies = [this.around(box)];
+      for (let a = 0; a < d; a++) {
+        if (this.isFull(box, a)) continue;
+        const size = this.wrap[a]!;
+        const moves = [-1, 0, 1].map((step) => (step - worldsOf(box[a]!, size)) * size);
+        copies = copies.flatMap((copy) => moves.map((move) => copy.map((x, k) => (k % d === a ? box[k]! + move : x))));
+      }
+      const all = (copy: readonly number[], foremost: boolean) =>
+        planes.every((plane) => isFront(sumOf(copy, plane, foremost)));
+      const inFront = copies.filter((copy) => all(copy, true));
+      if (inFront.length > 0)
+        seen.set(
+          id,
+          inFront.some((copy) => all(copy, false)),
+        );
+    }
+    return seen;
+  }
+
+  view(): void {
+    const ask = this.space as unknown as Loose;
+    const planes = this.planes();
+    for (const touching of [true, false]) {
+      const seen = new Map<number, boolean>();
+      const visit = (id: number, inside: boolean) => {
+        expect(seen.has(id), `box ${id} again`).toBe(false);
+        seen.set(id, inside);
+      };
+      ask.queryPlanes(planes.flat(), { touching, visit });
+      const what = `queryPlanes(${JSON.stringify(planes)}) in ${this.wrap}, touching: ${touching}`;
+      const ordered = (of: Map<number, boolean>) => [...of].sort(([a], [b]) => a - b);
+      expect(ordered(seen), what).toEqual(ordered(this.inView(planes, touching)));
+    }
+  }
+
   ahead(given: readonly number[], along: readonly number[], limit: number, length?: number): Met[] {
     const d = this.wrap.length;
     const box = this.around(given);
@@ -206,6 +263,7 @@ class Copied extends Modelled {
     const first = ask.rayCast(...point, ...way, { maxDistance });
     this.expectHits(first ? [first as never] : [], rays.slice(0, 1));
 
+    this.view();
     const box = this.asked();
     const sweeps = this.ahead(box, way, 1);
     const met = ask.sweep(...box, ...way);
@@ -278,4 +336,22 @@ describe(`what is near and ahead, in a world that wraps around (SEED=${seed})`, 
       for (let n = 0; n < 3; n++) scene.question();
     }
   });
+});
+
+test.each([2, 3] as const)('a view of many boxes comes in parts, each box once, in %iD', (dimensions) => {
+  const wrap = Array.from({ length: dimensions }, () => 100);
+  const count = 5000;
+  const space = new BroadPhase({ dimensions, wrap } as never);
+  const box = (k: number) => {
+    const at = wrap.map((size, a) => (k * (7 + 4 * a)) % size);
+    return [...at, ...at.map((x) => x + 3)];
+  };
+  space.setAll(Float32Array.from(Array.from({ length: count }, (_, k) => box(k)).flat())).update();
+  const all = Array.from({ length: count }, (_, id) => id);
+  for (const planes of [[], [...wrap.map(() => 1), 300]]) {
+    expect(ascending(space.queryPlanes(planes))).toEqual(all);
+    const visited: number[] = [];
+    space.queryPlanes(planes, { visit: (id) => visited.push(id) });
+    expect(ascending(visited)).toEqual(all);
+  }
 });

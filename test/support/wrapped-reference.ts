@@ -13,6 +13,9 @@ function exactly(value: number): bigint {
 
 const floor = (a: bigint, b: bigint): bigint => (a >= 0n || a % b === 0n ? a / b : a / b - 1n);
 
+/** How many whole worlds a place is away from the one that begins at 0. */
+export const worldsOf = (place: number, world: number): number => Number(floor(exactly(place), exactly(world)));
+
 function meet(aMin: number, aMax: number, bMin: number, bMax: number, world: number, closed: boolean): boolean {
   if (![aMin, aMax, bMin, bMax].every(Number.isFinite)) return true; // what has no end reaches all around
   const size = exactly(world);

@@ -1,0 +1,138 @@
+// A query, the boxes it is about, and the list of hits or neighbours.
+#pragma once
+#include "questions/index.hpp"
+
+/// What a question is asked with.
+template <int D> struct Question {
+  f64 lo[D] = {}, hi[D] = {};  // the box, which may be a point
+  f64 along[D] = {};  // what a moving box moves by
+  f64 radius = 0;  // of a circle; negative: none, or `within`
+  f64 limit = 0;  // the largest rank
+  f64 length = 0;  // of the way, where its share is to be ranked by distance; else 1
+  bool stops = false;  // times are to be stopped at: see meeting.hpp
+  bool touching = true;  // of areas: whether what only touches counts
+  u32 mask = 0;  // layers; all bits: every box, even one without a layer
+  u32 ignored = 0;  // an id
+  u32 layer = 0;  // where it is a box of another space that asks: its own; else 0
+
+  static constexpr f64 within = -2;  // in place of a radius: boxes are to be within the box, wholly
+
+  /// Sets `length`, without overflow. A ray ranks by distance.
+  SMALL void measure_way(bool is_ray) {
+    f64 most = 0, sum = 0;
+    for (int a = 0; a < D; a++) most = larger(most, __builtin_fabs(along[a]));
+    for (int a = 0; a < D && most > 0; a++) sum += (along[a] / most) * (along[a] / most);
+    length = is_ray ? most * __builtin_sqrt(sum) : 1;
+    stops = !is_ray;
+  }
+
+  /// In a world that wraps around, once the way is measured. A ray without a limit ends where it has gone once around.
+  SMALL void wrap(const f64* world) {
+    Copies::reach_around(world, D, lo, hi, along);
+    f64 once = __builtin_inf();
+    for (int a = 0; a < D; a++) once = smaller(once, world[a] / __builtin_fabs(along[a]));
+    if (!stops && limit == __builtin_inf() && once < limit) limit = once * length;
+  }
+};
+
+/// Which boxes a question is about, by its mask and by whom it ignores.
+template <int D> class Wanted {
+  const Index<D>& index_;
+  const u32 mask_, ignored_, own_;
+
+ public:
+  Wanted(const Index<D>& index, const Question<D>& asked)
+      : index_(index), mask_(asked.mask), ignored_(asked.ignored), own_(asked.layer) {}
+
+  /// Whether no box is left out for its layer or its id.
+  bool all() const { return ignored_ > slot_mask && (own_ ? !index_.filtered() : mask_ == 0xffffffff); }
+  bool operator()(u32 place) const {
+    if (own_) return meets(index_.rule(index_.slot(place)));
+    return (mask_ == 0xffffffff || (index_.layer(place) & mask_)) && index_.id(place) != ignored_;
+  }
+
+ private:
+  SMALL bool meets(const Rule& its) const { return (own_ & its.mask) && (its.layer & mask_); }
+};
+
+struct Hit {
+  f64 rank;  // what the moving box has moved, or the distance
+  u32 id;  // with `corner`
+  i32 side;  // of moving boxes: axis + 1 of the face that is hit, negative where its normal is; 0: none
+
+  /// With the ids of what is met only at a corner, so that faces that are met at the same time come before it: who
+  /// walks over a floor stays on the box below, and does not run into the next.
+  static constexpr u32 corner = 0x80000000;
+
+  bool operator<(const Hit& other) const { return rank < other.rank || (rank == other.rank && id < other.id); }
+};
+
+/// The least `most` of the hits behind a given one: a few in order, many as a heap with the largest on top.
+class Hits {
+  static constexpr u32 few = 24;
+
+  Buffer<Hit> list_;
+  u32 count_ = 0, most_ = 0;
+  bool after_ = false;
+  Hit last_ = {};
+
+  SMALL void sift_down(u32 at, u32 count, Hit hit) {
+    for (u32 child; (child = 2 * at + 1) < count; at = child) {
+      if (child + 1 < count && list_[child] < list_[child + 1]) child++;
+      if (!(hit < list_[child])) break;
+      list_[at] = list_[child];
+    }
+    list_[at] = hit;
+  }
+
+  SMALL void sift_up(u32 at, Hit hit) {
+    for (u32 above; at > 0 && list_[above = (at - 1) / 2] < hit; at = above) list_[at] = list_[above];
+    list_[at] = hit;
+  }
+
+  void insert(u32 at, Hit hit) {
+    for (; at > 0 && hit < list_[at - 1]; at--) list_[at] = list_[at - 1];
+    list_[at] = hit;
+  }
+
+ public:
+  f64 limit = 0;  // no hit of a larger rank is wanted
+
+  const Hit* data() const { return list_.data(); }
+
+  void begin(u32 most, f64 most_rank, const Hit* after) {
+    count_ = 0;
+    most_ = most;
+    limit = most_rank;
+    after_ = after;
+    if (after) last_ = *after;
+  }
+
+  SHARED void offer(Hit hit) {
+    if (!(hit.rank <= limit) || (after_ && !(last_ < hit))) return;
+    bool ordered = most_ <= few;
+    if (count_ < most_) {
+      list_.grow(u64(count_) + 1, count_);
+      u32 at = count_++;
+      if (ordered) insert(at, hit);
+      else sift_up(at, hit);
+    } else if (ordered) {
+      if (hit < list_[most_ - 1]) insert(most_ - 1, hit);
+    } else if (hit < list_[0]) {
+      sift_down(0, count_, hit);
+    }
+    if (count_ == most_) limit = smaller(limit, list_[ordered ? most_ - 1 : 0].rank);
+  }
+
+  /// Puts them in order, the least first; returns how many.
+  SMALL u32 finish() {
+    for (u32 n = most_ <= few ? 0 : count_; n-- > 1;) {
+      Hit least = list_[n];
+      list_[n] = list_[0];
+      sift_down(0, n, least);
+    }
+    return count_;
+  }
+
+  SMALL void release() { list_.release(); }
+};

@@ -1,0 +1,188 @@
+// A WebAssembly module with what is alike together: its opcodes in one stream, the numbers of locals in another, and so
+// on, where the module has them mixed. gzip makes a fifth less of it, as each stream repeats itself more than the mix.
+// kernel/decoder.cpp puts them together again, byte for byte.
+// From: what executable packers and the class files of Java's pack200 do (W. Pugh, Compressing Java Class Files, 1999).
+
+/**
+ * In the order of the file, which puts those together that gzip finds alike. All are numbers in LEB128, but for the first,
+ * whose bytes stand as they are.
+ */
+const streams = ['raw', 'locals', 'long', 'integer', 'offset', 'call', 'local', 'branch', 'small', 'block'];
+/** Each instruction is one of so many kinds at most: its opcode, with what of its immediates is no number of a stream. */
+const mostKinds = 256;
+/** Bytes of an opcode at most, its alignment included. */
+const longest = 4;
+
+const branchTable = 0x0e;
+const end = 0x0b;
+
+/**
+ * What follows each opcode: how many numbers of which stream, `raw` so many bytes; `memory` an alignment and an offset.
+ * Those that nothing follows have none of `small`. What is not here the compiler does not write, as it is told to.
+ */
+const immediates = new Map();
+const opcodes = (from, to, ...what) => {
+  for (let code = from; code <= to; code++) immediates.set(code, what);
+};
+const prefixed = (prefix, from, to, ...what) => opcodes(prefix * 0x1000 + from, prefix * 0x1000 + to, ...what);
+for (const [from, to] of [
+  [0x00, 0x01],
+  [0x05, 0x05],
+  [0x0b, 0x0b],
+  [0x0f, 0x0f],
+  [0x1a, 0x1b],
+  [0x45, 0xc4],
+])
+  opcodes(from, to, 'small', 0);
+prefixed(0xfc, 0, 7, 'small', 0);
+prefixed(0xfd, 14, 0x113, 'small', 0);
+opcodes(0x02, 0x04, 'block', 1); // blocks: their type
+opcodes(0x0c, 0x0d, 'branch', 1); // branches: how far
+opcodes(branchTable, branchTable, 'branch', 0); // as many as it says
+opcodes(0x10, 0x10, 'call', 1);
+opcodes(0x11, 0x11, 'small', 2);
+opcodes(0x20, 0x22, 'local', 1);
+opcodes(0x23, 0x24, 'small', 1); // globals
+opcodes(0x28, 0x3e, 'memory', 1);
+opcodes(0x3f, 0x40, 'small', 1); // memory.size, memory.grow: which memory
+opcodes(0x41, 0x41, 'integer', 1);
+opcodes(0x42, 0x42, 'long', 1);
+opcodes(0x43, 0x43, 'raw', 4);
+opcodes(0x44, 0x44, 'raw', 8);
+prefixed(0xfc, 8, 8, 'small', 2); // memory.init
+prefixed(0xfc, 9, 9, 'small', 1); // data.drop
+prefixed(0xfc, 10, 10, 'small', 2); // memory.copy
+prefixed(0xfc, 11, 11, 'small', 1); // memory.fill
+prefixed(0xfd, 0, 11, 'memory', 1);
+prefixed(0xfd, 12, 13, 'raw', 16); // a constant, a shuffle
+prefixed(0xfd, 21, 34, 'small', 1); // which lane
+prefixed(0xfd, 84, 91, 'memory', 2); // offset and lane
+prefixed(0xfd, 92, 93, 'memory', 1);
+
+/** Reads a module from `at` on. */
+class Reader {
+  constructor(bytes, at = 0) {
+    this.bytes = bytes;
+    this.at = at;
+  }
+
+  byte() {
+    return this.bytes[this.at++];
+  }
+
+  number() {
+    let value = 0;
+    for (let shift = 0; ; shift += 7) {
+      const byte = this.byte();
+      value += (byte & 127) * 2 ** shift;
+      if (byte < 128) return value;
+    }
+  }
+
+  /** The bytes of so many numbers. */
+  numbers(count) {
+    const from = this.at;
+    for (let k = 0; k < count; k++) this.number();
+    return this.bytes.subarray(from, this.at);
+  }
+
+  raw(count) {
+    this.at += count;
+    return this.bytes.subarray(this.at - count, this.at);
+  }
+}
+
+/** Where the functions of a module begin, and where they end; `count` of them. */
+function codeOf(wasm) {
+  const reader = new Reader(wasm, 8);
+  while (reader.at < wasm.length) {
+    const section = reader.byte();
+    const size = reader.number();
+    const last = reader.at + size;
+    if (section === 10) {
+      const count = reader.number();
+      return { count, from: reader.at, to: last };
+    }
+    reader.at = last;
+  }
+  throw new Error('the module has no code');
+}
+
+/** One instruction: its kind (bytes, stream, numbers), and what goes into the stream. */
+function instruction(reader) {
+  const from = reader.at;
+  const opcode = reader.byte();
+  const code = opcode >= 0xfc ? opcode * 0x1000 + reader.number() : opcode;
+  if (!immediates.has(code)) throw new Error(`unknown opcode 0x${code.toString(16)}`);
+  let [stream, count] = immediates.get(code);
+  if (stream === 'memory') {
+    reader.number(); // the alignment
+    stream = 'offset';
+  }
+  const bytes = reader.bytes.subarray(from, reader.at);
+  if (bytes.length > longest) throw new Error(`opcode ${code} has ${bytes.length} bytes, expected up to ${longest}`);
+  if (opcode === branchTable) count = 2 + new Reader(reader.bytes, reader.at).number();
+  return { opcode, bytes, stream, count, given: stream === 'raw' ? reader.raw(count) : reader.numbers(count) };
+}
+
+/** Every function as a list of instructions; the first stands for its locals. */
+function functionsOf(wasm, { count, from, to }) {
+  const reader = new Reader(wasm, from);
+  const functions = Array.from({ length: count }, () => {
+    const size = reader.number();
+    const last = reader.at + size;
+    const groups = new Reader(wasm, reader.at).number();
+    const locals = 1 + 2 * groups; // each group: how many, of which type
+    const list = [{ bytes: [], stream: 'locals', count: locals, given: reader.numbers(locals) }];
+    while (reader.at < last) list.push(instruction(reader));
+    if (reader.at !== last || list.at(-1).opcode !== end)
+      throw new Error(`a function ends at ${reader.at}, not ${last}`);
+    list[list.length - 1] = { ...list.at(-1), last: true };
+    return list;
+  });
+  if (reader.at !== to) throw new Error(`the code ends at ${reader.at}, not ${to}`);
+  return functions;
+}
+
+const keyOf = ({ bytes, stream, count, last }) => [Number(!last), ...bytes, stream, count].join();
+
+/** One instruction of each kind: that which ends functions, then what is most frequent. */
+function kindsOf(instructions) {
+  const counts = new Map();
+  const kinds = new Map();
+  for (const one of instructions) {
+    const key = keyOf(one);
+    counts.set(key, one.last ? Number.POSITIVE_INFINITY : (counts.get(key) ?? 0) + 1);
+    kinds.set(key, one);
+  }
+  if (kinds.size > mostKinds) throw new Error(`${kinds.size} kinds of instructions, expected up to ${mostKinds}`);
+  return [...kinds].sort(([a], [b]) => counts.get(b) - counts.get(a) || (a < b ? -1 : 1)).map(([, one]) => one);
+}
+
+/**
+ * The module apart. In front, three bytes each: how many functions there are, how many kinds of instructions, and how many
+ * bytes before the first function, behind the last one, in the stream of the kinds, and in each of the others. Then the
+ * kinds, one property after the other; the bytes before; the streams; the bytes behind.
+ */
+export function apart(wasm) {
+  const code = codeOf(wasm);
+  const functions = functionsOf(wasm, code);
+  const instructions = functions.flat();
+  const kinds = kindsOf(instructions);
+  const numbers = new Map(kinds.map((one, k) => [keyOf(one), k]));
+  const order = instructions.map((one) => numbers.get(keyOf(one)));
+  const filled = streams.map((name) =>
+    instructions.flatMap(({ stream, given }) => (stream === name ? [...given] : [])),
+  );
+  const head = [functions, kinds, wasm.subarray(0, code.from), wasm.subarray(code.to), order, ...filled];
+  return Uint8Array.from([
+    ...head.flatMap(({ length }) => [length & 255, (length >> 8) & 255, length >> 16]),
+    ...Array.from({ length: longest }, (_, k) => kinds.map(({ bytes }) => bytes[k] ?? 0)).flat(),
+    ...kinds.map(({ bytes, stream }) => bytes.length * 16 + streams.indexOf(stream)),
+    ...kinds.map(({ count }) => count),
+    ...wasm.subarray(0, code.from),
+    ...order,
+    ...filled.flat(),
+    ...wasm.subarray(code.to),
+  ]);
+}
