@@ -42,7 +42,7 @@ equal(new coltech.BroadPhase({ technique: 'quadtree' }).space.technique, 'quadtr
 
 for (const option of [{ cellSize: 4 }, { bounds: [0, 0, 9, 9] }, { margin: 1 }]) {
   const [name] = Object.keys(option);
-  const unheeded = { name: 'RangeError', message: new RegExp(`^${name}: got .*that it is left out.*'broadphase/all'`) };
+  const unheeded = { name: 'RangeError', message: new RegExp(`^${name}: got .*it to be left out.*'broadphase/all'`) };
   throws(() => new lean.BroadPhase(option), unheeded);
   throws(() => new flat.BroadPhase(option), unheeded);
   equal(new all.BroadPhase(option).technique, 'auto');
