@@ -26,8 +26,16 @@ export default defineConfig({
         extends: true,
         test: {
           name: 'unit',
-          include: ['test/**/*.test.ts', 'examples/**/*.test.mjs'],
-          exclude: ['test/browser/**', '**/node_modules/**'],
+          include: ['test/**/*.test.ts'],
+          exclude: ['test/browser/**'],
+          testTimeout: 30_000,
+        },
+      },
+      {
+        extends: true,
+        test: {
+          name: 'examples', // several wait for processes of their own
+          include: ['examples/test/*.test.mjs'],
           testTimeout: 30_000,
         },
       },
