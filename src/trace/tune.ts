@@ -165,7 +165,38 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
   const middle = Math.max(0, (frames.length - screenFrames) >> 1);
   const few = exhaustive ? frames : frames.slice(middle, middle + screenFrames);
 
-  const screened: (Candidate & { ms: number })[] = [];
+  const { screened, curves } = screenAll(techniques, few, dimensions, exhaustive, progress);
+  const close = closest(screened);
+  // A second `auto`, at the other end of the turns, says what the machine's other work makes of equals.
+  const twin: Candidate = { technique: 'auto' };
+  const ran = runFinal([twin, ...close], dimensions, frames, seconds, (done) => progress?.('final', done, 1));
+  const second = ran.find(({ candidate }) => candidate === twin)!.measured;
+  const finalists = ran.map(({ measured }) => measured).filter((measured) => measured !== second);
+  const auto = finalists.find(isAuto)!;
+  const noise = Math.abs(second.ms.mean / auto.ms.mean - 1) || 0;
+  const best = finalists.find((each) => isWorth(each, auto, noise)) ?? auto;
+  return {
+    best,
+    auto,
+    margin: auto.ms.mean / best.ms.mean,
+    noise,
+    finalists,
+    techniques: techniques.map((name) => screened.find(({ technique }) => technique === name)!).sort(byTime),
+    curves,
+    frames: counted(frames, describeFrames(frames, dimensions)),
+    code: codeOf(best, dimensions, source),
+  };
+}
+
+/** Runs every technique on few frames, with each value of its parameters that is worth a try; fastest first. */
+function screenAll(
+  techniques: readonly TechniqueName[],
+  few: readonly Frame[],
+  dimensions: 2 | 3,
+  exhaustive: boolean,
+  progress: TuneOptions['progress'],
+): { screened: Screened[]; curves: Tuned['curves'] } {
+  const screened: Screened[] = [];
   const curves: Tuned['curves'] = [];
   let fastest = Infinity;
   let fastestOfTechnique = Infinity;
@@ -198,31 +229,11 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
     }
   });
   screened.sort((a, b) => a.ms - b.ms);
-
-  const close = closest(screened);
-  // A second `auto`, at the other end of the turns, says what the machine's other work makes of equals.
-  const twin: Candidate = { technique: 'auto' };
-  const ran = runFinal([twin, ...close], dimensions, frames, seconds, (done) => progress?.('final', done, 1));
-  const second = ran.find(({ candidate }) => candidate === twin)!.measured;
-  const finalists = ran.map(({ measured }) => measured).filter((measured) => measured !== second);
-  const auto = finalists.find(isAuto)!;
-  const noise = Math.abs(second.ms.mean / auto.ms.mean - 1) || 0;
-  const best = finalists.find((each) => isWorth(each, auto, noise)) ?? auto;
-  return {
-    best,
-    auto,
-    margin: auto.ms.mean / best.ms.mean,
-    noise,
-    finalists,
-    techniques: techniques.map((name) => screened.find(({ technique }) => technique === name)!).sort(byTime),
-    curves,
-    frames: counted(frames, describeFrames(frames, dimensions)),
-    code: codeOf(best, dimensions, source),
-  };
+  return { screened, curves };
 }
 
 /** Those that run on all frames, of all that were screened, fastest first; `auto` is among them. */
-function closest(screened: readonly (Candidate & { ms: number })[]): Candidate[] {
+function closest(screened: readonly Screened[]): Candidate[] {
   const close: Candidate[] = [];
   for (const { ms, ...candidate } of screened) {
     const ofTechnique = close.filter(({ technique }) => technique === candidate.technique).length;
