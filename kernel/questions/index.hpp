@@ -12,9 +12,7 @@
 // update.
 // From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993.
 #pragma once
-#include "base/rounding.hpp"
-#include "rules/copies.hpp"
-#include "rules/filters.hpp"
+#include "questions/seen_boxes.hpp"
 #include "search/hilbert.hpp"
 
 template <int D> class Index {
@@ -24,21 +22,10 @@ template <int D> class Index {
   static constexpr u32 sampled = 256;  // groups of eight, by which an order is judged
   static constexpr f32 most_wider = 2;  // they may become before boxes are sorted anew
 
-  // As the update saw them, by slot.
-  Buffer<f32> boxes_;  // where they are rounded, once `built_`: outward
-  Buffer<f64> exact_;
-  Buffer<u32> ids_;
-  Buffer<Rule> rules_;
-  Buffer<f64> reaches_;
-  f64 most_reach_ = 0;
-  u32 count_ = 0;
-  const f64*
-      world_ = nullptr;  // where it wraps around: then boxes stand in `exact_`, and are moved as they are rounded
-  bool rounded_ = false, named_ = false, filtered_ = false, reached_ = false;
-
+  SeenBoxes<D> seen_;  // its float32, while `built_`: outward
   bool built_ = false;
   Buffer<u32> slots_;  // per place in the order
-  Buffer<u32> placed_ids_;  // the same, while `named_`
+  Buffer<u32> placed_ids_;  // the same, while `seen_.named`
   Buffer<u32> places_;  // per slot, its place
   u32 sorted_ = 0, used_ = 0, room_ = 0;  // places of boxes in order; and with those behind; and with those to come
   bool holes_ = false;
@@ -61,7 +48,7 @@ template <int D> class Index {
   u32 levels_ = 0;
 
  public:
-  u32 count() const { return count_; }
+  u32 count() const { return seen_.count; }
   /// Places that may hold boxes, and whether some hold none.
   u32 places() const { return used_; }
   bool holes() const { return holes_; }
@@ -70,31 +57,31 @@ template <int D> class Index {
   const Block& block(u32 level, u32 number) const { return blocks_[first_[level] + number]; }
 
   /// The size of the world, where it wraps around.
-  const f64* world() const { return world_; }
+  const f64* world() const { return seen_.world; }
   /// Whether float32 does not hold all boxes.
-  bool rounded() const { return rounded_; }
+  bool rounded() const { return seen_.rounded; }
   u32 id(u32 place) const { return ids()[place]; }
   u32 place(u32 slot) const { return places_[slot]; }
-  u32 id_of_slot(u32 slot) const { return named_ ? ids_[slot] : slot; }
+  u32 id_of_slot(u32 slot) const { return seen_.named ? seen_.ids[slot] : slot; }
   /// Of all places.
-  const u32* ids() const { return named_ ? placed_ids_.data() : slots_.data(); }
+  const u32* ids() const { return seen_.named ? placed_ids_.data() : slots_.data(); }
   /// The rule of a box by its slot, and the numbers it was given with.
-  Rule rule(u32 slot) const { return filtered_ ? rules_[slot] : Rule{0xffffffff, 0xffffffff, 0}; }
+  Rule rule(u32 slot) const { return seen_.filtered ? seen_.rules[slot] : Rule{0xffffffff, 0xffffffff, 0}; }
   void box_of_slot(u32 slot, f64* to) const {
     for (u32 k = 0; k < width; k++)
-      to[k] = rounded_ ? exact_[u64(slot) * width + k] : f64(boxes_[u64(slot) * width + k]);
+      to[k] = seen_.rounded ? seen_.exact[u64(slot) * width + k] : f64(seen_.boxes[u64(slot) * width + k]);
   }
-  bool filtered() const { return filtered_; }
+  bool filtered() const { return seen_.filtered; }
   /// How far a box reaches, by its slot, and no less than any does.
-  f64 reach(u32 slot) const { return reached_ ? reaches_[slot] : 0; }
-  f64 most_reach() const { return most_reach_; }
+  f64 reach(u32 slot) const { return seen_.reached ? seen_.reaches[slot] : 0; }
+  f64 most_reach() const { return seen_.most_reach; }
   u32 slot(u32 place) const { return slots_[place]; }
   const u32* slots() const { return slots_.data(); }
-  u32 layer(u32 place) const { return filtered_ ? rules_[slots_[place]].layer : 0xffffffff; }
+  u32 layer(u32 place) const { return seen_.filtered ? seen_.rules[slots_[place]].layer : 0xffffffff; }
   /// The numbers the box was given with.
   void box(u32 place, f64* to) const {
-    if (rounded_) {
-      __builtin_memcpy(to, exact_.data() + u64(slots_[place]) * width, width * sizeof(f64));
+    if (seen_.rounded) {
+      __builtin_memcpy(to, seen_.exact.data() + u64(slots_[place]) * width, width * sizeof(f64));
       return;
     }
     const Block& block = blocks_[place / 8];
@@ -107,43 +94,18 @@ template <int D> class Index {
   /// Copies the boxes of a space.
   SMALL void see(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
                  const f64* world) {
-    u32 n = ids.count();
-    count_ = 0;
-    known_ = smaller(known_, n);
+    seen_.count = 0;
+    known_ = smaller(known_, ids.count());
     built_ = false;
-    world_ = world;
-    rounded_ = exact || world;
-    if (world && !exact) {
-      exact_.reserve(u64(n) * width);
-      for (u64 k = 0; k < u64(n) * width; k++) exact_[k] = boxes[k];
-    } else if (exact) copy(exact_, exact, u64(n) * width, 0);  // hardly any of these copies are asked: `build` rounds
-    else copy(boxes_, boxes, u64(n) * width, 4);
-    filtered_ = rules;
-    if (rules) copy(rules_, rules, n, 0);
-    reached_ = reaches;
-    most_reach_ = 0;
-    if (reaches) copy(reaches_, reaches, n, 0);
-    for (u32 s = 0; s < n && reaches; s++) most_reach_ = larger(most_reach_, reaches[s]);
-    named_ = !ids.same();
-    if (named_) {
-      ids_.reserve(n);
-      for (u32 s = 0; s < n; s++) ids_[s] = ids.id(s);
-    }
-    count_ = n;
+    seen_.see(boxes, exact, ids, rules, reaches, world);
   }
 
   /// Takes over the slots that have changed, of which new ones are some: false where all has to be seen anew.
   SMALL bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
                     const u32* slots, u32 many, const f64* world) {
-    if (reached_ != (reaches != nullptr) || world_ != world || rounded_ != (exact || world_) || named_ != !ids.same() ||
-        filtered_ != (rules != nullptr))
-      return false;
-    u32 n = ids.count(), had = count_;
-    if (built_ || !rounded_) boxes_.grow(u64(n) * width + 4, u64(had) * width);
-    if (rounded_) exact_.grow(u64(n) * width, u64(had) * width);
-    if (named_) ids_.grow(n, had);
-    if (filtered_) rules_.grow(n, had);
-    if (reached_) reaches_.grow(n, had);
+    if (!seen_.is_like(exact, ids, rules, reaches, world)) return false;
+    u32 n = ids.count(), had = seen_.count;
+    seen_.grow(n, built_);
     if (built_) {
       places_.grow(larger(n, 1u), had);
       for (u32 s = n; s < had; s++) vacate(places_[s]);
@@ -151,21 +113,14 @@ template <int D> class Index {
       known_ = n;
     }
     known_ = smaller(known_, n);
-    count_ = n;
+    seen_.count = n;
     for (u32 k = 0; k < many; k++) {
       u32 s = slots[k];
       if (s >= n) continue;
-      if (rounded_) {
-        for (u64 k = u64(s) * width; k < (u64(s) + 1) * width; k++) exact_[k] = exact ? exact[k] : f64(boxes[k]);
-        if (built_) round(s);
-      } else {
-        __builtin_memcpy(&boxes_[u64(s) * width], boxes + u64(s) * width, width * sizeof(f32));
-      }
-      if (named_) ids_[s] = ids.id(s);
-      if (filtered_) rules_[s] = rules[s];
-      if (reached_) most_reach_ = larger(most_reach_, reaches_[s] = reaches[s]);
+      seen_.take(s, boxes, exact, ids, rules, reaches);
+      if (built_ && seen_.rounded) seen_.round(s);
       if (!built_) continue;
-      if (!is_off(s)) {
+      if (!seen_.is_off(s)) {
         move(s);
       } else {
         vacate(places_[s]);
@@ -181,12 +136,9 @@ template <int D> class Index {
   /// Makes the index, if it is not. It stays as it is until the next update, since answers may be read in parts.
   SHARED void build() {
     if (built_) return;
-    if (rounded_) {
-      boxes_.reserve(u64(count_) * width + 4);
-      for (u32 s = 0; s < count_; s++) round(s);
-    }
-    room_ = count_ + count_ / 32 + 64;
-    if (known_ == 0 || looks_ >= count_ || !keep_order()) put_in_order();
+    seen_.round_all();
+    room_ = seen_.count + seen_.count / 32 + 64;
+    if (known_ == 0 || looks_ >= seen_.count || !keep_order()) put_in_order();
     used_ = sorted_;
     holes_ = false;
     u32 total = 0;
@@ -204,7 +156,7 @@ template <int D> class Index {
       __builtin_memset(&blocks_[first_[level] + (below - 1) / 8], 0xff, sizeof(Block));
       for (u32 k = 0; k < below; k++) bound(level, k);
     }
-    for (u32 k = 0; named_ && k < sorted_; k++) placed_ids_[k] = ids_[slots_[k]];
+    for (u32 k = 0; seen_.named && k < sorted_; k++) placed_ids_[k] = seen_.ids[slots_[k]];
     built_ = true;
   }
 
@@ -220,29 +172,17 @@ template <int D> class Index {
   }
 
   SMALL void release() {
-    boxes_.release();
-    exact_.release();
-    ids_.release();
-    rules_.release();
-    reaches_.release();
+    seen_.release();
     slots_.release();
     placed_ids_.release();
     places_.release();
     sort_.release();
     blocks_.release();
-    count_ = known_ = 0;
+    known_ = 0;
     built_ = false;
   }
 
  private:
-  /// A box outward; where the world wraps around to where it is searched.
-  NOINLINE void round(u32 slot) {
-    const f64* box = &exact_[u64(slot) * width];
-    f32* to = &boxes_[u64(slot) * width];
-    if (world_) Copies::place(world_, D, box, to);
-    else round_outward<D>(box, to);
-  }
-
   /// Bounds of the k-th block of the level below, where it stands in its own. Of nothing they are nothing.
   void bound(u32 level, u32 k) {
     const Block& from = block(level - 1, k);
@@ -276,11 +216,11 @@ template <int D> class Index {
   void write(u32 slot, u32 place) {
     Block& block = blocks_[place / 8];
     for (int a = 0; a < D; a++) {
-      block.lo[a][place % 8] = boxes_[u64(slot) * width + a];
-      block.hi[a][place % 8] = boxes_[u64(slot) * width + D + a];
+      block.lo[a][place % 8] = seen_.boxes[u64(slot) * width + a];
+      block.hi[a][place % 8] = seen_.boxes[u64(slot) * width + D + a];
     }
     slots_[place] = slot;
-    if (named_) placed_ids_[place] = ids_[slot];
+    if (seen_.named) placed_ids_[place] = seen_.ids[slot];
     places_[slot] = place;
   }
 
@@ -290,8 +230,8 @@ template <int D> class Index {
     u32 lane = place >> 3 & 7;
     bool within = true;
     for (int a = 0; a < D; a++) {
-      within &= above.lo[a][lane] <= boxes_[u64(slot) * width + a];
-      within &= boxes_[u64(slot) * width + D + a] <= above.hi[a][lane];
+      within &= above.lo[a][lane] <= seen_.boxes[u64(slot) * width + a];
+      within &= seen_.boxes[u64(slot) * width + D + a] <= above.hi[a][lane];
     }
     return within;
   }
@@ -313,14 +253,9 @@ template <int D> class Index {
     bound_above(used_++);
   }
 
-  template <class T> static void copy(Buffer<T>& to, const T* from, u64 n, u64 padding) {
-    to.reserve(n + padding);
-    if (n) __builtin_memcpy(to.data(), from, n * sizeof(T));
-  }
-
   /// The blocks of boxes.
   SHARED void fill() {
-    const f32* boxes = boxes_.data();
+    const f32* boxes = seen_.boxes.data();
     for (u32 k = 0; k < sorted_; k += 4) {
       // Boxes as rows; the second half of 3D's begins with the last minimum.
       f32x4 rows[D - 1][4];
@@ -343,15 +278,13 @@ template <int D> class Index {
     }
   }
 
-  bool is_off(u32 slot) const { return filtered_ && rules_[slot].is_off(); }
-
   /// Fills slots_ anew, with those that are not off.
   SHARED void put_in_order() {
-    u32 n = count_, some = 0;
+    u32 n = seen_.count, some = 0;
     looks_ = sorted_ = 0;
     make_room(0);
     if (n == 0) return;
-    SceneItems<D> items{{boxes_.data(), n, nullptr}, AxisOrder<D>::make(0)};
+    SceneItems<D> items{{seen_.boxes.data(), n, nullptr}, AxisOrder<D>::make(0)};
     HilbertCurve<D> curve(measure<D>(items, n));
     sort_.begin(n);
     for (u32 s = 0; s < n; s += 4) {
@@ -362,7 +295,7 @@ template <int D> class Index {
     sort_.sort(n);
     for (u32 k = 0; k < n; k++) {
       u32 slot = sort_.index(k);
-      if (!is_off(slot)) slots_[some++] = slot;
+      if (!seen_.is_off(slot)) slots_[some++] = slot;
     }
     find_places(some);
     width_ = group_width();
@@ -371,8 +304,8 @@ template <int D> class Index {
   /// Notes the places of the first n of slots_; no other slot has one.
   void find_places(u32 n) {
     sorted_ = n;
-    known_ = count_;
-    if (n < count_) __builtin_memset(places_.data(), 0xff, count_ * sizeof(u32));
+    known_ = seen_.count;
+    if (n < seen_.count) __builtin_memset(places_.data(), 0xff, seen_.count * sizeof(u32));
     for (u32 place = 0; place < n; place++) places_[slots_[place]] = place;
   }
 
@@ -380,8 +313,8 @@ template <int D> class Index {
   /// that stand together there no longer do in space.
   SMALL bool keep_order() {
     make_room(used_);
-    bool same = known_ == count_ && used_ == count_ && !holes_ && !filtered_;
-    if (same) sorted_ = count_;
+    bool same = known_ == seen_.count && used_ == seen_.count && !holes_ && !seen_.filtered;
+    if (same) sorted_ = seen_.count;
     else fill_up();
     return group_width() <= most_wider * width_;
   }
@@ -390,10 +323,10 @@ template <int D> class Index {
     u32 kept = 0;
     for (u32 place = 0; place < used_; place++) {
       u32 slot = slots_[place];
-      if (slot < known_ && places_[slot] == place && !is_off(slot)) slots_[kept++] = slot;
+      if (slot < known_ && places_[slot] == place && !seen_.is_off(slot)) slots_[kept++] = slot;
     }
-    for (u32 s = 0; s < count_; s++) {
-      if ((s >= known_ || places_[s] == nowhere) && !is_off(s)) slots_[kept++] = s;
+    for (u32 s = 0; s < seen_.count; s++) {
+      if ((s >= known_ || places_[s] == nowhere) && !seen_.is_off(s)) slots_[kept++] = s;
     }
     find_places(kept);
   }
@@ -406,7 +339,7 @@ template <int D> class Index {
       for (u32 a = 0; a < D; a++) {
         f32 lo = __builtin_inff(), hi = -lo;
         for (u32 k = 8 * g; k < 8 * g + 8; k++) {
-          const f32* box = &boxes_[u64(slots_[k]) * width + a];
+          const f32* box = &seen_.boxes[u64(slots_[k]) * width + a];
           lo = smaller(lo, box[0]);
           hi = larger(hi, box[D]);
         }
@@ -420,6 +353,6 @@ template <int D> class Index {
   void make_room(u32 keep) {
     slots_.grow(larger(room_, keep), keep);
     places_.grow(larger(room_, keep), known_);
-    if (named_) placed_ids_.reserve(room_);
+    if (seen_.named) placed_ids_.reserve(room_);
   }
 };

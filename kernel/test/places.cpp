@@ -28,30 +28,39 @@ template <int D> void check_near(u32 count, bool in_a_row, f64 huge) {
   Random random(17);
   std::vector<f32> boxes = crowd<D>(random, count, in_a_row, huge), others = crowd<D>(random, count, in_a_row, huge);
   f64 low[3] = {}, high[3] = {400, 400, 400};
+  const std::vector<f32> bases = boxes;
   Places<D> places;
-  places.divide(low, high, count);
-  places.make_room(count, 0);
-  for (u32 slot = 0; slot < count; slot++) places.put(boxes.data() + slot * 2 * D, slot);
+  places.fill(boxes.data(), count, low, high);
   std::vector<bool> stands(count, true);
   for (u32 slot = 0; slot < count; slot += 3) {
-    places.remove(slot);
+    places.remove(boxes.data() + slot * 2 * D, slot);
     stands[slot] = slot % 2;
-    if (!stands[slot]) continue;  // the others are put where they have gone
-    std::copy_n(others.data() + slot * 2 * D, 2 * D, boxes.data() + slot * 2 * D);
-    places.put(boxes.data() + slot * 2 * D, slot);
+    if (!stands[slot]) continue;  // the others are put where they have gone, and half of them leave that too
+    auto go_to = [&](u32 other) {
+      std::copy_n(others.data() + other * 2 * D, 2 * D, boxes.data() + slot * 2 * D);
+      places.put(boxes.data() + slot * 2 * D, slot);
+    };
+    go_to(slot);
+    if (slot % 4 == 1) {
+      places.remove(boxes.data() + slot * 2 * D, slot);
+      go_to(count - slot);
+    }
+    CHECK(std::equal(bases.data() + slot * 2 * D, bases.data() + (slot + 1) * 2 * D, places.base(slot)));
   }
   for (u32 k = 0; k < 200; k++) {
     const f32* box = others.data() + k * 2 * D;
-    std::vector<u32> near, touching;
-    places.each_near(box, [&](u32 slot) {
-      if (boxes_touch<D>(box, boxes.data() + slot * 2 * D)) near.push_back(slot);
-    });
+    u64 met = 0;
+    std::vector<u32> near(count + 1), touching;
+    near.resize(places.near(box, boxes.data(), near.data(), met));
+    CHECK(met >= near.size());
     for (u32 slot = 0; slot < count; slot++) {
       if (stands[slot] && boxes_touch<D>(box, boxes.data() + slot * 2 * D)) touching.push_back(slot);
     }
     std::sort(near.begin(), near.end());
     CHECK(near == touching);
   }
+  places.forget_base(0);
+  CHECK(!boxes_touch<D>(places.base(0), bases.data()));
 }
 
 }  // namespace

@@ -9,9 +9,7 @@ const mostOfFunction = 60;
 const mostMembers = 25;
 
 /** What may be larger, and why. Whoever is no longer goes from this list: the tests ask for it. */
-const larger: Record<string, string> = {
-  'class Index in kernel/questions/index.hpp': 'waits to be split: what was seen, and the tree over it',
-};
+const larger: Record<string, string> = {};
 
 const files = execFileSync('git', ['ls-files', 'kernel/*.hpp', 'kernel/*.cpp', 'src/*.ts'], { encoding: 'utf8' })
   .trim()

@@ -1,0 +1,104 @@
+// A copy of what an update saw, by slot: boxes, ids, rules and reaches, for queries that come after changes.
+// Most copies are never asked, so doubles are rounded only when an index is built over them.
+#pragma once
+#include "base/rounding.hpp"
+#include "boxes/ids.hpp"
+#include "rules/copies.hpp"
+#include "rules/filters.hpp"
+
+template <int D> struct SeenBoxes {
+  static constexpr u32 width = 2 * D;
+
+  Buffer<f32> boxes;  // where they are `rounded`: outward, once `round_all` was called
+  Buffer<f64> exact;
+  Buffer<u32> ids;
+  Buffer<Rule> rules;
+  Buffer<f64> reaches;
+  f64 most_reach = 0;
+  u32 count = 0;
+  const f64* world = nullptr;  // where it wraps around: then boxes are in `exact`, and are moved as they are rounded
+  bool rounded = false, named = false, filtered = false, reached = false;
+
+  /// Copies the boxes of a space.
+  SMALL void see(const f32* floats, const f64* doubles, const Ids& names, const Rule* given, const f64* far,
+                 const f64* around) {
+    u32 n = names.count();
+    world = around;
+    rounded = doubles || world;
+    if (world && !doubles) {
+      exact.reserve(u64(n) * width);
+      for (u64 k = 0; k < u64(n) * width; k++) exact[k] = floats[k];
+    } else if (doubles) copy(exact, doubles, u64(n) * width, 0);
+    else copy(boxes, floats, u64(n) * width, 4);
+    filtered = given;
+    if (given) copy(rules, given, n, 0);
+    reached = far;
+    most_reach = 0;
+    if (far) copy(reaches, far, n, 0);
+    for (u32 s = 0; s < n && far; s++) most_reach = larger(most_reach, far[s]);
+    named = !names.same();
+    if (named) {
+      ids.reserve(n);
+      for (u32 s = 0; s < n; s++) ids[s] = names.id(s);
+    }
+    count = n;
+  }
+
+  /// Whether a space holds the same kinds of things as were seen.
+  bool is_like(const f64* doubles, const Ids& names, const Rule* given, const f64* far, const f64* around) const {
+    return reached == (far != nullptr) && world == around && rounded == (doubles || world) && named == !names.same() &&
+           filtered == (given != nullptr);
+  }
+
+  /// Room for n boxes. `both`: in float32 too where they are rounded.
+  SMALL void grow(u32 n, bool both) {
+    if (both || !rounded) boxes.grow(u64(n) * width + 4, u64(count) * width);
+    if (rounded) exact.grow(u64(n) * width, u64(count) * width);
+    if (named) ids.grow(n, count);
+    if (filtered) rules.grow(n, count);
+    if (reached) reaches.grow(n, count);
+  }
+
+  /// Takes over one slot.
+  SMALL void take(u32 s, const f32* floats, const f64* doubles, const Ids& names, const Rule* given, const f64* far) {
+    u64 from = u64(s) * width;
+    if (rounded) {
+      for (u64 k = from; k < from + width; k++) exact[k] = doubles ? doubles[k] : f64(floats[k]);
+    } else {
+      __builtin_memcpy(&boxes[from], floats + from, width * sizeof(f32));
+    }
+    if (named) ids[s] = names.id(s);
+    if (filtered) rules[s] = given[s];
+    if (reached) most_reach = larger(most_reach, reaches[s] = far[s]);
+  }
+
+  /// A box outward; where the world wraps around to where it is searched.
+  NOINLINE void round(u32 slot) {
+    const f64* box = &exact[u64(slot) * width];
+    f32* to = &boxes[u64(slot) * width];
+    if (world) Copies::place(world, D, box, to);
+    else round_outward<D>(box, to);
+  }
+  SMALL void round_all() {
+    if (!rounded) return;
+    boxes.reserve(u64(count) * width + 4);
+    for (u32 s = 0; s < count; s++) round(s);
+  }
+
+  bool is_off(u32 slot) const { return filtered && rules[slot].is_off(); }
+
+  SMALL void release() {
+    boxes.release();
+    exact.release();
+    ids.release();
+    rules.release();
+    reaches.release();
+    count = 0;
+  }
+
+ private:
+  template <class T> static void copy(Buffer<T>& to, const T* from, u64 n, u64 padding) {
+    to.reserve(n + padding);
+    if (n) __builtin_memcpy(to.data(), from, n * sizeof(T));
+  }
+};
