@@ -1,8 +1,8 @@
 // The exported functions: the only thing JavaScript calls. One instance of the module is one space.
 // Numbers that do not fit in a return value are passed through `io`, an array of doubles.
-#include <new>
-
 #include "space/space.hpp"
+
+inline void* operator new(size_t, void* at) noexcept { return at; }
 
 // Next to one another, as the techniques are: see there.
 BOTH(Index)

@@ -1,6 +1,6 @@
 // The fast inner loop: a header is edited, and the nearest tests say in seconds whether all still holds. Only the lean
-// kernel is compiled, under a name of its own. Compiler and test runner stay loaded: starting them takes as long as
-// their work. All of a pass but that is clang's, in WebAssembly, on one core.
+// kernel is compiled, under a name of its own, by the machine's own clang if there is one. What is loaded stays: linker
+// and test runner take as long to start as to work.
 //
 //   npm run dev                    watches kernel/; the tests named as the header is, else properties and set
 //   npm run dev -- wrap events     these tests, whatever was edited
@@ -10,7 +10,7 @@ import { basename, join, parse } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { createVitest } from 'vitest/node';
 import { writeAbi } from './abi.mjs';
-import { compile, lean, only } from './compile.mjs';
+import { compile, compileSoon, lean, only } from './compile.mjs';
 import { moduleOf } from './inline.mjs';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
@@ -23,7 +23,6 @@ const seconds = (since) => `${((performance.now() - since) / 1000).toFixed(1)} s
 let decoder;
 
 process.env.KERNEL = name; // for vitest.config.ts
-process.env.RUNS ??= '20';
 const vitest = await createVitest('test', { root, project: ['unit'], watch: false });
 await vitest.standalone();
 
@@ -40,7 +39,7 @@ const nearest = (header) => testsOf(parse(header).name.replaceAll('_', '-'));
 async function check(header) {
   const started = performance.now();
   decoder ??= Buffer.from(await compile('kernel/decoder.cpp')).toString('hex');
-  const bytes = await compile('kernel/abi.cpp', [only(lean)]);
+  const bytes = await compileSoon('kernel/abi.cpp', [only(lean)]);
   writeAbi();
   writeFileSync(generated, moduleOf(bytes, decoder, lean, [2, 3]));
   const compiled = seconds(started);

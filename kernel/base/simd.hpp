@@ -1,8 +1,8 @@
 // Four lanes at a time: the few vector operations the kernel needs, the same for WebAssembly simd128 and
 // native SSE4.1, so that sanitizers and fuzzers watch the very code that ships.
 #pragma once
-#include <cstddef>
-#include <cstdint>
+#include <stddef.h>
+#include <stdint.h>
 
 #if defined(__wasm_simd128__)
 #include <wasm_simd128.h>

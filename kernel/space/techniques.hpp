@@ -1,7 +1,7 @@
 // The techniques of one space, by name. A new one is a header in techniques/, and four lines here. A build may leave
 // some out: TECHNIQUES has a bit for each that it includes, in the order of the enumeration.
 #pragma once
-#include <type_traits>
+
 
 #include "coherence/incremental.hpp"
 #include "techniques/aabb_tree.hpp"
@@ -55,13 +55,17 @@ struct LeftOut {
   template <class... Any> constexpr LeftOut(Any&...) {}
 };
 
-template <Technique name, class Kind, int D> struct OrLeftOut {
+template <class Kind, int D, bool built> struct OrLeftOut {
   static_assert(FindsPairs<Kind, D>, "a technique has update, structure and release");
-  using type = std::conditional_t<is_built(name), Kind, LeftOut>;
+  using type = Kind;
+};
+template <class Kind, int D> struct OrLeftOut<Kind, D, false> {
+  static_assert(FindsPairs<Kind, D>, "a technique has update, structure and release");
+  using type = LeftOut;
 };
 
 template <int D> class Techniques {
-  template <Technique name, class Kind> using IfBuilt = typename OrLeftOut<name, Kind, D>::type;
+  template <Technique name, class Kind> using IfBuilt = typename OrLeftOut<Kind, D, is_built(name)>::type;
 
   IfBuilt<Technique::brute_force, BruteForce<D>> brute_force_;
   IfBuilt<Technique::spatial_grid, SpatialGrid<D>> spatial_grid_;
