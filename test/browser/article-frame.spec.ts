@@ -49,7 +49,7 @@ const words = async (within: Locator) => (await picture(within).getAttribute('ar
 test('the front page leads to the article and its demos, and the article back', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'reduce' });
   await page.goto('/');
-  await page.getByRole('link', { name: /Read the article/ }).click();
+  await page.getByRole('link', { name: /How it works: the article/ }).click();
   await expect(page).toHaveURL(/\/article\/$/);
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('How a game knows what touches what');
   await page.getByRole('navigation', { name: 'Site' }).getByRole('link', { name: 'broadphase' }).click();

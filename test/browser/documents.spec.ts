@@ -143,7 +143,7 @@ test('the reference leads with BroadPhase: a line for each member, in the groups
   expect(headings.slice(0, groups.length)).toEqual(groups);
   expect(groups.length).toBeGreaterThan(4);
   const line = page.getByRole('row').filter({ has: page.getByRole('link', { name: 'rayCast()', exact: true }) });
-  await expect(line).toContainText('The first box that a ray meets');
+  await expect(line).toContainText('The first box that a ray hits');
   await line.getByRole('link').click();
   await expect(page).toHaveURL(/broadphase\.BroadPhase\.html#raycast$/);
   await page.goto('api/');
@@ -167,7 +167,7 @@ test('the reference finds a method by its name', async ({ page }) => {
   await page.keyboard.type('rayCastAll');
   await page.getByRole('option').first().click();
   await expect(page).toHaveURL(/broadphase\.BroadPhase\.html#raycastall/);
-  await expect(page.getByText('All boxes that a ray meets').first()).toBeVisible();
+  await expect(page.getByText('All boxes that a ray hits').first()).toBeVisible();
 });
 
 test('Enter leads to the first that the search finds, also at once after typing', async ({ page }) => {
