@@ -114,7 +114,8 @@ template <int D> struct Trial {
   /// Asks; returns whether there was memory for it.
   template <class Ask> bool asked(Ask ask) {
     // A large space that was never asked may not know what the last update saw.
-    if (unsure || (!was_asked && ids.count() > 4000)) update();
+    if (!was_asked && ids.count() > 4000) update();
+    while (unsure) update();  // an update may be starved, but only once
     was_asked = true;
     bool done = made(ask);
     if (!done) {
