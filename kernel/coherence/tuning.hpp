@@ -8,7 +8,7 @@ template <int D> struct Tuning {
   f64 entry = D == 2 ? 16 : 20;      // tests: to put a box into a strip and order it there
   f64 look = 1;                      // tests: to see whether a box is in its region
   f64 candidate = D == 2 ? 2 : 3;    // tests: to test one
-  f64 late = 350;                    // tests: to give a box that has left its region a new one
+  f64 late = 500;                    // tests: to give a box that has left its region a new one
   f64 late_margin = 0.5;             // of a box's size: the margin of that
   f64 burst = 0.5;                   // of a rebuild: in one update boxes may be late for as much
   f64 build = 2;                       // of a rebuild: a list that would cost more is not made
