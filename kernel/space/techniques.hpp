@@ -2,7 +2,6 @@
 // some out: TECHNIQUES has a bit for each that it includes, in the order of the enumeration.
 #pragma once
 
-
 #include "coherence/incremental.hpp"
 #include "techniques/aabb_tree.hpp"
 #include "techniques/brute_force.hpp"
