@@ -2,6 +2,7 @@
 // Numbers that do not fit in a return value are passed through `io`, an array of doubles.
 #include "space/space.hpp"
 
+// As <new> has it, which a compiler without a standard library lacks.
 inline void* operator new(size_t, void* at) noexcept { return at; }
 
 // Next to one another, as the techniques are: see there.

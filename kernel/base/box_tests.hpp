@@ -15,6 +15,18 @@ template <int D> bool boxes_touch(const f32* one, const f32* other) {
   }
 }
 
+/// A box is held as its first four numbers and its last four, which in 2D are the same. Writes it.
+template <int D> void store_box(f32* to, f32x4 first, f32x4 last) {
+  store(to, first);
+  if constexpr (D == 3) store(to + 2, last);
+}
+
+/// The maxima of a box in the lanes of its minima.
+template <int D> f32x4 maxima(f32x4 first, f32x4 last) {
+  if constexpr (D == 2) return __builtin_shufflevector(first, first, 2, 3, 2, 3);
+  else return __builtin_shufflevector(last, last, 1, 2, 3, 3);
+}
+
 /// In which numbers two boxes are the same; in all lanes: they are.
 template <int D> i32x4 alike(const f32* one, const f32* other) {
   i32x4 same = load<f32x4>(one) == load<f32x4>(other);

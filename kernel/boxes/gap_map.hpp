@@ -8,6 +8,7 @@
 // Cost: 0.3 ns per box without pieces, then a comparison for each piece; 64 samples per axis when it is chosen.
 // From: coordinate compression; monotone rounding as in interval arithmetic.
 #pragma once
+#include "base/box_tests.hpp"
 #include "boxes/scene_sample.hpp"
 
 template <int D> class GapMap {
@@ -41,29 +42,36 @@ template <int D> class GapMap {
     join(pairs, first, last);
   }
 
-  /// A box as float32, to the nearest, of the numbers that are searched.
-  void round(const f64* box, f32x4& first, f32x4& last) const {
-    f32x4 pairs[D];
+  /// Which numbers of a box float32 does not hold.
+  static i32x4 rounded(const f64* box) {
+    i32x4 which = {};
+    for (u32 k = 0; k < D; k++) {
+      f64x2 numbers = load<f64x2>(box + 2 * k);
+      which |= bits<i32x4>(widen(narrow(numbers)) != numbers);
+    }
+    return which;
+  }
+
+  /// Writes a box as float32, to the nearest, in the numbers that are searched; gives whether it collapses.
+  NOINLINE bool round(const f64* box, f32* to) const {
+    f32x4 pairs[D], first, last;
     for (u32 k = 0; k < D; k++) {
       f64x2 numbers = load<f64x2>(box + 2 * k);
       pairs[k] = narrow(plain_ ? numbers : shifted(numbers, 2 * k));
     }
     join(pairs, first, last);
-    if (!any(are_infinite(first) | are_infinite(last))) return;
-    f32 to[width];
-    bound(box, to);
-    first = load<f32x4>(to);
-    last = load<f32x4>(to + width - 4);
+    if (any(are_infinite(first) | are_infinite(last))) bound(box, to);
+    else store_box<D>(to, first, last);
+    return collapses(box, to);
   }
 
-  /// Rounds a box; gives whether it collapses. `plain`: of this map, in a register of the caller.
+  /// The same, for many boxes. `plain`: of this map, in a register of the caller.
   bool round(bool plain, const f64* box, f32* to) const {
     f32x4 first, last;
     narrowed(box, first, last);
     // What has a size in float32, and an end, needs no second look.
-    if (!plain || !is_sized(first, last)) return round_slowly(box, to);
-    store(to, first);
-    if constexpr (D == 3) store(to + width - 4, last);
+    if (!plain || !is_sized(first, last)) return round(box, to);
+    store_box<D>(to, first, last);
     return false;
   }
 
@@ -80,18 +88,16 @@ template <int D> class GapMap {
     bool mapped = !plain, inexact = false;
     u32 collapsed = 0;
     for (u32 s = 0; s < count; s++, from += width, to += width) {
-      f32x4 pairs[D], first, last;
-      for (u32 k = 0; k < D; k++) pairs[k] = narrow(load<f64x2>(from + 2 * k));
-      join(pairs, first, last);
-      inexact = inexact || !are_floats(from, pairs);
+      f32x4 first, last;
+      narrowed(from, first, last);
+      inexact = inexact || any(rounded(from));
       // What has a size in float32, and an end, is a box, and needs no second look.
       if (plain && is_sized(first, last)) {
-        store(to, first);
-        if constexpr (D == 3) store(to + width - 4, last);
+        store_box<D>(to, first, last);
         continue;
       }
       if (!is_box(from)) return {i32(s), inexact, collapsed};
-      collapsed += round_slowly(from, to);
+      collapsed += round(from, to);
       mapped = true;
     }
     if (inexact) return {-1, true, collapsed};
@@ -100,10 +106,9 @@ template <int D> class GapMap {
   }
 
   /// Whether rounding has made a point of a box along an axis.
-  static bool collapses(const f64* box, f32x4 first, f32x4 last) {
-    u32 axes = bitmask(i32x4(first == upper(first, last))) & ((1 << D) - 1);
+  static bool collapses(const f64* box, const f32* rounded) {
     bool is = false;
-    for (u32 a = 0; axes != 0 && a < D; a++) is |= (axes >> a & 1) && box[a] < box[D + a];
+    for (u32 a = 0; a < D; a++) is |= rounded[a] == rounded[D + a] && box[a] < box[D + a];
     return is;
   }
 
@@ -160,32 +165,11 @@ template <int D> class GapMap {
     last = __builtin_shufflevector(pairs[D - 2], pairs[D - 1], 0, 1, 4, 5);
   }
 
-  /// The maxima of a box in the lanes of its minima.
-  static f32x4 upper(f32x4 first, f32x4 last) {
-    if constexpr (D == 2) return __builtin_shufflevector(first, first, 2, 3, 2, 3);
-    else return __builtin_shufflevector(last, last, 1, 2, 3, 3);
-  }
-
-  NOINLINE bool round_slowly(const f64* box, f32* to) const {
-    f32x4 first, last;
-    round(box, first, last);
-    store(to, first);
-    if constexpr (D == 3) store(to + width - 4, last);
-    return collapses(box, first, last);
-  }
-
   /// Whether the box has a size along each axis that is neither 0 nor endless.
   static bool is_sized(f32x4 first, f32x4 last) {
     constexpr u32 axes = (1 << D) - 1;
-    f32x4 size = upper(first, last) - first;
+    f32x4 size = maxima<D>(first, last) - first;
     return (bitmask((size > splat(0.0f)) & (size <= splat(largest))) & axes) == axes;
-  }
-
-  /// Whether these pairs are still the numbers that they were rounded from.
-  static bool are_floats(const f64* numbers, const f32x4 (&pairs)[D]) {
-    i32x4 rounded = {};
-    for (u32 k = 0; k < D; k++) rounded |= bits<i32x4>(widen(pairs[k]) != load<f64x2>(numbers + 2 * k));
-    return !any(rounded);
   }
 
   static bool is_box(const f64* box) {

@@ -23,6 +23,9 @@ template <int D> class Places {
     bool used;
   };
 
+  struct Spot {
+    u32 grid, cell;
+  };
   /// A base, and whose it is: nobody's, once that box has left it.
   struct Entry {
     f32 region[width];
@@ -47,9 +50,9 @@ template <int D> class Places {
     u32* entry_of = entry_of_.reserve(count);
     next_.reserve(count);
     for (u32 slot = 0; slot < count; slot++) {
-      Grid& grid = grids_[grid_of(regions + u64(slot) * width)];
-      grid.used = true;
-      starts[entry_of[slot] = cell_of(grid, range_of(grid, regions + u64(slot) * width).low)]++;
+      Spot spot = spot_of(regions + u64(slot) * width);
+      grids_[spot.grid].used = true;
+      starts[entry_of[slot] = spot.cell]++;
     }
     u32 end = 0;
     for (u32 cell = 0; cell < cells; cell++) starts[cell] = end += starts[cell];
@@ -77,11 +80,10 @@ template <int D> class Places {
 
   /// A box that was removed gets this region.
   void put(const f32* region, u32 slot) {
-    Grid& grid = grids_[grid_of(region)];
-    grid.used = true;
-    u32 cell = cell_of(grid, range_of(grid, region).low);
-    next_[slot] = heads_[cell];
-    heads_[cell] = slot + 1;
+    Spot spot = spot_of(region);
+    grids_[spot.grid].used = true;
+    next_[slot] = heads_[spot.cell];
+    heads_[spot.cell] = slot + 1;
   }
 
   /// A box leaves this region.
@@ -91,8 +93,7 @@ template <int D> class Places {
       whose = nobody;
       return;
     }
-    const Grid& grid = grids_[grid_of(region)];
-    u32* link = &heads_[cell_of(grid, range_of(grid, region).low)];
+    u32* link = &heads_[spot_of(region).cell];
     while (*link != slot + 1) link = &next_[*link - 1];
     *link = next_[slot];
   }
@@ -155,11 +156,12 @@ template <int D> class Places {
     return all;
   }
 
-  /// The grid in which a region stands.
-  u32 grid_of(const f32* region) const {
+  /// Where a region stands.
+  Spot spot_of(const f32* region) const {
     for (u32 g = 0;; g++) {
       Range range = range_of(grids_[g], region);
-      if (!any(bits<i32x4>((range.high - range.low) > splat(1u)))) return g;  // the last grid has one cell
+      if (any(bits<i32x4>((range.high - range.low) > splat(1u)))) continue;  // the last grid has one cell
+      return {g, cell_of(grids_[g], range.low)};
     }
   }
 

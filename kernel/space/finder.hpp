@@ -33,7 +33,7 @@ template <int D> class Finder {
   SMALL void structure(const Store<D>& store, Stats& stats) {
     techniques_.with(ran_, [&](auto& used) { used.structure(cells, cell_count, stats); });
     const f32* boxes = store.numbers.boxes();
-    const GapMap<D>& map = store.numbers.choice().map();
+    const GapMap<D>& map = store.numbers.map();
     f32 least[D], most[D];
     for (int a = 0; a < D; a++) {
       least[a] = __builtin_inff();

@@ -25,13 +25,6 @@ template <int D> class MapChoice {
     bearable_ = usual_collapsed;
   }
 
-  NOINLINE void round(const f64* box, f32* to) const {
-    f32x4 first, last;
-    map_.round(box, first, last);
-    store(to, first);
-    if constexpr (D == 3) store(to + width - 4, last);
-  }
-
   /// So many boxes have become points; more, or in all.
   void count_more(u32 collapsed) { collapsed_ += collapsed; }
   void count(u32 collapsed) { collapsed_ = collapsed; }
@@ -54,8 +47,7 @@ template <int D> class MapChoice {
     if (collapsed > bearable_) {
       u32 step = collapsed / usual_collapsed + 1, seen = 0;
       for (u32 s = 0; s < n && many < usual_collapsed; s++) {
-        const f32* box = boxes + u64(s) * width;
-        if (!map_.collapses(exact + u64(s) * width, load<f32x4>(box), load<f32x4>(box + width - 4))) continue;
+        if (!map_.collapses(exact + u64(s) * width, boxes + u64(s) * width)) continue;
         if (seen++ % step == 0) some[many++] = s;
       }
     }

@@ -23,7 +23,7 @@ template <int D> class Numbers {
   const f32* boxes() const { return boxes_.data(); }
   /// Null where float32 holds all boxes.
   const f64* exact() const { return rounding_ ? exact_.data() : nullptr; }
-  const MapChoice<D>& choice() const { return choice_; }
+  const GapMap<D>& map() const { return choice_.map(); }
 
   // Room.
   u64 capacity() const { return boxes_.capacity() / width; }
@@ -144,7 +144,7 @@ template <int D> class Numbers {
       f64 box[width];
       as_written(s, box);
       __builtin_memcpy(exact_.data() + u64(s) * width, box, sizeof(box));
-      choice_.round(box, boxes_.data() + u64(s) * width);
+      map().round(box, boxes_.data() + u64(s) * width);
       written.show(boxes_.data(), s);
     }
   }
@@ -153,7 +153,7 @@ template <int D> class Numbers {
   SMALL i32 first_unrounded(u32 n) const {
     for (u32 s = 0; rounding_ && !written.in_place() && s < n; s++) {
       f32 image[width];
-      choice_.round(exact_.data() + u64(s) * width, image);
+      map().round(exact_.data() + u64(s) * width, image);
       if (differ<width * sizeof(f32)>(image, boxes_.data() + u64(s) * width)) return i32(s);
     }
     return -1;
@@ -165,12 +165,7 @@ template <int D> class Numbers {
   /// Whether float32 holds all numbers of these boxes, so many numbers apart.
   NOINLINE static bool are_floats(const f64* box, u32 count, u32 step) {
     i32x4 rounded = {};
-    for (; count > 0; count--, box += step) {
-      for (u32 a = 0; a < D; a++) {
-        f64x2 numbers = load<f64x2>(box + 2 * a);
-        rounded |= bits<i32x4>(widen(narrow(numbers)) != numbers);
-      }
-    }
+    for (; count > 0; count--, box += step) rounded |= GapMap<D>::rounded(box);
     return !any(rounded);
   }
 
@@ -179,7 +174,7 @@ template <int D> class Numbers {
     f32* boxes = boxes_.data();
     f64* exact = exact_.data();
     Changes& changes = written.changes;
-    const GapMap<D>& map = choice_.map();
+    const GapMap<D>& map = this->map();
     const bool notes = !changes.all(), plain = map.plain();
     u32 shown = written.shown(), collapsed = 0;
     Changes::Notes changed = changes.begin();
@@ -197,8 +192,7 @@ template <int D> class Numbers {
         i32x4 other = bits<i32x4>(first) ^ load<i32x4>(to);
         if constexpr (D == 3) other |= bits<i32x4>(last) ^ load<i32x4>(to + width - 4);
         if (notes && any(other)) changed.note(slot);
-        store(to, first);
-        if constexpr (D == 3) store(to + width - 4, last);
+        store_box<D>(to, first, last);
       }
       if (slot < shown) written.show(boxes, slot);
     }
@@ -208,7 +202,7 @@ template <int D> class Numbers {
 
   SMALL void round_all(u32 n) {
     for (u32 s = 0; s < n; s++) {
-      choice_.round(exact_.data() + u64(s) * width, boxes_.data() + u64(s) * width);
+      map().round(exact_.data() + u64(s) * width, boxes_.data() + u64(s) * width);
       written.show(boxes_.data(), s);
     }
     written.changes.note_all();
@@ -219,7 +213,7 @@ template <int D> class Numbers {
     const f64* given = exact_.data() + u64(slot) * width;
     const f32* now = boxes_.data() + u64(slot) * width;
     f32 shown[width];
-    choice_.round(given, shown);
+    map().round(given, shown);
     for (u32 k = 0; k < width; k++) to[k] = shown[k] == now[k] ? given[k] : f64(now[k]);
     for (u32 a = 0; a < D; a++) {
       // One side as it was given, the other as it was written: rounding may have put them in this order.
@@ -233,14 +227,8 @@ template <int D> class Numbers {
   NOINLINE static i32 first_bad(const f32* boxes, u32 count) {
     constexpr u32 all = D == 2 ? 3 : 7;
     for (u32 s = 0; s < count; s++) {
-      f32x4 low = load<f32x4>(boxes + u64(s) * width);
-      f32x4 high;
-      if constexpr (D == 2) {
-        high = __builtin_shufflevector(low, low, 2, 3, 2, 3);
-      } else {
-        f32x4 tail = load<f32x4>(boxes + u64(s) * width + 2);
-        high = __builtin_shufflevector(tail, tail, 1, 2, 3, 3);
-      }
+      const f32* box = boxes + u64(s) * width;
+      f32x4 low = load<f32x4>(box), high = maxima<D>(low, load<f32x4>(box + width - 4));
       if ((bitmask(low <= high) & all) != all) return i32(s);
     }
     return -1;
@@ -249,7 +237,7 @@ template <int D> class Numbers {
   /// Rounds the staged doubles into the staged float32; says whether float32 cannot hold all of them. Returns the first
   /// bad box, or -1.
   i32 round_staged(u32 count, bool& rounded) {
-    auto all = choice_.map().round_all(staged_exact_.data(), count, staged_.data());
+    auto all = map().round_all(staged_exact_.data(), count, staged_.data());
     if (all.bad >= 0) return all.bad;
     rounded = all.inexact;
     choice_.count(all.collapsed);

@@ -59,7 +59,7 @@ template <int D> class SceneBuilder {
             reach = store.own.reaches.of(s);
         box[k] = k < D ? given - reach : given + reach;
       }
-      store.numbers.choice().round(box, to + u64(s) * width);
+      store.numbers.map().round(box, to + u64(s) * width);
     }
     doubles = exact;
     return to;

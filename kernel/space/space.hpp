@@ -203,7 +203,7 @@ template <int D> class Space {
     stats = Stats{};
     Settings mapped = options_;
     for (u32 n = 0; options_.bounds[0] < options_.bounds[D] && n < 2 * D; n++)
-      mapped.bounds[n] = store.numbers.choice().map().map(options_.bounds[n], n % D);
+      mapped.bounds[n] = store.numbers.map().map(options_.bounds[n], n % D);
     finder.run(chosen, scene, mapped, pairs, stats);
   }
 

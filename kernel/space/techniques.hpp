@@ -54,17 +54,15 @@ struct LeftOut {
   template <class... Any> constexpr LeftOut(Any&...) {}
 };
 
-template <class Kind, int D, bool built> struct OrLeftOut {
-  static_assert(FindsPairs<Kind, D>, "a technique has update, structure and release");
+template <class Kind, bool built> struct OrLeftOut {
   using type = Kind;
 };
-template <class Kind, int D> struct OrLeftOut<Kind, D, false> {
-  static_assert(FindsPairs<Kind, D>, "a technique has update, structure and release");
+template <class Kind> struct OrLeftOut<Kind, false> {
   using type = LeftOut;
 };
 
 template <int D> class Techniques {
-  template <Technique name, class Kind> using IfBuilt = typename OrLeftOut<Kind, D, is_built(name)>::type;
+  template <Technique name, FindsPairs<D> Kind> using IfBuilt = typename OrLeftOut<Kind, is_built(name)>::type;
 
   IfBuilt<Technique::brute_force, BruteForce<D>> brute_force_;
   IfBuilt<Technique::spatial_grid, SpatialGrid<D>> spatial_grid_;
