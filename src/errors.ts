@@ -34,7 +34,7 @@ export function show(value: unknown): string {
 /** Whether it is an integer in range. */
 export const isId = (id: unknown): id is number => typeof id === 'number' && id >>> 0 === id && id <= maxId;
 
-export function checkId(where: string, id: unknown): void {
+export function checkId(where: string, id: unknown): asserts id is number {
   if (!isId(id)) badId(where, id);
 }
 
@@ -87,7 +87,7 @@ function badCount(
 /** A box by centre and half size that is not one: says which of its numbers is wrong. */
 export function badCentred(where: string, given: ArrayLike<unknown>, dimensions: 2 | 3): never {
   const id = given[0];
-  if (!isId(id)) badId(where, id);
+  checkId(where, id);
   const names = centred[dimensions];
   if (given.length !== 1 + names.length) badCount(where, id, given.length, dimensions, names);
   for (const [k, name] of names.entries()) {
@@ -136,7 +136,7 @@ export function checkNumberArray(where: string, numbers: unknown): void {
 
 /** An id and a box that are ones. */
 export function checkBox(where: string, id: number, box: readonly number[], dimensions: 2 | 3): void {
-  if (!isId(id)) badId(where, id);
+  checkId(where, id);
   if (box.length !== 2 * dimensions) badCount(where, id, 1 + box.length, dimensions);
   let good = box.every((value) => typeof value === 'number');
   for (let k = 0; k < dimensions; k++) good &&= box[k]! <= box[k + dimensions]!;
@@ -256,7 +256,7 @@ export function badSet(
   f: unknown,
   dimensions: 2 | 3,
 ): never {
-  if (!isId(id)) badId('set', id);
+  checkId('set', id);
   if (given !== 1 + 2 * dimensions) badCount('set', id, given, dimensions);
   badBox('set', id, [a, b, c, d, e, f], dimensions);
 }

@@ -1,5 +1,5 @@
 // The pairs of two spaces, such as a level at rest and what moves in it.
-// Idea: the pairs are kept. What an update has changed (kernel/changed_ids.hpp) loses its pairs and gets them anew. Of the
+// Idea: the pairs are kept. What an update has changed (kernel/boxes/changed_ids.hpp) loses its pairs and gets them anew. Of the
 // space with fewer boxes each box that moves has a list of what is near in the other: what overlaps its box when that was
 // grown. While it stays within the grown box, its pairs are among these. A box of the other space that changes is loose:
 // it counts in no list, and asks for itself in each call. Where many are loose all lists are made anew.

@@ -1,6 +1,6 @@
 // The queries about places: who collides with whom, and what is in a box, at a point, or in a circle.
 import { area, copyIds, isNumber, number, point } from './answers.ts';
-import { badId, badQuestion, badValue, checkOut, corners, isId } from './errors.ts';
+import { badQuestion, badValue, checkId, checkOut, corners } from './errors.ts';
 import { radiusAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { type BoxOptions, boxOptions, checkDistance, type IdsOptions } from './query-options.ts';
@@ -10,8 +10,8 @@ const noCircle = -1;
 const whole = -2;
 
 export function isColliding(instance: KernelInstance, a: number, b: number): boolean {
-  if (!isId(a)) badId('isColliding', a);
-  if (!isId(b)) badId('isColliding', b);
+  checkId('isColliding', a);
+  checkId('isColliding', b);
   try {
     return instance.kernel.is_pair(a, b) === 1;
   } catch (error) {
@@ -20,7 +20,7 @@ export function isColliding(instance: KernelInstance, a: number, b: number): boo
 }
 
 export function collisionsOf(instance: KernelInstance, id: number, out: number[]): number[] {
-  if (!isId(id)) badId('collisionsOf', id);
+  checkId('collisionsOf', id);
   checkOut('collisionsOf', out);
   try {
     return copyIds(instance, instance.kernel.partners(id), out);

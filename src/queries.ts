@@ -128,12 +128,10 @@ export function sweep(
   io[4] = e;
   io[5] = f;
   io[limitAt] = 1;
-  for (
-    let k = instance.width;
-    instance.farthest < Number.POSITIVE_INFINITY && k < instance.width + instance.dimensions;
-    k++
-  ) {
-    if (Math.abs(io[k]!) > instance.farthest) tooFar('sweep: the way', io[k]!, instance.farthest);
+  if (instance.wrap !== undefined) {
+    for (let k = instance.width; k < instance.width + instance.dimensions; k++) {
+      if (Math.abs(io[k]!) > instance.farthest) tooFar('sweep: the way', io[k]!, instance.farthest);
+    }
   }
   checkOptions('sweep', options, sweepOptions);
   if (options?.visit !== undefined) {
