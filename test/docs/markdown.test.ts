@@ -67,6 +67,12 @@ describe('prose', () => {
   });
 });
 
+test('each `vitest run` that a document names runs something', () => {
+  const asked = documents.flatMap(([, text]) => matches(text, /vitest run --project unit ([\w/-]+)/g));
+  expect(asked.length).toBeGreaterThan(4);
+  expect(asked.filter((name) => !files.some((file) => file.endsWith('.test.ts') && file.includes(name)))).toEqual([]);
+});
+
 describe('ARCHITECTURE.md', () => {
   const architecture = read('ARCHITECTURE.md');
   const [map] = matches(architecture, /## The map\n\n```\n([\s\S]*?)```/g);

@@ -1,5 +1,5 @@
-// How many random cases a test tries, and from which seed. Where CI is set all of them, else a quarter, so that checking
-// a change takes less than a minute; the seed is another each time and stands in what is printed.
+// How many random cases a test tries, and from which seed. Where CI is set all of them, else a quarter, for a
+// quicker `npm run check`; the seed is another each time and stands in what is printed.
 // RUNS=… says how many, SEED=… which.
 
 export const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 31));

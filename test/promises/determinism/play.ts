@@ -1,5 +1,5 @@
 // Makes the calls of a tape (tape.ts) on a space, and hashes all that it answers, in its order, bit by bit.
-// kernel/test/play.cpp does the same without JavaScript.
+// kernel/test/play/main.cpp does the same without JavaScript.
 import { BroadPhase, type ManyIds } from 'broadphase';
 import { calls, manyNumbers } from './tape.ts';
 

@@ -1,4 +1,4 @@
-// Calls written down as numbers, to be made again anywhere: by play.ts in Node and in browsers, by kernel/test/play.cpp
+// Calls written down as numbers, to be made again anywhere: by play.ts in Node and in browsers, by kernel/test/play/main.cpp
 // on the bare machine. Every number is a double; the first two are the dimensions, and 1 where events are
 // kept plus 2 where boxes that only touch are no pairs.
 import { createRandom } from '../../../src/scenes/random.ts';
