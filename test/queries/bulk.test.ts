@@ -3,7 +3,7 @@ import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
 import type { Entry } from '../support/model.ts';
-import { type Asked, ahead, inBox, inCircle, near, type Ranked } from '../support/query-reference.ts';
+import { type Asked, ahead, inBox, inCircle, near, nearBox, type Ranked } from '../support/query-reference.ts';
 
 type Many = {
   ids: Uint32Array;
@@ -26,14 +26,6 @@ function hitsOf(answer: Many, k: number, dimensions: number): Ranked[] {
     const normal = answer.normals?.subarray(at * dimensions, (at + 1) * dimensions) ?? [];
     return { id, rank: ranks[at]!, normal: [...normal] };
   });
-}
-
-/** How far two boxes are apart. */
-function apart(a: readonly number[], b: readonly number[]): number {
-  const d = a.length / 2;
-  let sum = 0;
-  for (let k = 0; k < d; k++) sum += Math.max(0, b[k]! - a[k + d]!, a[k]! - b[k + d]!) ** 2;
-  return Math.sqrt(sum);
 }
 
 class Scene {
@@ -151,18 +143,9 @@ describe.each(cases)('in %iD, of float32 (%s)', (dimensions, single) => {
       const join = call.nearestsOfAll!(most, { mask, maxDistance });
       expect(ascending(join.of!)).toEqual(ascending(entries.keys()));
       for (const [n, id] of join.of!.entries()) {
-        const others = [...entries].filter(
-          ([other, { layer }]) => other !== id && (mask === undefined || layer & mask),
-        );
-        const ranked = others.map(([other, { box }]) => ({
-          id: other,
-          rank: apart(entries.get(id)!.box, box),
-          normal: [],
-        }));
-        const expected = ranked
-          .filter(({ rank }) => rank <= maxDistance)
-          .sort((a, b) => a.rank - b.rank || a.id - b.id);
-        expect(hitsOf(join, n, dimensions)).toEqual(expected.slice(0, most));
+        const asked = { ...(mask !== undefined && { mask }), maxDistance, ignore: id };
+        const expected = nearBox(entries, entries.get(id)!.box, most, asked);
+        expect(hitsOf(join, n, dimensions)).toEqual(expected);
       }
     }
   });

@@ -60,33 +60,48 @@ export function inPlanes(
     .sort((a, b) => a.id - b.id);
 }
 
-function squared(point: readonly number[], { box }: Entry): number {
-  return point.reduce((sum, x, axis) => {
-    const away = Math.max(box[axis] - x, x - box[axis + point.length], 0);
-    return sum + away * away;
-  }, 0);
+/** How far a box and an entry are apart along each axis; ends without a number may meet. */
+function gaps(box: readonly number[], entry: Entry): number[] {
+  const d = box.length / 2;
+  return Array.from({ length: d }, (_, k) => {
+    if (entry.box[k] > box[k + d]) return entry.box[k] - box[k + d];
+    return box[k] > entry.box[k + d] ? box[k] - entry.box[k + d] : 0;
+  });
 }
+
+const squared = (away: readonly number[]) => away.reduce((sum, x) => sum + x * x, 0);
 
 export function inCircle(entries: Entries, centre: readonly number[], radius: number, asked: Asked): number[] {
   const near = [...wanted(entries, asked)].filter(([, entry]) =>
-    radius * radius < 1e300 ? squared(centre, entry) <= radius * radius : distance(centre, entry) <= radius,
+    radius * radius < 1e300
+      ? squared(gaps([...centre, ...centre], entry)) <= radius * radius
+      : distance(centre, entry) <= radius,
   );
   return ascending(near.map(([id]) => id));
 }
 
-/** The distance, which has no larger square than a double holds only where it is not very large. */
+/** The distance from a point; see `apart`. */
 export function distance(point: readonly number[], entry: Entry): number {
-  const square = squared(point, entry);
+  return apart([...point, ...point], entry);
+}
+
+/** The distance from a box, whose square a double holds only where it is not very large. */
+export function apart(box: readonly number[], entry: Entry): number {
+  const away = gaps(box, entry);
+  const square = squared(away);
   if (square < 1e300) return Math.sqrt(square);
-  const { box } = entry;
-  const away = point.map((x, axis) => Math.max(box[axis] - x, x - box[axis + point.length], 0));
   const most = Math.max(...away);
   return most === Infinity ? most : most * Math.sqrt(away.reduce((sum, x) => sum + (x / most) ** 2, 0));
 }
 
 export function near(entries: Entries, point: readonly number[], k: number, asked: Asked): Ranked[] {
+  return nearBox(entries, [...point, ...point], k, asked);
+}
+
+/** What is nearest to a box: `near`, where the box is a point. */
+export function nearBox(entries: Entries, box: readonly number[], k: number, asked: Asked): Ranked[] {
   const { maxDistance = Infinity } = asked;
-  const all = [...wanted(entries, asked)].map(([id, entry]) => ({ id, rank: distance(point, entry), normal: [] }));
+  const all = [...wanted(entries, asked)].map(([id, entry]) => ({ id, rank: apart(box, entry), normal: [] }));
   return inOrder(all.filter(({ rank }) => rank <= maxDistance)).slice(0, k);
 }
 

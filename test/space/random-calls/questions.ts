@@ -2,7 +2,7 @@
 import type { ManyIds, ManyNearest, ManySweepHits } from 'broadphase';
 import fc from 'fast-check';
 import { expect } from 'vitest';
-import { ahead, inBox, inCircle, near } from '../../support/query-reference.ts';
+import { ahead, inBox, inCircle, near, nearBox } from '../../support/query-reference.ts';
 import { ascending, call, on, type RandomCall } from './model.ts';
 import { anId, asked, roundOf, shapes, show } from './values.ts';
 
@@ -117,10 +117,10 @@ export function manyQuestions(dimensions: 2 | 3): RandomCall[] {
           expect(ascending(others.of)).toEqual(ascending(model.seen.keys()));
           for (const [id, { box }] of asking) {
             const n = others.of.indexOf(id);
-            const rest = inBox(model.seen, box, { ...options, ignore: id });
-            const apart = [...others.distances.subarray(others.offsets[n], others.offsets[n + 1])];
-            expect(apart.filter((distance) => distance === 0).length).toBe(Math.min(k, rest.length));
-            expect(apart).toEqual(apart.toSorted((a, b) => a - b));
+            const expected = nearBox(model.seen, box, k, { ...options, ignore: id });
+            expect(of(others, n)).toEqual(expected.map(({ id }) => id));
+            const distances = [...others.distances.subarray(others.offsets[n], others.offsets[n + 1])];
+            expect(distances).toEqual(expected.map(({ rank }) => rank));
           }
         }),
       ),
