@@ -31,6 +31,8 @@ template <int D> class CandidateList {
   bool grouped_ = false;  // some have a group
   // Per slot:
   Buffer<f32> regions_;
+  Buffer<f32> origins_;  // boxes as they were when the list was made, or before it
+  u32 origin_count_ = 0;
   Buffer<u32> tags_;  // exclusion bits, and ours below them
   Buffer<u32> groups_;  // while `grouped_`: two of one group are no candidate
   Buffer<u32> late_;  // slots; and behind them those that a search has met
@@ -78,6 +80,8 @@ template <int D> class CandidateList {
   SMALL void release() {
     forget();
     regions_.release();
+    origins_.release();
+    origin_count_ = 0;
     tags_.release();
     groups_.release();
     late_.release();
@@ -87,14 +91,24 @@ template <int D> class CandidateList {
     settled_.list.release();
   }
 
+  /// Notes where boxes are, for the next list.
+  SMALL void remember(const Scene<D>& scene, const Shift& common) {
+    origin_count_ = scene.count;
+    __builtin_memcpy(origins_.reserve(u64(scene.count) * width + padding), scene.boxes,
+                     u64(scene.count) * width * sizeof(f32));
+    common_ = common;
+  }
+
   /// A list of these boxes, with this margin. `candidates`: so many it will hardly exceed. `some_rest`: not all move.
-  SMALL void build(const Scene<D>& scene, f32 margin, u64 candidates, bool some_rest, const Shift& common) {
+  SMALL void build(const Scene<D>& scene, f32 margin, u64 candidates, bool some_rest, const Shift& common, f32 lead, f32 far) {
     u32 n = scene.count, had = smaller(count_, n);
     make_room(n, had);
+    shift_ = common_.after(common.back());
     if (had == 0 && some_rest) anew_.each_same(scene, [&](u32 slot) { tags_[slot] = rests; });
-    else if (resting_ > 0 || some_rest) find_resting(scene, had);
+    else if (resting_ > 0 || some_rest) find_resting(scene, smaller(had, origin_count_));
     resting_ = 0;
-    enclose(scene, margin);
+    enclose(scene, margin, lead, far);
+    remember(scene, common);
     filtered_ = scene.excluded != nullptr;
     grouped_ = scene.groups != nullptr;
     if (grouped_) __builtin_memcpy(groups_.reserve(n), scene.groups, n * sizeof(u32));
@@ -109,7 +123,6 @@ template <int D> class CandidateList {
     if (resting_ > 0) settle(scene);
     placed_ = false;
     shift_ = {};
-    common_ = common;
     late_count_ = 0;
     met_ = 0;
   }
@@ -177,33 +190,36 @@ template <int D> class CandidateList {
   NOINLINE void find_resting(const Scene<D>& scene, u32 had) {
     bool steady = !shift_.differs({});
     for (u32 slot = 0; slot < had; slot++) {
-      const f32 *box = scene.box(slot), *was = region(slot);
-      f32 aside = margin_ * f32(1 - (tags_[slot] & rests));
-      u32 rested = steady & (bitmask(lower(box, aside) == load<f32x4>(was)) == 15);
-      if constexpr (D == 3) rested &= (bitmask(upper(box, aside) == load<f32x4>(was + D)) & 7) == 7;
+      const f32 *box = scene.box(slot), *was = origins_.data() + u64(slot) * width;
+      u32 rested = steady & (bitmask(load<f32x4>(box) == load<f32x4>(was)) == 15);
+      if constexpr (D == 3) rested &= (bitmask(load<f32x4>(box + D) == load<f32x4>(was + D)) & 7) == 7;
       tags_[slot] = (tags_[slot] & ~rests) | rested;
     }
   }
 
-  /// Gives each box its region.
-  NOINLINE void enclose(const Scene<D>& scene, f32 margin) {
+  /// Gives each box its region, which reaches ahead by so many times what it has moved by since its origin was noted.
+  NOINLINE void enclose(const Scene<D>& scene, f32 margin, f32 lead, f32 far) {
+    u32 known = lead > 0 ? smaller(scene.count, origin_count_) : 0;
     for (u32 slot = 0; slot < scene.count; slot++) {
       u32 rest = tags_[slot] & rests;
       resting_ += rest;
-      widen(scene.box(slot), bits<f32>(bits<u32>(margin) & (rest - 1)), region(slot));
+      const f32* box = scene.box(slot);
+      f32x4 ahead = {};
+      if (slot < known)
+        ahead = bounded((shift_(load<f32x4>(box)) - load<f32x4>(origins_.data() + u64(slot) * width)) * splat(lead), far);
+      widen(box, bits<f32>(bits<u32>(margin) & (rest - 1)), ahead, region(slot));
       tags_[slot] = rest | scene.excluded_of(slot);
     }
   }
 
-  /// The first four numbers of a box with so much on all sides, and in 3D its last three.
-  static f32x4 lower(const f32* box, f32 aside) {
-    return load<f32x4>(box) + f32x4{-aside, -aside, D == 2 ? aside : -aside, aside};
-  }
-  static f32x4 upper(const f32* box, f32 aside) { return load<f32x4>(box + D) + splat(aside); }
-  static void widen(const f32* box, f32 aside, f32* out) {
-    store(out, lower(box, aside));
-    f32x4 high = upper(box, aside);
-    if constexpr (D == 3) __builtin_memcpy(out + D, &high, D * sizeof(f32));
+  /// A box with so much on all sides, that reaches ahead. Writes four numbers past the region.
+  static void widen(const f32* box, f32 aside, f32x4 ahead, f32* out) {
+    f32x4 low = min(ahead, f32x4{}) - splat(aside), high = max(ahead, f32x4{}) + splat(aside);
+    if constexpr (D == 2) store(out, load<f32x4>(box) + __builtin_shufflevector(low, high, 0, 1, 4, 5));
+    else {
+      store(out, load<f32x4>(box) + low);
+      store(out + D, load<f32x4>(box + D) + high);
+    }
   }
 
   /// Of the candidates, those of two boxes at rest are settled, but for those that will be in doubt.
@@ -365,7 +381,7 @@ template <int D> class CandidateList {
     f32 box[width + padding], larger_one[width + padding];
     u32 tag = tags_[slot];
     shifted(scene.box(slot), box);
-    widen(box, aside, larger_one);
+    widen(box, aside, f32x4{}, larger_one);
     u32 found = places_.near(larger_one, regions_.data(), near, met_);
     u64* out = extra_.room(extra_.list.data() + extra_.count, found);
     const f32* its_base = places_.base(slot);

@@ -21,6 +21,7 @@ template <int D> class Incremental {
   PairOrder order_;
   bool ended_ = false;  // a new list is due
   u32 age_ = 0;  // of the list, in updates
+  u32 since_ = 0;  // updates since the origins
   f64 made_ = 0;  // work, for each box: to make the list
   f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // and since then: for the late; of an update; all
   u32 pause_ = 0, pauses_ = tuning.watched;
@@ -79,6 +80,11 @@ template <int D> class Incremental {
       return false;
     }
     watch_.look(scene, size());
+    since_++;
+    if (list_.is_empty() && watch_.is_new()) {
+      list_.remember(scene, watch_.common());
+      since_ = 0;
+    }
     if (prospect_.fresh == 0) return false;
     if (!list_.is_empty() && !ended_ && list_.follow(scene, watch_.common(), made_, size())) {
       list_.report(scene, pairs, stats);
@@ -96,7 +102,7 @@ template <int D> class Incremental {
       if (!list_.is_empty() || watch_.known() >= tuning.watched) give_up();
       return false;
     }
-    if (margin > 0) plan = {margin, watch_.growth(margin, prospect_), 0};
+    if (margin > 0) plan = {margin, watch_.growth(margin, prospect_), 0, 0};
     build(scene, plan);
     list_.report(scene, pairs, stats);
     account(scene);
@@ -124,7 +130,9 @@ template <int D> class Incremental {
     f64 n = scene.count, growth = plan.growth;
     u64 most = u64(tuning.spare * n * prospect_.pairs *
                    prospect_.widening(growth));  // it will hardly have more candidates
-    list_.build(scene, plan.margin, most, watch_.resting() > 0, watch_.common());
+    list_.build(scene, plan.margin, most, watch_.resting() > 0, watch_.common(),
+                since_ ? f32(plan.lead) / since_ : 0, 4 * size());
+    since_ = 0;
     ended_ = false;
     age_ = 0;
     lateness_ = smooth_ = life_ = 0;
@@ -136,7 +144,6 @@ template <int D> class Incremental {
     prospect_.fresh = smaller(prospect_.fresh, tuning.entry * built.entries / n + prospect_.tests);
     f64 settled = list_.found() - list_.tested();
     prospect_.pairs = larger((settled + list_.tested() / growth) / n, tuning.least_pairs);
-    learn_sizes(scene.count, plan.margin * (1 - prospect_.rest));
   }
 
   /// Of boxes on average, whose regions have this margin; or a share of what they are apart.

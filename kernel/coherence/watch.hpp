@@ -59,7 +59,24 @@ template <int D> struct Prospect {
 struct Plan {
   f32 margin = 0;
   f64 growth = 1;  // candidates, in numbers of pairs
+  u32 lead = 0;  // updates for which regions reach ahead
   f64 work = __builtin_inf();  // for each box and update
+};
+
+/// How far regions reach ahead: none where that would be too far to be likely.
+inline f32x4 bounded(f32x4 lead, f32 most) {
+  i32x4 near = (lead <= splat(most)) & (lead >= splat(-most));
+  return bitmask(near) == 15 ? lead : f32x4{};
+}
+
+/// The space that pairs of regions take, as a polynomial in four times their margin.
+template <int D> struct Growth {
+  f64 of[D + 1] = {};
+  f64 operator()(f64 margin) const {
+    f64 sum = 0;
+    for (int k = D; k >= 0; k--) sum = sum * 4 * margin + of[k];
+    return sum;
+  }
 };
 
 template <int D> class Watch {
@@ -71,12 +88,13 @@ template <int D> class Watch {
   static constexpr u32 width = 2 * D, horizons = 7, buckets = 24, voters = 31;
 
   struct Sample {
-    f32x4 at[2], last[2], far;  // the minima and the maxima of the box, and what stands behind them
+    f32x4 at[2], last[2], far, lead, led;  // the minima and the maxima of the box, and what stands behind them
     u32 slot, jumps;
   };
   /// How far the samples got in so many updates, and how often they jumped.
   struct Horizon {
-    f32 reach[most_watched];
+    f32 reach[2][most_watched];
+    f32x4 lead[most_watched];
     u32 jumps[most_watched];
   };
 
@@ -107,7 +125,7 @@ template <int D> class Watch {
   f64 resting() const {
     u32 count = 0;
     for (u32 k = 0; known_ > 0 && !common_ && k < many_; k++)
-      count += horizons_[known_ - 1].reach[k] == 0 && horizons_[known_ - 1].jumps[k] == 0;
+      count += horizons_[known_ - 1].reach[0][k] == 0 && horizons_[known_ - 1].jumps[k] == 0;
     return count ? f64(count) / many_ : 0;
   }
 
@@ -133,9 +151,13 @@ template <int D> class Watch {
     for (u32 h = 0; h < horizons; h++) {
       if (age_ != 1u << h) continue;
       for (u32 k = 0; k < many_; k++) {
-        f32x4 far = samples_[k].far;
-        horizons_[h].reach[k] = larger(larger(far[0], far[1]), larger(far[2], far[3]));
-        horizons_[h].jumps[k] = samples_[k].jumps;
+        Sample& sample = samples_[k];
+        horizons_[h].reach[0][k] = most_of(sample.far);
+        horizons_[h].jumps[k] = sample.jumps;
+        if (h > 0) horizons_[h - 1].reach[1][k] = most_of(sample.led);
+        const f32* box = scene.box(sample.slot);
+        sample.lead = horizons_[h].lead[k] = bounded(on_axes(load<f32x4>(box) - since(sample.at[0])), farthest * size);
+        sample.led = f32x4{};
       }
       known_ = larger(known_, h + 1);
     }
@@ -145,35 +167,46 @@ template <int D> class Watch {
   /// The margin of least work.
   SMALL Plan plan(const Prospect<D>& prospect, const Tuning<D>& tuning) const {
     Plan best;
-    f64 scale = larger(prospect.smallest(), 1e-30), growths[buckets];
-    for (u32 m = 0; m < buckets; m++) growths[m] = growth(scale * edge(m), prospect);
-    u32 late[buckets] = {};
-    f64 bursts[buckets] = {};
-    for (u32 h = 0; h < known_; h++) weigh(h, scale, growths, late, bursts, prospect, tuning, best);
+    f64 scale = larger(prospect.smallest(), 1e-30), plain = space(prospect, nullptr)(0);
+    for (u32 led = 0; led < 2; led++) {
+      u32 late[buckets] = {};
+      f64 bursts[buckets] = {};
+      for (u32 h = 0; h + led < known_; h++) weigh(h, led, scale, plain, late, bursts, prospect, tuning, best);
+    }
     return best;
   }
 
   /// How many times as many candidates as pairs a margin makes, of boxes that stand anywhere: by some of the sample, two
   /// and two. Sizes on average would not say: boxes that are long along different axes are thick on average.
   SMALL f64 growth(f64 margin, const Prospect<D>& prospect) const {
-    f64 with = 0, without = 0;
-    for (u32 k = 0; k + 1 < many_ && k < 2 * voters; k += 2) {
-      const Sample &one = samples_[k], &other = samples_[k + 1];
-      f64 space = 1, larger_space = 1;
-      for (int a = 0; a < D; a++) {
-        f64 size = f64(one.at[1][a]) - one.at[0][a] + other.at[1][a] - other.at[0][a];
-        size = smaller(larger(size, 2 * prospect.least[a]), 1e30);
-        space *= size;
-        larger_space *= size + 4 * margin;
-      }
-      without += space;
-      with += larger_space;
-    }
-    return without > 0 ? with / without : 1;
+    return space(prospect, nullptr)(margin) / space(prospect, nullptr)(0);
   }
 
  private:
   u32 smallest_ = 0;  // boxes without which the sample is none
+
+  SMALL Growth<D> space(const Prospect<D>& prospect, const f32x4* lead) const {
+    Growth<D> all;
+    for (u32 k = 0; k + 1 < many_ && k < 2 * voters; k += 2) {
+      const Sample &one = samples_[k], &other = samples_[k + 1];
+      f64 of[D + 1] = {1};
+      for (int a = 0; a < D; a++) {
+        f64 size = f64(one.at[1][a]) - one.at[0][a] + other.at[1][a] - other.at[0][a];
+        size = smaller(larger(size, 2 * prospect.least[a]), 1e30);
+        if (lead) size += magnitude(lead[k])[a] + magnitude(lead[k + 1])[a];
+        for (int j = D; j > 0; j--) of[j] = of[j] * size + of[j - 1];
+        of[0] *= size;
+      }
+      for (int j = 0; j <= D; j++) all.of[j] += of[j];
+    }
+    if (all.of[0] == 0) all.of[0] = 1;
+    return all;
+  }
+
+  static f32 most_of(f32x4 far) { return larger(larger(far[0], far[1]), larger(far[2], far[3])); }
+
+  /// 0 in the lanes that are no axis.
+  static f32x4 on_axes(f32x4 v) { return bits<f32x4>(bits<u32x4>(v) & u32x4{~0u, ~0u, D == 2 ? 0 : ~0u, 0}); }
 
   /// The magnitudes of numbers along the axes, and 0 in the other lanes.
   static f32x4 magnitude(f32x4 v) {
@@ -194,7 +227,7 @@ template <int D> class Watch {
       const f32* box = scene.box(sample.slot);
       sample.at[0] = sample.last[0] = load<f32x4>(box);
       sample.at[1] = sample.last[1] = load<f32x4>(box + D);
-      sample.far = f32x4{};
+      sample.far = sample.lead = sample.led = f32x4{};
       sample.jumps = 0;
     }
     age_ = 0;
@@ -210,8 +243,10 @@ template <int D> class Watch {
     }
     sample.last[0] = low;
     sample.last[1] = high;
-    f32x4 far = max(magnitude(low - shift(sample.at[0])), magnitude(high - shift(sample.at[1])));
-    sample.far = max(far, sample.far);
+    f32x4 by_low = on_axes(low - shift(sample.at[0])), by_high = on_axes(high - shift(sample.at[1]));
+    sample.far = max(max(magnitude(by_low), magnitude(by_high)), sample.far);
+    f32x4 from = min(sample.lead, sample.lead + sample.lead), until = max(sample.lead, sample.lead + sample.lead);
+    sample.led = max(max(from - min(by_low, by_high), max(by_low, by_high) - until), sample.led);
   }
 
   /// Where some of the sample have gone: the median of the lower half along each axis, and that of the upper half.
@@ -271,14 +306,15 @@ template <int D> class Watch {
   }
 
   /// `lates`: how many were late by half as many updates; `bursts`: how many in one of them at most.
-  SMALL void weigh(u32 h, f64 scale, const f64* growths, u32* lates, f64* bursts, const Prospect<D>& prospect,
+  SMALL void weigh(u32 h, u32 led, f64 scale, f64 plain, u32* lates, f64* bursts, const Prospect<D>& prospect,
                    const Tuning<D>& tuning, Plan& best) const {
+    Growth<D> all = space(prospect, led ? horizons_[h].lead : nullptr);
     u32 tail[buckets + 1] = {};  // how many reach into a bucket
     f64 jumps = 0, steady = 0, updates = 1u << h;
     f32 unit = f32(1 / scale);
     u32 lowest = bits<u32>(f32(edge(0))) >> 22;
     for (u32 k = 0; k < many_; k++) {
-      i32 bucket = i32((bits<u32>(horizons_[h].reach[k] * unit) + (1u << 22) - 1) >> 22) - i32(lowest);
+      i32 bucket = i32((bits<u32>(horizons_[h].reach[led][k] * unit) + (1u << 22) - 1) >> 22) - i32(lowest);
       tail[larger(0, smaller(bucket, i32(buckets)))]++;
       u32 its = horizons_[h].jumps[k];
       if (2 * its >= updates) steady++;
@@ -297,11 +333,11 @@ template <int D> class Watch {
     }
     f64 late = tuning.late / many_;
     for (u32 m = 0; m < buckets - 2; m++) {
-      f64 margin = scale * edge(m), growth = growths[m], build = prospect.build(growth, tuning);
+      f64 margin = scale * edge(m), growth = all(margin) / plain, build = prospect.build(growth, tuning);
       if (bursts[m] * late > tuning.burst * prospect.fresh || build > tuning.build * prospect.fresh) continue;
       f64 work = tuning.look * prospect.looked + tuning.candidate * prospect.candidates(growth);
       work += (build + (jumps + events[m]) * late) / updates + steady * late;
-      if (work < best.work) best = {f32(margin), growth, work};
+      if (work < best.work) best = {f32(margin), growth, led << h, work};
     }
   }
 };
