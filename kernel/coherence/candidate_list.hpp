@@ -101,11 +101,10 @@ template <int D> class CandidateList {
 
   /// A list of these boxes, with this margin. `candidates`: so many it will hardly exceed. `some_rest`: not all move.
   SMALL void build(const Scene<D>& scene, f32 margin, u64 candidates, bool some_rest, const Shift& common, f32 lead, f32 far) {
-    u32 n = scene.count, had = smaller(count_, n);
-    make_room(n, had);
+    u32 n = scene.count;
+    make_room(n, smaller(count_, n));
     shift_ = common_.after(common.back());
-    if (had == 0 && some_rest) anew_.each_same(scene, [&](u32 slot) { tags_[slot] = rests; });
-    else if (resting_ > 0 || some_rest) find_resting(scene, smaller(had, origin_count_));
+    if (resting_ > 0 || some_rest) find_resting(scene, smaller(n, origin_count_));
     resting_ = 0;
     enclose(scene, margin, lead, far);
     remember(scene, common);
@@ -187,9 +186,9 @@ template <int D> class CandidateList {
   }
 
   /// Marks those that have been where they are while the last list lived.
-  NOINLINE void find_resting(const Scene<D>& scene, u32 had) {
+  NOINLINE void find_resting(const Scene<D>& scene, u32 known) {
     bool steady = !shift_.differs({});
-    for (u32 slot = 0; slot < had; slot++) {
+    for (u32 slot = 0; slot < known; slot++) {
       const f32 *box = scene.box(slot), *was = origins_.data() + u64(slot) * width;
       u32 rested = steady & (bitmask(load<f32x4>(box) == load<f32x4>(was)) == 15);
       if constexpr (D == 3) rested &= (bitmask(load<f32x4>(box + D) == load<f32x4>(was + D)) & 7) == 7;

@@ -130,7 +130,7 @@ template <int D> class Incremental {
     f64 n = scene.count, growth = plan.growth;
     u64 most = u64(tuning.spare * n * prospect_.pairs *
                    prospect_.widening(growth));  // it will hardly have more candidates
-    list_.build(scene, plan.margin, most, watch_.resting() > 0, watch_.common(),
+    list_.build(scene, plan.margin, most, since_ > 0 && watch_.resting() > 0, watch_.common(),
                 since_ ? f32(plan.lead) / since_ : 0, 4 * size());
     since_ = 0;
     ended_ = false;
@@ -185,7 +185,6 @@ template <int D> class Incremental {
     // Boxes have come to rest: a new list will not test their pairs.
     bool judged = (age_ & (age_ - 1)) == 0 || watch_.is_new();
     ended_ |= judged && age_ >= tuning.watched && list_.tested() > 0 && watch_.more_rest(list_.resting() / n);
-    ended_ |= age_ % tuning.judged_every == 0 && !has_paid();
   }
 
   /// Whether the list has cost less than rebuilds would have.

@@ -20,5 +20,4 @@ template <int D> struct Tuning {
   f64 spare = 1.25;         // of the candidates expected: for how many there is room beforehand
   f64 least_pairs = 0.02;   // pairs a box: fewer are taken for as many, so that nothing is divided by 0
   f64 apart = 8;            // where sizes are not known: they are what boxes are apart, divided by this
-  u32 judged_every = 32;    // updates between two looks whether the list has paid
 };

@@ -82,8 +82,7 @@ template <int D> struct Growth {
 template <int D> class Watch {
   // One box in so many is watched, within these limits.
   static constexpr u32 watched_share = 16, least_watched = 32, most_watched = 256;
-  // Common motion is taken out once no more than this share of all motion is left without it, until more than that is.
-  static constexpr f64 common_from = 0.6, common_until = 0.9;
+  static constexpr f64 common_share = 0.75;  // of all motion: what is common is taken out where no more is left
   static constexpr f32 farthest = 4;  // of a box's size: motion beyond counts as that much, so that one jump is not all
   static constexpr u32 width = 2 * D, horizons = 7, buckets = 24, voters = 31;
 
@@ -292,7 +291,7 @@ template <int D> class Watch {
         with += own[a];
       }
     }
-    bool wish = with < (common_ ? common_until : common_from) * without;
+    bool wish = with < common_share * without;
     if (wish == common_) return false;
     common_ = wish;
     known_ = 0;
@@ -310,15 +309,13 @@ template <int D> class Watch {
                    const Tuning<D>& tuning, Plan& best) const {
     Growth<D> all = space(prospect, led ? horizons_[h].lead : nullptr);
     u32 tail[buckets + 1] = {};  // how many reach into a bucket
-    f64 jumps = 0, steady = 0, updates = 1u << h;
+    f64 jumps = 0, updates = 1u << h;
     f32 unit = f32(1 / scale);
     u32 lowest = bits<u32>(f32(edge(0))) >> 22;
     for (u32 k = 0; k < many_; k++) {
       i32 bucket = i32((bits<u32>(horizons_[h].reach[led][k] * unit) + (1u << 22) - 1) >> 22) - i32(lowest);
       tail[larger(0, smaller(bucket, i32(buckets)))]++;
-      u32 its = horizons_[h].jumps[k];
-      if (2 * its >= updates) steady++;
-      else jumps += its;
+      jumps += horizons_[h].jumps[k];
     }
     // A box is late once, and once more for each further margin of the late.
     f64 events[buckets + 1] = {}, beyond = 0, sum = 0;
@@ -336,7 +333,7 @@ template <int D> class Watch {
       f64 margin = scale * edge(m), growth = all(margin) / plain, build = prospect.build(growth, tuning);
       if (bursts[m] * late > tuning.burst * prospect.fresh || build > tuning.build * prospect.fresh) continue;
       f64 work = tuning.look * prospect.looked + tuning.candidate * prospect.candidates(growth);
-      work += (build + (jumps + events[m]) * late) / updates + steady * late;
+      work += (build + (jumps + events[m]) * late) / updates;
       if (work < best.work) best = {f32(margin), growth, led << h, work};
     }
   }
