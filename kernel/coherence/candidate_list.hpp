@@ -32,7 +32,7 @@ template <int D> class CandidateList {
   // Per slot:
   Buffer<f32> regions_;
   Buffer<f32> origins_;  // boxes as they were when the list was made, or before it
-  u32 origin_count_ = 0;
+  u32 origin_count_ = 0, origin_age_ = 0;  // of how many boxes; updates since
   Buffer<u32> tags_;  // exclusion bits, and ours below them
   Buffer<u32> groups_;  // while `grouped_`: two of one group are no candidate
   Buffer<u32> late_;  // slots; and behind them those that a search has met
@@ -94,28 +94,32 @@ template <int D> class CandidateList {
   /// Notes where boxes are, for the next list.
   SMALL void remember(const Scene<D>& scene, const Shift& common) {
     origin_count_ = scene.count;
+    origin_age_ = 0;
     __builtin_memcpy(origins_.reserve(u64(scene.count) * width + padding), scene.boxes,
                      u64(scene.count) * width * sizeof(f32));
     common_ = common;
   }
 
-  /// A list of these boxes, with this margin. `candidates`: so many it will hardly exceed. `some_rest`: not all move.
-  SMALL void build(const Scene<D>& scene, f32 margin, u64 candidates, bool some_rest, const Shift& common, f32 lead, f32 far) {
+  /// An update has passed.
+  void pass() { origin_age_++; }
+
+  /// A list of these boxes. `some_rest`: not all move. Regions reach ahead no further than `far`.
+  SMALL void build(const Scene<D>& scene, const Plan& plan, const Shift& common, bool some_rest, f32 far) {
     u32 n = scene.count;
     make_room(n, smaller(count_, n));
     shift_ = common_.after(common.back());
-    if (resting_ > 0 || some_rest) find_resting(scene, smaller(n, origin_count_));
+    u32 known = origin_age_ > 0 ? smaller(n, origin_count_) : 0;
+    if (resting_ > 0 || some_rest) find_resting(scene, known);
     resting_ = 0;
-    enclose(scene, margin, lead, far);
+    enclose(scene, plan.margin, plan.lead > 0 ? known : 0, f32(plan.lead) / larger(1u, origin_age_), far);
     remember(scene, common);
     filtered_ = scene.excluded != nullptr;
     grouped_ = scene.groups != nullptr;
     if (grouped_) __builtin_memcpy(groups_.reserve(n), scene.groups, n * sizeof(u32));
     count_ = n;
-    margin_ = margin;
+    margin_ = plan.margin;
     candidates_.count = extra_.count = settled_.count = head_ = 0;
     built_ = Stats{};
-    candidates_.list.reserve(candidates + Pairs::slack);  // copied while it grows it takes longer
     anew_.update(Scene<D>{regions_.data(), n, scene.excluded}, Settings{}, candidates_, built_);
     if (grouped_) filter(candidates_, [&](u32 a, u32 b) { return !one_group(groups_[a], groups_[b]); });
     found_ = candidates_.count;
@@ -197,8 +201,7 @@ template <int D> class CandidateList {
   }
 
   /// Gives each box its region, which reaches ahead by so many times what it has moved by since its origin was noted.
-  NOINLINE void enclose(const Scene<D>& scene, f32 margin, f32 lead, f32 far) {
-    u32 known = lead > 0 ? smaller(scene.count, origin_count_) : 0;
+  NOINLINE void enclose(const Scene<D>& scene, f32 margin, u32 known, f32 lead, f32 far) {
     for (u32 slot = 0; slot < scene.count; slot++) {
       u32 rest = tags_[slot] & rests;
       resting_ += rest;

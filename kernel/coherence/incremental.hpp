@@ -21,7 +21,6 @@ template <int D> class Incremental {
   PairOrder order_;
   bool ended_ = false;  // a new list is due
   u32 age_ = 0;  // of the list, in updates
-  u32 since_ = 0;  // updates since the origins
   f64 made_ = 0;  // work, for each box: to make the list
   f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // and since then: for the late; of an update; all
   u32 pause_ = 0, pauses_ = tuning.watched;
@@ -67,7 +66,7 @@ template <int D> class Incremental {
   }
 
  private:
-  f32 size() const { return f32(prospect_.smallest()); }
+  f32 size() const { return f32(prospect_.size); }
 
   SMALL bool find(const Scene<D>& scene, f32 margin, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
@@ -80,11 +79,8 @@ template <int D> class Incremental {
       return false;
     }
     watch_.look(scene, size());
-    since_++;
-    if (list_.is_empty() && watch_.is_new()) {
-      list_.remember(scene, watch_.common());
-      since_ = 0;
-    }
+    list_.pass();
+    if (list_.is_empty() && watch_.is_new()) list_.remember(scene, watch_.common());
     if (prospect_.fresh == 0) return false;
     if (!list_.is_empty() && !ended_ && list_.follow(scene, watch_.common(), made_, size())) {
       list_.report(scene, pairs, stats);
@@ -123,16 +119,12 @@ template <int D> class Incremental {
     prospect_.fresh = (tuning.entry * stats.entries + stats.tests) / n;
     prospect_.tests = stats.tests / n;
     prospect_.pairs = larger(pairs.count / n, tuning.least_pairs);
-    if (scene.count >= tuning.few) learn_sizes(scene.count, 0);
+    if (scene.count >= tuning.few) learn_sizes(scene.count);
   }
 
   SMALL void build(const Scene<D>& scene, const Plan& plan) {
     f64 n = scene.count, growth = plan.growth;
-    u64 most = u64(tuning.spare * n * prospect_.pairs *
-                   prospect_.widening(growth));  // it will hardly have more candidates
-    list_.build(scene, plan.margin, most, since_ > 0 && watch_.resting() > 0, watch_.common(),
-                since_ ? f32(plan.lead) / since_ : 0, 4 * size());
-    since_ = 0;
+    list_.build(scene, plan, watch_.common(), watch_.resting() > 0, Watch<D>::farthest * size());
     ended_ = false;
     age_ = 0;
     lateness_ = smooth_ = life_ = 0;
@@ -146,13 +138,15 @@ template <int D> class Incremental {
     prospect_.pairs = larger((settled + list_.tested() / growth) / n, tuning.least_pairs);
   }
 
-  /// Of boxes on average, whose regions have this margin; or a share of what they are apart.
-  SMALL void learn_sizes(u32 boxes, f64 margin) {
+  /// How large boxes are on average along the axis where they are least; or a share of what they are apart.
+  SMALL void learn_sizes(u32 boxes) {
     f64 low[D], high[D], sizes[D], across = D == 2 ? __builtin_sqrt(f64(boxes)) : cube_root(boxes);
     anew_.bounds(low, high, sizes);
+    prospect_.size = 0;
     for (int a = 0; a < D; a++) {
       prospect_.least[a] = (high[a] - low[a]) / across / tuning.apart;
-      prospect_.sizes[a] = larger(sizes[a] - 2 * margin, prospect_.least[a]);
+      f64 size = larger(sizes[a], prospect_.least[a]);
+      if (size > 0 && (prospect_.size == 0 || size < prospect_.size)) prospect_.size = size;
     }
   }
 

@@ -17,7 +17,6 @@ template <int D> struct Tuning {
   u32 watched = 8;  // updates: after which it is known what is worth keeping; the first pause is as long
   u32 longest_pause = 512;  // updates
   f64 smoothing = 0.4;      // of an update's lateness: what counts in the running mean
-  f64 spare = 1.25;         // of the candidates expected: for how many there is room beforehand
   f64 least_pairs = 0.02;   // pairs a box: fewer are taken for as many, so that nothing is divided by 0
   f64 apart = 8;            // where sizes are not known: they are what boxes are apart, divided by this
 };

@@ -27,7 +27,7 @@ struct Shift {
 
 /// What is known of the lists to come, for each box, in tests of strip sweep.
 template <int D> struct Prospect {
-  f64 sizes[D] = {};  // of boxes on average, but no less than the next
+  f64 size = 0;  // of boxes on average, along the axis where they are least, but no less than the next
   f64 least[D] = {};  // an eighth of what they are apart
   f64 looked = 0;  // the share of boxes that an update looks at
   f64 pairs = 0;  // candidates of a list without a margin
@@ -35,12 +35,6 @@ template <int D> struct Prospect {
   f64 tests = 0;  // of it, the tests
   f64 rest = 0;  // the share of boxes that will be known to rest
 
-  /// The smallest of the sizes that are above 0.
-  f64 smallest() const {
-    f64 least = 0;
-    for (f64 size : sizes) least = size > 0 && (least == 0 || size < least) ? size : least;
-    return least;
-  }
   /// What is tested in an update: not the pairs of two that rest, which do not grow.
   f64 candidates(f64 growth) const { return pairs * growth * (1 - rest * rest); }
   /// How many times as much a list takes in as a rebuild: boxes at rest have no margin.
@@ -83,7 +77,6 @@ template <int D> class Watch {
   // One box in so many is watched, within these limits.
   static constexpr u32 watched_share = 16, least_watched = 32, most_watched = 256;
   static constexpr f64 common_share = 0.75;  // of all motion: what is common is taken out where no more is left
-  static constexpr f32 farthest = 4;  // of a box's size: motion beyond counts as that much, so that one jump is not all
   static constexpr u32 width = 2 * D, horizons = 7, buckets = 24, voters = 31;
 
   struct Sample {
@@ -104,6 +97,7 @@ template <int D> class Watch {
   Shift total_, begun_;  // since ever, and until these samples were taken
 
  public:
+  static constexpr f32 farthest = 4;  // of a box's size: motion beyond counts as that much, so that one jump is not all
   static constexpr u32 longest = 1u << (horizons - 1);  // updates
 
   /// Common motion since ever.
@@ -166,7 +160,7 @@ template <int D> class Watch {
   /// The margin of least work.
   SMALL Plan plan(const Prospect<D>& prospect, const Tuning<D>& tuning) const {
     Plan best;
-    f64 scale = larger(prospect.smallest(), 1e-30), plain = space(prospect, nullptr)(0);
+    f64 scale = larger(prospect.size, 1e-30), plain = space(prospect, nullptr)(0);
     for (u32 led = 0; led < 2; led++) {
       u32 late[buckets] = {};
       f64 bursts[buckets] = {};

@@ -83,7 +83,6 @@ template <int D> class StripSweep {
   AxisOrder<D> order_ = {};
   Cut cut_ = {};  // the outermost
   u32 boxes_ = 0;
-  u32 entered_ = 0;  // entries of the outermost cut
   Stats* stats_ = nullptr;
 
  public:
@@ -91,7 +90,7 @@ template <int D> class StripSweep {
 
   SMALL void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     stats_ = &stats;
-    boxes_ = entered_ = scene.count;
+    boxes_ = scene.count;
     if (scene.count < 2) return;
     bool cuts = cut_up(scene);
     SceneItems<D> items{scene, order_};
@@ -102,16 +101,6 @@ template <int D> class StripSweep {
     stats.entries = scene.count;
     u64 tests = swept_.order(all, scene.count);
     list(all, scene.count, tests, everywhere(), scene.count, cuts ? deepest : 0, pairs);
-  }
-
-  /// Calls `what` with the slot of each box that is as it was in the last update.
-  template <class What> SMALL void each_same(const Scene<D>& scene, What what) const {
-    SceneItems<D> items{scene, order_};
-    ItemsAt<D> entries(entries_, 0);
-    for (u32 k = 0; k < entered_; k++) {
-      u32 tag = tag_at(k), slot = tag & slot_mask;
-      if (slot < scene.count && same(entries[k], with_tag(items[slot], tag))) what(slot);
-    }
   }
 
   /// The bounds of the lower corners of the last update's boxes, and their sizes on average, along the world's axes.
@@ -236,7 +225,6 @@ template <int D> class StripSweep {
     count(items, size, cut, depth);
     u64 total = base;
     if (!add_up(size, cut, depth, total)) return false;
-    if (base == 0) entered_ = u32(total);
     size_t source = place(items);
     entries_.grow(total, base);
     move(items, source);
@@ -340,11 +328,6 @@ template <int D> class StripSweep {
       list(items, end - begin, tests, part, total, depth + 1, pairs);
       begin = end;
     }
-  }
-
-  u32 tag_at(u32 k) const {
-    if constexpr (D == 2) return entries_.tags[k];
-    else return bits<u32x4>(entries_.boxes[2 * u64(k)])[3];
   }
 
   // Items that are cut again stand in entries_ themselves, which may move when it grows.
