@@ -84,6 +84,14 @@ inline Item<3> with_tag(Item<3> item, u32 more) {
   return {bits<f32x4>(bits<u32x4>(item.low) | u32x4{0, 0, 0, more}), item.high};
 }
 
+/// Whether two items are the same, bit by bit.
+inline bool same(const Item<2>& a, const Item<2>& b) {
+  return a.tag == b.tag && !any(bits<i32x4>(a.box) ^ bits<i32x4>(b.box));
+}
+inline bool same(const Item<3>& a, const Item<3>& b) {
+  return !any((bits<i32x4>(a.low) ^ bits<i32x4>(b.low)) | (bits<i32x4>(a.high) ^ bits<i32x4>(b.high)));
+}
+
 /// Items read straight from the scene.
 template <int D> struct SceneItems {
   Scene<D> scene;

@@ -1,14 +1,14 @@
 // The list of candidates: the regions in which they hold, and how boxes that leave theirs are served.
 //
-// Idea: each box has a region, which is the box as it was when the list was made, with a margin on all sides. Two boxes
+// Idea: each box has a region, which is the box as it was when the list was made, with a margin on all sides. If that pays,
+// it also reaches ahead, to where the box will be if it goes on as it has moved since the list before was made. Two boxes
 // whose regions touch are a candidate. While boxes stay in their regions, an update checks all boxes and tests the
 // candidates.
 //   - Late: a box that has left its region gets another, and the candidates that follow from it. Its base, which is its
 //     first region, still determines which candidates are listed.
-//   - At rest: a box that has not moved during the life of a list, or in the update before the first list, is its own
-//     region. Pairs of two such boxes are settled: they are at the head of the list of pairs, and are not tested again.
+//   - At rest: a box that has not moved since the list before was made is its own region. Pairs of two such boxes are settled: they are at the head of the list of pairs, and are not tested again.
 // Cost: about 1 ns per box and 2 ns per candidate; 0.1 (2D) to 0.6 µs per late box; 1.5 to two strip sweeps to make the
-// list. Memory, in addition to that of strip sweep: about 55 (2D) or 71 (3D) bytes per box, and 8 per candidate.
+// list. Memory, in addition to that of strip sweep: about 71 (2D) or 95 (3D) bytes per box, and 8 per candidate.
 // From: L. Verlet, "Computer Experiments on Classical Fluids", 1967.
 #pragma once
 #include "coherence/places.hpp"
@@ -31,7 +31,7 @@ template <int D> class CandidateList {
   bool grouped_ = false;  // some have a group
   // Per slot:
   Buffer<f32> regions_;
-  Buffer<f32> origins_;  // boxes as they were when the list was made, or before it
+  Buffer<f32> origins_;  // boxes as they were when the list was made, or while there is none, when the watch began
   u32 origin_count_ = 0, origin_age_ = 0;  // of how many boxes; updates since
   Buffer<u32> tags_;  // exclusion bits, and ours below them
   Buffer<u32> groups_;  // while `grouped_`: two of one group are no candidate
@@ -91,7 +91,7 @@ template <int D> class CandidateList {
     settled_.list.release();
   }
 
-  /// Notes where boxes are, for the next list.
+  /// Notes where boxes are: the next list sees from it which of them move, and where to.
   SMALL void remember(const Scene<D>& scene, const Shift& common) {
     origin_count_ = scene.count;
     origin_age_ = 0;
@@ -189,7 +189,7 @@ template <int D> class CandidateList {
     if (n > had) __builtin_memset(tags_.data() + had, 0, (n - had) * sizeof(u32));
   }
 
-  /// Marks those that have been where they are while the last list lived.
+  /// Marks those that are where they were.
   NOINLINE void find_resting(const Scene<D>& scene, u32 known) {
     bool steady = !shift_.differs({});
     for (u32 slot = 0; slot < known; slot++) {
@@ -208,7 +208,8 @@ template <int D> class CandidateList {
       const f32* box = scene.box(slot);
       f32x4 ahead = {};
       if (slot < known)
-        ahead = bounded((shift_(load<f32x4>(box)) - load<f32x4>(origins_.data() + u64(slot) * width)) * splat(lead), far);
+        ahead = bounded((shift_(load<f32x4>(box)) - load<f32x4>(origins_.data() + u64(slot) * width)) * splat(lead),
+                        far);
       widen(box, bits<f32>(bits<u32>(margin) & (rest - 1)), ahead, region(slot));
       tags_[slot] = rest | scene.excluded_of(slot);
     }

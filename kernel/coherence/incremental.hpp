@@ -3,7 +3,8 @@
 // Idea: candidate_list.hpp has the list; this file decides when one is made, with which margin, and when it ends.
 //   - The margin comes from measured displacements, not predictions: see watch.hpp. If no margin is expected to pay,
 //     strip sweep runs, and a list is tried again after 8 to 512 updates.
-//   - A list ends when late boxes have cost more than a new list would, on average. Bounded motion never ends one.
+//   - A list ends when late boxes cost more than a new list would, on average, or much more in one update. Bounded motion
+//     never ends one.
 // Nothing here reads a clock: work is counted, so the order of the pairs depends on the calls alone.
 // Wins when boxes are at rest, jitter, turn, or move by less than a tenth of their size. Equals strip sweep when they
 // jump.
@@ -82,7 +83,7 @@ template <int D> class Incremental {
     list_.pass();
     if (list_.is_empty() && watch_.is_new()) list_.remember(scene, watch_.common());
     if (prospect_.fresh == 0) return false;
-    if (!list_.is_empty() && !ended_ && list_.follow(scene, watch_.common(), made_, size())) {
+    if (!list_.is_empty() && !ended_ && list_.follow(scene, watch_.common(), most_lateness(), size())) {
       list_.report(scene, pairs, stats);
       account(scene);
       return true;
@@ -104,6 +105,10 @@ template <int D> class Incremental {
     account(scene);
     return true;
   }
+
+  /// What the late of one update may cost: no more than a list does, nor than twice what being late and making lists costs
+  /// on average. Where all leave their regions within a few updates, the list ends with the first of them.
+  f64 most_lateness() const { return smaller(made_, tuning.spike * (made_ + lateness_) / age_); }
 
   SMALL Plan choose(const Scene<D>& scene) {
     prospect_.looked = scene.listed() ? f64(scene.changes->count()) / scene.count : 1;

@@ -11,12 +11,13 @@ template <int D> struct Tuning {
   f64 late = 500;                    // tests: to give a box that has left its region a new one
   f64 late_margin = 0.5;             // of a box's size: the margin of that
   f64 burst = 0.5;                   // of a rebuild: in one update boxes may be late for as much
-  f64 build = 2;                       // of a rebuild: a list that would cost more is not made
-  f64 worth = 0.9;                   // of a rebuild: a list must promise to cost less, and have cost less, to go on
-  u32 few = 32;                      // boxes: fewer are not worth keeping anything
+  f64 spike = 2;  // of what being late and making lists costs an update on average: so many late in one end the list
+  f64 build = 2;  // of a rebuild: a list that would cost more is not made
+  f64 worth = 0.9;  // of a rebuild: a list must promise to cost less, and have cost less, to go on
+  u32 few = 32;  // boxes: fewer are not worth keeping anything
   u32 watched = 8;  // updates: after which it is known what is worth keeping; the first pause is as long
   u32 longest_pause = 512;  // updates
-  f64 smoothing = 0.4;      // of an update's lateness: what counts in the running mean
-  f64 least_pairs = 0.02;   // pairs a box: fewer are taken for as many, so that nothing is divided by 0
-  f64 apart = 8;            // where sizes are not known: they are what boxes are apart, divided by this
+  f64 smoothing = 0.4;  // of an update's lateness: what counts in the running mean
+  f64 least_pairs = 0.02;  // pairs a box: fewer are taken for as many, so that nothing is divided by 0
+  f64 apart = 8;  // where sizes are not known: they are what boxes are apart, divided by this
 };

@@ -1,8 +1,9 @@
 // How far boxes move, measured on a sample, and the margin that costs least.
 // Idea: for each box of the sample, the largest displacement after 1, 2, 4 … 64 updates is measured. Nothing is
-// extrapolated. For a list with margin m that lives for that many updates, the cost per update is: testing its
-// candidates, its share of making the list, and serving the boxes that moved further than m. The cheapest margin is
-// chosen. Motion common to most boxes (a world that scrolls or zooms) is subtracted first.
+// extrapolated. Regions may also reach ahead, by how far a box has moved in as many updates before: for that, too, it is
+// measured how far boxes really were from there. For a list with margin m that lives for that many updates, the cost per
+// update is: testing its candidates, its share of making the list, and serving the boxes that moved further than m. The
+// cheapest is chosen. Motion common to most boxes (a world that scrolls or zooms) is subtracted first.
 #pragma once
 #include "base/box_tests.hpp"
 #include "boxes/scene_sample.hpp"
@@ -53,7 +54,7 @@ template <int D> struct Prospect {
 struct Plan {
   f32 margin = 0;
   f64 growth = 1;  // candidates, in numbers of pairs
-  u32 lead = 0;  // updates for which regions reach ahead
+  u32 lead = 0;  // for so many updates regions reach ahead
   f64 work = __builtin_inf();  // for each box and update
 };
 
@@ -80,12 +81,17 @@ template <int D> class Watch {
   static constexpr u32 width = 2 * D, horizons = 7, buckets = 24, voters = 31;
 
   struct Sample {
-    f32x4 at[2], last[2], far, lead, led;  // the minima and the maxima of the box, and what stands behind them
+    // The minima and the maxima of the box, and what stands behind them.
+    f32x4 at[2], last[2];
+    f32x4 far;  // from where it began
+    f32x4 lead;  // what it had moved by at the last horizon
+    f32x4 led;  // since then: how far it was from the way that goes on like that
     u32 slot, jumps;
   };
   /// How far the samples got in so many updates, and how often they jumped.
   struct Horizon {
-    f32 reach[2][most_watched];
+    f32 reach[2]
+             [most_watched];  // from where they began; in as many updates more, from where regions that reach ahead are
     f32x4 lead[most_watched];
     u32 jumps[most_watched];
   };
@@ -178,6 +184,7 @@ template <int D> class Watch {
  private:
   u32 smallest_ = 0;  // boxes without which the sample is none
 
+  /// The space that pairs of some of the sample take, with regions that reach ahead by so much.
   SMALL Growth<D> space(const Prospect<D>& prospect, const f32x4* lead) const {
     Growth<D> all;
     for (u32 k = 0; k + 1 < many_ && k < 2 * voters; k += 2) {
@@ -298,7 +305,7 @@ template <int D> class Watch {
     return bucket & 1 ? octave * 1.5 : octave;
   }
 
-  /// `lates`: how many were late by half as many updates; `bursts`: how many in one of them at most.
+  /// `led`: regions reach ahead. `lates`: how many were late by half as many updates; `bursts`: how many in one of them at most.
   SMALL void weigh(u32 h, u32 led, f64 scale, f64 plain, u32* lates, f64* bursts, const Prospect<D>& prospect,
                    const Tuning<D>& tuning, Plan& best) const {
     Growth<D> all = space(prospect, led ? horizons_[h].lead : nullptr);
