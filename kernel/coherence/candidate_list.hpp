@@ -41,9 +41,8 @@ template <int D> class CandidateList {
   u32 late_count_ = 0, resting_ = 0;
   u64 met_ = 0;  // regions that a search for the late has met in this update
   Pairs candidates_, extra_, settled_;  // extra: those of boxes that have been late
-  u64 found_ = 0;  // candidates when the list was made, settled ones among them
   u64 head_ = 0;  // length of the prefix of `settled_` that the last report has
-  Stats built_ = {};
+  Stats built_ = {};  // of the sweep that made the list; its candidates are all, settled ones among them
   f32 margin_ = 0;
   Shift common_;  // what the watch said of common motion when the list was made
   Shift shift_;  // takes back what all have moved in common since
@@ -53,9 +52,8 @@ template <int D> class CandidateList {
 
   bool is_empty() const { return count_ == 0; }
   u32 resting() const { return resting_; }
-  /// Candidates that are tested in each update, and those found when the list was made.
+  /// Candidates that are tested in each update.
   u64 tested() const { return candidates_.count + extra_.count; }
-  u64 found() const { return found_; }
   /// What the sweep that made the list did.
   const Stats& built() const { return built_; }
 
@@ -63,7 +61,9 @@ template <int D> class CandidateList {
   f64 late_work() const { return late_count_ * tuning.late + (met_ + extra_.count) * tuning.candidate; }
   f64 least_work(f64 looked) const { return candidates_.count * tuning.candidate + looked * tuning.look; }
   /// Work that it took to make the list.
-  f64 made_work() const { return tuning.entry * built_.entries + built_.tests + found_ + 2 * tuning.look * count_; }
+  f64 made_work() const {
+    return tuning.entry * built_.entries + built_.tests + built_.candidates + 2 * tuning.look * count_;
+  }
 
   /// Whether pairs in doubt are to be noted: if that is new, what is settled may be in doubt.
   void watch(bool watched) {
@@ -122,7 +122,7 @@ template <int D> class CandidateList {
     built_ = Stats{};
     anew_.update(Scene<D>{regions_.data(), n, scene.excluded}, Settings{}, candidates_, built_);
     if (grouped_) filter(candidates_, [&](u32 a, u32 b) { return !one_group(groups_[a], groups_[b]); });
-    found_ = candidates_.count;
+    built_.candidates = f64(candidates_.count);
     if (resting_ > 0) settle(scene);
     placed_ = false;
     shift_ = {};

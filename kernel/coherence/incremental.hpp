@@ -139,7 +139,7 @@ template <int D> class Incremental {
     const Stats& built = list_.built();
     prospect_.tests = smaller(prospect_.tests, built.tests / n / prospect_.more_tests(growth));
     prospect_.fresh = smaller(prospect_.fresh, tuning.entry * built.entries / n + prospect_.tests);
-    f64 settled = list_.found() - list_.tested();
+    f64 settled = built.candidates - list_.tested();
     prospect_.pairs = larger((settled + list_.tested() / growth) / n, tuning.least_pairs);
   }
 

@@ -92,7 +92,7 @@ template <int D> class Watch {
   struct Horizon {
     f32 reach[2]
              [most_watched];  // from where they began; in as many updates more, from where regions that reach ahead are
-    f32x4 lead[most_watched];
+    f32x4 lead[2 * voters];
     u32 jumps[most_watched];
   };
 
@@ -155,8 +155,9 @@ template <int D> class Watch {
         horizons_[h].jumps[k] = sample.jumps;
         if (h > 0) horizons_[h - 1].reach[1][k] = most_of(sample.led);
         const f32* box = scene.box(sample.slot);
-        sample.lead = horizons_[h].lead[k] = bounded(on_axes(load<f32x4>(box) - since(sample.at[0])), farthest * size);
+        sample.lead = bounded(on_axes(load<f32x4>(box) - since(sample.at[0])), farthest * size);
         sample.led = f32x4{};
+        if (k < 2 * voters) horizons_[h].lead[k] = sample.lead;
       }
       known_ = larger(known_, h + 1);
     }

@@ -25,6 +25,8 @@ test.each([
   ['circles', 3],
   ['patrols', 2],
   ['patrols', 3],
+  ['groups', 3],
+  ['units', 3],
 ] as const)('%s in %iD are kept, though all that move might leave their regions at once', (name, dimensions) => {
   const motion = createMotion(name, dimensions, 3000);
   const [kept, fresh] = (['auto', 'strip-sweep'] as const).map(
