@@ -29,7 +29,6 @@ export const flags = [
   '-nostdlib',
   '-Wl,--no-entry',
   '-Wl,--export=__stack_pointer',
-  '-Wl,--strip-all',
   '-Wl,--compress-relocations',
   '-Wl,-z,stack-size=65536',
 ];
@@ -65,6 +64,12 @@ export function only(techniques) {
   return `-DTECHNIQUES=${bits}`;
 }
 
+/** The flag that keeps the names of functions. */
+export const keepNames = '-Wl,--strip-debug';
+
+/** The module that decodes the inlined text. It is compiled by the engine before it runs once: small is fast. */
+export const compileDecoder = () => compile('kernel/decoder.cpp', ['-Oz']);
+
 /** The wasm made from one source file, given by its path relative to the root, and the kernel's headers. */
 export async function compile(entry, more = []) {
   const tree = {};
@@ -82,11 +87,12 @@ export async function compile(entry, more = []) {
 async function make(options, tree, entry) {
   const { runClang } = await import('@yowasp/clang');
   // The compiler prints its diagnostics itself; its exit is an exception that carries the whole file tree.
-  const output = await runClang(['clang++', ...options, '-o', 'out.wasm'], tree, { fetchProgress: () => {} }).catch(
-    (error) => {
-      throw new Error(`${entry} was not compiled (${error.message})`);
-    },
-  );
+  const strip = options.includes(keepNames) ? [] : ['-Wl,--strip-all'];
+  const output = await runClang(['clang++', ...options, ...strip, '-o', 'out.wasm'], tree, {
+    fetchProgress: () => {},
+  }).catch((error) => {
+    throw new Error(`${entry} was not compiled (${error.message})`);
+  });
   return output['out.wasm'];
 }
 
@@ -105,7 +111,7 @@ export async function compileSoon(entry, more = []) {
     '-ffreestanding',
     '-mmutable-globals',
     ...ours,
-    ...more,
+    ...more.filter((flag) => !ofLinker(flag)),
     '-c',
     entry,
     '-o',
@@ -116,7 +122,11 @@ export async function compileSoon(entry, more = []) {
     if (!found || /no available targets|unable to create target|unknown argument/i.test(output)) continue;
     if (!ok) throw new Error(`${entry} was not compiled\n${output}`);
     const target = flags.filter((flag) => flag.startsWith('--target'));
-    return make([...target, ...flags.filter(ofLinker), 'object.o'], { 'object.o': readFileSync(object) }, entry);
+    return make(
+      [...target, ...[...flags, ...more].filter(ofLinker), 'object.o'],
+      { 'object.o': readFileSync(object) },
+      entry,
+    );
   }
   return compile(entry, more);
 }

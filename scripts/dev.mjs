@@ -10,8 +10,9 @@ import { basename, join, parse } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { createVitest } from 'vitest/node';
 import { writeAbi } from './abi.mjs';
-import { compile, compileSoon, lean, only } from './compile.mjs';
+import { compileDecoder, compileSoon, keepNames, lean, only } from './compile.mjs';
 import { moduleOf } from './inline.mjs';
+import { withoutNames } from './owners.mjs';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
 const chosen = process.argv.slice(2).filter((name) => name !== '--once');
@@ -38,10 +39,10 @@ const nearest = (header) => testsOf(parse(header).name.replaceAll('_', '-'));
 /** Compiles the lean kernel, and runs tests on it. */
 async function check(header) {
   const started = performance.now();
-  decoder ??= Buffer.from(await compile('kernel/decoder.cpp')).toString('hex');
-  const bytes = await compileSoon('kernel/abi.cpp', [only(lean)]);
+  decoder ??= await compileDecoder();
+  const { bytes, owners } = withoutNames(await compileSoon('kernel/abi.cpp', [only(lean), keepNames]));
   writeAbi();
-  writeFileSync(generated, moduleOf(bytes, decoder, lean, [2, 3]));
+  writeFileSync(generated, moduleOf(bytes, owners, decoder, lean, [2, 3]));
   const compiled = seconds(started);
   const near = header ? nearest(header) : [];
   const tests = [chosen.flatMap(testsOf), near, usual.flatMap(testsOf)].find((each) => each.length > 0);

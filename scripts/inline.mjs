@@ -10,37 +10,44 @@ const characters = Array.from({ length: 94 }, (_, k) => String.fromCharCode(33 +
 );
 /** So many of them begin a pair. */
 const prefixes = 3;
+const single = characters.length - prefixes;
 
-/** A module of WebAssembly as text. `order`: the bytes of single characters, two hexadecimal digits each; `text`: what stands for
- * the bytes of its streams; `size`: how many bytes the module has. */
-export function inline(wasm) {
-  const bytes = apart(wasm);
-  const counts = new Uint32Array(256);
-  for (const byte of bytes) counts[byte]++;
-  const { length } = characters;
-  const single = length - prefixes;
-  const order = Uint8Array.from(counts.keys()).sort((a, b) => counts[b] - counts[a] || a - b);
-  order.subarray(single).sort(); // so that they need not be told
+/** A byte as a pair. */
+const pairOf = (byte) => characters[Math.floor(byte / characters.length)] + characters[byte % characters.length];
+
+/**
+ * A module of WebAssembly, of `size` bytes, as text: the bytes that are one character each, as pairs; the counts and
+ * lengths; the streams. `owners`: of each of its functions, the dimensions that it is for, where it is for some only.
+ */
+export function inline(wasm, owners = []) {
+  const { counts, kinds, before, owners: owned, order, given, behind } = apart(wasm, owners);
+  const all = [kinds, before, owned, order, ...given, behind];
+  const often = new Uint32Array(256);
+  for (const byte of all.flat()) often[byte]++;
+  const bytes = Array.from(often.keys()).sort((a, b) => often[b] - often[a] || a - b);
   const written = [];
-  for (const [k, byte] of order.entries()) {
-    const pair = k - single;
-    written[byte] =
-      pair < 0 ? characters[prefixes + k] : characters[Math.floor(pair / length)] + characters[pair % length];
-  }
+  for (const [k, byte] of bytes.entries()) written[byte] = k < single ? characters[prefixes + k] : pairOf(byte);
+  const textOf = (stream) => stream.map((byte) => written[byte]).join('');
+  // Where a stream ends is told in characters, but for the first and the last, which are read at once.
+  const lengths = [before.length, behind.length, ...[owned, order, ...given].map((stream) => textOf(stream).length)];
+  const head = [...counts, ...lengths].flatMap((length) => [length & 255, (length >> 8) & 255, length >> 16]);
   return {
-    alphabet: characters.join(''),
-    order: Buffer.from(order.subarray(0, single)).toString('hex'),
-    text: Array.from(bytes, (byte) => written[byte]).join(''),
+    text: [...bytes.slice(0, single).map(pairOf), ...[head, ...all].map(textOf)].join(''),
     size: wasm.length,
   };
 }
 
+/** Bytes as two letters each, from @ to O: what is fast to read for an engine that has just started. */
+const lettersOf = (bytes) =>
+  Array.from(bytes, (byte) => String.fromCharCode(64 + (byte >> 4), 64 + (byte & 15))).join('');
+
 /** A kernel as a module of TypeScript, with how it is decoded, and what it knows. */
-export function moduleOf(wasm, decoder, techniques, dimensions) {
-  const { size, ...texts } = inline(wasm);
+export function moduleOf(wasm, owners, decoder, techniques, dimensions) {
+  const { size, text } = inline(wasm, owners);
   const lines = [
     '// Made by scripts/kernel.mjs from kernel/: do not edit.',
-    ...Object.entries({ ...texts, decoder }).map(([key, value]) => `export const ${key} =\n  '${value}';`),
+    `export const text =\n  '${text}';`,
+    `export const decoder =\n  '${lettersOf(decoder)}';`,
     `export const size = ${size};`,
     `export const dimensions: readonly (2 | 3)[] = [${dimensions.join(', ')}];`,
     `export type Technique = ${techniques.map((technique) => `'${technique}'`).join(' | ')};`,

@@ -60,7 +60,7 @@ prefixed(0xfd, 84, 91, 'memory', 2); // offset and lane
 prefixed(0xfd, 92, 93, 'memory', 1);
 
 /** Reads a module from `at` on. */
-class Reader {
+export class Reader {
   constructor(bytes, at = 0) {
     this.bytes = bytes;
     this.at = at;
@@ -93,15 +93,16 @@ class Reader {
 }
 
 /** Where the functions of a module begin, and where they end; `count` of them. */
-function codeOf(wasm) {
+export function codeOf(wasm) {
   const reader = new Reader(wasm, 8);
   while (reader.at < wasm.length) {
     const section = reader.byte();
+    const { at } = reader;
     const size = reader.number();
     const last = reader.at + size;
     if (section === 10) {
       const count = reader.number();
-      return { count, from: reader.at, to: last };
+      return { count, section: at, from: reader.at, to: last };
     }
     reader.at = last;
   }
@@ -126,7 +127,7 @@ function instruction(reader) {
 }
 
 /** Every function as a list of instructions; the first stands for its locals. */
-function functionsOf(wasm, { count, from, to }) {
+export function functionsOf(wasm, { count, from, to }) {
   const reader = new Reader(wasm, from);
   const functions = Array.from({ length: count }, () => {
     const size = reader.number();
@@ -160,29 +161,28 @@ function kindsOf(instructions) {
 }
 
 /**
- * The module apart. In front, three bytes each: how many functions there are, how many kinds of instructions, and how many
- * bytes before the first function, behind the last one, in the stream of the kinds, and in each of the others. Then the
- * kinds, one property after the other; the bytes before; the streams; the bytes behind.
+ * The module apart: how many functions and kinds of instructions it has; the kinds, one property after the other; of each
+ * function the dimensions that it is for, or 0; and the bytes of its streams, in the order of the file: those before the
+ * size of the code, the kinds of all instructions, what belongs to them, and the bytes behind the code.
  */
-export function apart(wasm) {
+export function apart(wasm, owners) {
   const code = codeOf(wasm);
   const functions = functionsOf(wasm, code);
   const instructions = functions.flat();
   const kinds = kindsOf(instructions);
   const numbers = new Map(kinds.map((one, k) => [keyOf(one), k]));
-  const order = instructions.map((one) => numbers.get(keyOf(one)));
-  const filled = streams.map((name) =>
-    instructions.flatMap(({ stream, given }) => (stream === name ? [...given] : [])),
-  );
-  const head = [functions, kinds, wasm.subarray(0, code.from), wasm.subarray(code.to), order, ...filled];
-  return Uint8Array.from([
-    ...head.flatMap(({ length }) => [length & 255, (length >> 8) & 255, length >> 16]),
-    ...Array.from({ length: longest }, (_, k) => kinds.map(({ bytes }) => bytes[k] ?? 0)).flat(),
-    ...kinds.map(({ bytes, stream }) => bytes.length * 16 + streams.indexOf(stream)),
-    ...kinds.map(({ count }) => count),
-    ...wasm.subarray(0, code.from),
-    ...order,
-    ...filled.flat(),
-    ...wasm.subarray(code.to),
-  ]);
+  const given = (name) => instructions.flatMap((one) => (one.stream === name ? [...one.given] : []));
+  return {
+    counts: [functions.length, kinds.length],
+    kinds: [
+      ...Array.from({ length: longest }, (_, k) => kinds.map(({ bytes }) => bytes[k] ?? 0)).flat(),
+      ...kinds.map(({ bytes, stream }) => bytes.length * 16 + streams.indexOf(stream)),
+      ...kinds.map(({ count }) => count),
+    ],
+    before: [...wasm.subarray(0, code.section)],
+    owners: functions.map((_, k) => owners[k] ?? 0),
+    order: instructions.map((one) => numbers.get(keyOf(one))),
+    given: streams.map(given),
+    behind: [...wasm.subarray(code.to)],
+  };
 }

@@ -47,7 +47,7 @@ export class KernelInstance {
     this.touching = touching;
     this.events = events;
     this.width = 2 * dimensions;
-    this.exports = instantiate();
+    this.exports = instantiate(dimensions);
     this.ring = new Ring(this);
     this.#stackTop = this.exports.__stack_pointer.value;
     this.exports.open_space(dimensions);

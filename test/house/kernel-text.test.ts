@@ -9,7 +9,8 @@ import { read } from '../../src/kernel/load.ts';
 
 const fileOf = (name: string) =>
   new Uint8Array(readFileSync(fileURLToPath(new URL(`../../build/${name}.wasm`, import.meta.url))));
-const through = (bytes: Uint8Array) => read({ ...lean, ...inline(bytes) });
+const through = (bytes: Uint8Array, owners?: number[], unused?: number) =>
+  read({ ...lean, ...inline(bytes, owners) }, unused);
 
 /** A number as WebAssembly writes it. */
 const leb = (value: number): number[] => (value < 128 ? [value] : [(value & 127) | 128, ...leb(value >> 7)]);
@@ -78,6 +79,24 @@ test('instructions of every form come back', () => {
       expect(through(wasm)).toEqual(wasm);
     }),
   );
+});
+
+test('functions that are only for unused dimensions become traps', () => {
+  const body = [1, (300 & 127) | 128, 300 >> 7, 0x7f, ...Array(90).fill([0x20, 1, 0x1a]).flat(), 0x0b];
+  const trap = [0, 0, 0x0b];
+  const wasm = moduleOf([body, body, body], [1], [2]);
+  expect(through(wasm, [0, 2, 3], 3)).toEqual(moduleOf([body, body, trap], [1], [2]));
+  expect(through(wasm, [0, 2, 3], 2)).toEqual(moduleOf([body, trap, body], [1], [2]));
+  expect(through(wasm, [0, 2, 3])).toEqual(wasm);
+});
+
+test('about half of the kernel is for each number of dimensions', () => {
+  const whole = read(lean);
+  for (const unused of [2, 3]) {
+    const half = read(lean, unused);
+    expect(WebAssembly.validate(half)).toBe(true);
+    expect(half.length).toBeLessThan(0.7 * whole.length);
+  }
 });
 
 test('an instruction that nobody knows is told when the kernel is built', () => {
