@@ -75,6 +75,24 @@ template <int D> class GapMap {
     return false;
   }
 
+  /// What `narrowed` has made of many boxes: whether each has a size and an end, so that this is all there is to do.
+  class Sizes {
+    // As integers: what is no number, or negative, is above all others.
+    u32x4 least_ = splat(0xffffffffu), most_ = splat(0u);
+
+   public:
+    void see(f32x4 first, f32x4 last) {
+      u32x4 size = bits<u32x4>(maxima<D>(first, last) - first);
+      least_ = min(least_, size);
+      most_ = max(most_, size);
+    }
+    bool all_are_sized() const {
+      for (u32 a = 0; a < D; a++)
+        if (least_[a] == 0 || most_[a] > bits<u32>(largest)) return false;
+      return true;
+    }
+  };
+
   /// What came of rounding many boxes.
   struct Rounded {
     i32 bad = -1;  // the first that is none: what follows it is not rounded

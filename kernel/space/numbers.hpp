@@ -175,29 +175,40 @@ template <int D> class Numbers {
     f64* exact = exact_.data();
     Changes& changes = written.changes;
     const GapMap<D>& map = this->map();
-    const bool notes = !changes.all(), plain = map.plain();
-    u32 shown = written.shown(), collapsed = 0;
+    const bool notes = !changes.all();
+    typename GapMap<D>::Sizes sizes;
     Changes::Notes changed = changes.begin();
-    for (u32 k = 0; k < count; k++, box += step) {
+    const f64* from = box;
+    for (u32 k = 0; k < count; k++, from += step) {
       u32 slot = slots[k];
       f32* to = boxes + u64(slot) * width;
+      f32x4 first, last;
+      GapMap<D>::narrowed(from, first, last);
       if constexpr (rounding) {
-        collapsed += map.round(plain, box, to);
+        sizes.see(first, last);
         f64* its = exact + u64(slot) * width;
-        if (notes && differ<width * sizeof(f64)>(its, box)) changed.note(slot);
-        __builtin_memcpy(its, box, width * sizeof(f64));
+        if (notes && differ<width * sizeof(f64)>(its, from)) changed.note(slot);
+        __builtin_memcpy(its, from, width * sizeof(f64));
       } else {
-        f32x4 first, last;
-        GapMap<D>::narrowed(box, first, last);
         i32x4 other = bits<i32x4>(first) ^ load<i32x4>(to);
         if constexpr (D == 3) other |= bits<i32x4>(last) ^ load<i32x4>(to + width - 4);
         if (notes && any(other)) changed.note(slot);
-        store_box<D>(to, first, last);
       }
-      if (slot < shown) written.show(boxes, slot);
+      store_box<D>(to, first, last);
     }
-    choice_.count_more(collapsed);
     if (notes) changes.end(changed);
+    if (rounding && !(map.plain() && sizes.all_are_sized())) choice_.count_more(round_again(box, step, slots, count));
+    for (u32 k = 0; written.shown() && k < count; k++) written.show(boxes, slots[k]);
+  }
+
+  /// Rounds boxes, some of which the quick way may not have got right; returns how many collapse. All of them, since the
+  /// last of two in the same slot counts.
+  NOINLINE u32 round_again(const f64* box, u32 step, const u32* slots, u32 count) {
+    const bool plain = map().plain();
+    f32* boxes = boxes_.data();
+    u32 collapsed = 0;
+    for (u32 k = 0; k < count; k++, box += step) collapsed += map().round(plain, box, boxes + u64(slots[k]) * width);
+    return collapsed;
   }
 
   SMALL void round_all(u32 n) {

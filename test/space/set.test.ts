@@ -153,6 +153,22 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     }
   });
 
+  test('the last of two that are set at once counts, be it a point and the other not', () => {
+    const at = (low: number, size: number) => [
+      ...Array(dimensions).fill(low + 0.1),
+      ...Array(dimensions).fill(low + size + 0.1),
+    ];
+    const space = new BroadPhase({ dimensions });
+    for (let id = 0; id < 70; id++) setBox(space, id, at(100 * id, 10));
+    space.update();
+    setBox(space, 1, at(-500, 10));
+    setBox(space, 1, at(5, 0));
+    setBox(space, 2, at(-700, 0));
+    setBox(space, 2, at(305, 7));
+    space.validate().update();
+    expect(keysOf(space.pairs)).toEqual(keysOf(Uint32Array.of(0, 1, 2, 3)));
+  });
+
   test('one that is set to and fro between two updates stays a pair of what it touches', () => {
     const space = new BroadPhase({ dimensions });
     const here = Array(2 * dimensions).fill(5);
