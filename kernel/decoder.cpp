@@ -22,12 +22,13 @@ bool has_meaning(u8 character) {
 // pair, or another byte of the same number.
 u8 places[end], bytes[end], more[end];
 constexpr u8 more_bit = 0x80;
+u8 rare[256];  // in ascending order, the bytes that no character stands for alone
 
 [[gnu::noinline]] u8 pair_at(const u8* at) { return places[at[0]] * letters + places[at[1]]; }
 
 [[gnu::always_inline]] u8 read(const u8*& from) {
   u8 character = *from++;
-  return character < first_single ? pair_at(from++ - 1) : bytes[character];
+  return character < first_single ? rare[pair_at(from++ - 1)] : bytes[character];
 }
 [[gnu::noinline]] u8 read_one(const u8*& from) { return read(from); }
 
@@ -47,14 +48,19 @@ void read_alphabet(const u8*& from) {
   u8 place = 0;
   for (u8 c = first; c < end; c++)
     if (!has_meaning(c)) places[c] = place++;
+  static bool alone[256];
   for (u8 c = first; c < end; c++) {
-    if (has_meaning(c)) continue;
-    if (c >= first_single) {
-      bytes[c] = pair_at(from);
-      from += 2;
-    }
-    more[c] = c < first_single ? more_bit : bytes[c] & more_bit;
+    more[c] = more_bit;
+    if (has_meaning(c) || c < first_single) continue;
+    u8 byte = pair_at(from);
+    from += 2;
+    bytes[c] = byte;
+    more[c] = byte & more_bit;
+    alone[byte] = true;
   }
+  u8* next = rare;
+  for (u32 byte = 0; byte < 256; byte++)
+    if (!alone[byte]) *next++ = u8(byte);
 }
 
 // As in scripts/streams.mjs.

@@ -12,12 +12,12 @@ const characters = Array.from({ length: 94 }, (_, k) => String.fromCharCode(33 +
 const prefixes = 3;
 const single = characters.length - prefixes;
 
-/** A byte as a pair. */
-const pairOf = (byte) => characters[Math.floor(byte / characters.length)] + characters[byte % characters.length];
+/** A number below 256 as a pair. */
+const pairOf = (number) => characters[Math.floor(number / characters.length)] + characters[number % characters.length];
 
 /**
  * A module of WebAssembly, of `size` bytes, as text: the bytes that are one character each, as pairs; the counts and
- * lengths; the streams. `owners`: of each of its functions, the dimensions that it is for, where it is for some only.
+ * lengths; the streams. Of all other bytes, a pair is the place among them. `owners`: of each of its functions, the dimensions that it is for, where it is for some only.
  */
 export function inline(wasm, owners = []) {
   const { counts, kinds, before, owners: owned, order, given, behind } = apart(wasm, owners);
@@ -26,7 +26,8 @@ export function inline(wasm, owners = []) {
   for (const byte of all.flat()) often[byte]++;
   const bytes = Array.from(often.keys()).sort((a, b) => often[b] - often[a] || a - b);
   const written = [];
-  for (const [k, byte] of bytes.entries()) written[byte] = k < single ? characters[prefixes + k] : pairOf(byte);
+  for (const [k, byte] of bytes.slice(0, single).entries()) written[byte] = characters[prefixes + k];
+  for (const [k, byte] of bytes.slice(single).sort((a, b) => a - b).entries()) written[byte] = pairOf(k);
   const textOf = (stream) => stream.map((byte) => written[byte]).join('');
   // Where a stream ends is told in characters, but for the first and the last, which are read at once.
   const lengths = [before.length, behind.length, ...[owned, order, ...given].map((stream) => textOf(stream).length)];
