@@ -295,36 +295,35 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     return this;
   }
   filterOf(id: number): rules.Filter | undefined {
-    const rule = rules.ruleOf(this.#instance, 'filterOf', id);
-    return rule && { layer: rule[0]!, mask: rule[1]! };
+    return rules.filterOf(this.#instance, id);
   }
   setStatic(id: number, isStatic = true): this {
     rules.setStatic(this.#instance, id, isStatic);
     return this;
   }
   isStatic(id: number): boolean {
-    return rules.ruleOf(this.#instance, 'isStatic', id)?.[2] === 1;
+    return rules.isStatic(this.#instance, id);
   }
   setEnabled(id: number, enabled: boolean): this {
     rules.setEnabled(this.#instance, id, enabled);
     return this;
   }
   isEnabled(id: number): boolean {
-    return rules.ruleOf(this.#instance, 'isEnabled', id)?.[3] === 1;
+    return rules.isEnabled(this.#instance, id);
   }
   setGroup(id: number, group: number): this {
     rules.setGroup(this.#instance, id, group);
     return this;
   }
   groupOf(id: number): number | undefined {
-    return rules.ruleOf(this.#instance, 'groupOf', id)?.[4];
+    return rules.groupOf(this.#instance, id);
   }
   setReach(id: number, distance: number): this {
     rules.setReach(this.#instance, id, distance);
     return this;
   }
   reachOf(id: number): number | undefined {
-    return rules.ruleOf(this.#instance, 'reachOf', id)?.[5];
+    return rules.reachOf(this.#instance, id);
   }
 
   update(): this {

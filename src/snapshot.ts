@@ -2,7 +2,7 @@
 import { badInPlace } from './boxes.ts';
 import type { Dimensions } from './dimensions.ts';
 import { badValue } from './errors.ts';
-import { snapshotFaults, techniques } from './generated/abi.ts';
+import { boxesAt, snapshotFaults, techniques } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { readStats, type Stats } from './stats.ts';
 import { bytesOf } from './values.ts';
@@ -58,10 +58,10 @@ function restored(instance: KernelInstance, source: Uint8Array, stats: Stats): v
   readStats(instance, stats);
 }
 
-/** Where the boxes stand: elsewhere once others were restored. */
+/** The address of the boxes, which changes when others are restored. */
 function placeOf(instance: KernelInstance): number {
   instance.kernel.contents();
-  return instance.io()[1]!;
+  return instance.io()[boxesAt]!;
 }
 
 /** What was given to `restore`, as bytes. */

@@ -1,5 +1,6 @@
 // How broadphase/trace sees what stands in a space: a method under a registered symbol, since the two entries of the
 // package are bundled apart and share nothing else.
+import { boxesAt, doublesAt, groupsAt, idsAt, reachesAt, rulesAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 
 /** What the options of a space say about pairs. */
@@ -37,17 +38,17 @@ export type Watcher = (
 /** Shows a watcher what stands in a space. */
 export function show(instance: KernelInstance, watcher: Watcher): void {
   instance.kernel.contents();
-  const [ids, boxes, doubles, rules, groups, reaches] = instance.io();
+  const io = instance.io();
   const { size } = instance;
   const { buffer } = instance.kernel.memory;
   const length = size * instance.width;
+  const words = (place: number, count: number) => (io[place] ? new Uint32Array(buffer, io[place], count) : undefined);
+  const doubles = (place: number, count: number) =>
+    io[place] ? new Float64Array(buffer, io[place], count) : undefined;
   watcher(
-    doubles ? new Float64Array(buffer, doubles, length) : new Float32Array(buffer, boxes, length),
-    ids ? new Uint32Array(buffer, ids, size) : undefined,
-    rules ? new Uint32Array(buffer, rules, 3 * size) : undefined,
-    {
-      groups: groups ? new Uint32Array(buffer, groups, size) : undefined,
-      reaches: reaches ? new Float64Array(buffer, reaches, size) : undefined,
-    },
+    doubles(doublesAt, length) ?? new Float32Array(buffer, io[boxesAt], length),
+    words(idsAt, size),
+    words(rulesAt, 3 * size),
+    { groups: words(groupsAt, size), reaches: doubles(reachesAt, size) },
   );
 }

@@ -9,7 +9,8 @@
 
 template <int D> struct Ring {
   static constexpr u32 most_entries = 512, batch = 64;  // entries
-  static constexpr u32 step = 2 * D + 1;        // numbers per entry: the id, then the box
+  static constexpr u32 step = 2 * D + 1;  // numbers per entry: the id, then the box
+  static constexpr u32 head = 3;          // numbers before the entries
 
   f64 dense;  // the ids 0 … dense - 1 are in the space
   f64 room;   // how many more may be added after them
@@ -20,3 +21,4 @@ template <int D> struct Ring {
   /// its range.
   static u32 id(const f64* entry) { return u32(bits<u64>(*entry + 0x1p52)); }
 };
+static_assert(offsetof(Ring<2>, entries) == Ring<2>::head * sizeof(f64));

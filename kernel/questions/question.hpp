@@ -6,7 +6,7 @@
 template <int D> struct Question {
   f64 lo[D] = {}, hi[D] = {};  // the box, which may be a point
   f64 along[D] = {};  // the displacement of a moving box
-  f64 radius = 0;  // of a circle; negative: none, or `within`
+  f64 radius = 0;  // of a circle; or one of the codes below
   f64 limit = 0;  // the largest rank
   f64 length = 0;  // of the path, if hits are ranked by distance; 1 if by time
   bool stops = false;  // the caller stops the box at the time of a hit: see meeting.hpp
@@ -15,7 +15,8 @@ template <int D> struct Question {
   u32 ignored = 0;  // an id
   u32 layer = 0;  // if a box of another space asks: that box's own layer; else 0
 
-  static constexpr f64 within = -2;  // instead of a radius: only boxes wholly within the box
+  // Instead of a radius: the query is for a box, or only for boxes wholly within it.
+  static constexpr f64 no_circle = -1, within = -2;
 
   /// Sets `length`, without overflow. A ray ranks by distance.
   SMALL void measure_way(bool is_ray) {

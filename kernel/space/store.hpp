@@ -11,6 +11,9 @@
 #include "space/room_ahead.hpp"
 #include "space/seen.hpp"
 
+/// The contents of a space, for a recorder. 0 for ids that are the slots, and for what no box has.
+enum ContentsPlace : u32 { ids_at, boxes_at, doubles_at, rules_at, groups_at, reaches_at };
+
 template <int D> class Store {
   static constexpr u32 width = 2 * D;
   // With more boxes than this, slots no longer fit the cache, and a batch is prefetched: see Ring.
@@ -119,15 +122,14 @@ template <int D> class Store {
     numbers.written.renamed = true;
   }
 
-  /// The addresses of all contents, for a recorder, right after an update: ids (0: slots), boxes, the doubles they were
-  /// given as (0: none), rules, groups and reaches (0: none).
+  /// Writes the addresses of all contents, in the order of ContentsPlace.
   SMALL void contents(f64* out) const {
-    out[0] = f64(u64(ids.names()));
-    out[1] = f64(u64(numbers.boxes()));
-    out[2] = f64(u64(numbers.exact()));
-    out[3] = f64(u64(own.rules()));
-    out[4] = f64(u64(own.groups.data()));
-    out[5] = f64(u64(own.reaches.data()));
+    out[ids_at] = f64(u64(ids.names()));
+    out[boxes_at] = f64(u64(numbers.boxes()));
+    out[doubles_at] = f64(u64(numbers.exact()));
+    out[rules_at] = f64(u64(own.rules()));
+    out[groups_at] = f64(u64(own.groups.data()));
+    out[reaches_at] = f64(u64(own.reaches.data()));
   }
 
   /// Replaces all boxes by the staged ones, as ids 0 … count - 1. Returns the first bad id, or -1; if there is one,

@@ -1,9 +1,9 @@
 // One instance of the kernel, which is one space: its functions, views of its memory, and what to do when that ends.
 // Growing memory cuts views off: their length is then 0, and they are made again.
 import type { Dimensions } from '../dimensions.ts';
-import { ioLength, type KernelExports, statsLength } from '../generated/abi.ts';
+import { ioLength, type KernelExports, ringHead, statsLength } from '../generated/abi.ts';
 import { instantiate } from './load.ts';
-import { Ring, ringHead } from './ring.ts';
+import { Ring } from './ring.ts';
 
 /** A number of views kept, so that pair counts seen lately make no garbage. */
 const viewsKept = 256;

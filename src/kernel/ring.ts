@@ -1,12 +1,9 @@
 // Boxes that were set and wait to be taken by the kernel, in its memory: see kernel/boxes/ring.hpp. Why: a call into
 // WebAssembly for each box would take several times as long as writing it.
 // A box may wait where taking it cannot fail: its id is in the space, or the next one that there is room for.
+import { ringCapacity, ringHead } from '../generated/abi.ts';
 import type { KernelInstance } from './instance.ts';
 
-/** Numbers at the beginning of the ring, in which the kernel says what may wait there; then the boxes begin. */
-export const ringHead = 3;
-/** How many boxes it holds. */
-const capacity = 512;
 /** Behind the last word of any memory. */
 const nowhere = 2 ** 30;
 
@@ -99,7 +96,7 @@ export class Ring {
     this.numbers = new Float64Array(
       exports.memory.buffer,
       exports.ring_address(),
-      ringHead + capacity * (this.width + 1),
+      ringHead + ringCapacity * (this.width + 1),
     );
   }
 }
