@@ -1,6 +1,6 @@
-// The queries about places: who collides with whom, and what is in a box, at a point, or in a circle.
+// The queries about places: which boxes collide, and which are in a box, at a point, or in a circle.
 import { area, copyIds, isNumber, number, point } from './answers.ts';
-import { badQuestion, badValue, checkId, checkOut, corners } from './errors.ts';
+import { badQuery, badValue, checkId, checkOut, corners } from './errors.ts';
 import { noCircle, radiusAt, within } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { type BoxOptions, boxOptions, checkDistance, type IdsOptions } from './query-options.ts';
@@ -38,13 +38,13 @@ export function queryBox(
   const io = instance.io();
   if (instance.width === 4) {
     if (!(isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d) || f !== undefined) {
-      badQuestion('queryBox', [a, b, c, d, e, f, options], corners[2], number);
+      badQuery('queryBox', [a, b, c, d, e, f, options], corners[2], number);
     }
     options = e as BoxOptions | undefined;
   } else {
     const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && isNumber(e) && isNumber(f);
     if (!(good && a <= d && b <= e && c <= f)) {
-      badQuestion('queryBox', [a, b, c, d, e, f], corners[3], number);
+      badQuery('queryBox', [a, b, c, d, e, f], corners[3], number);
     }
     io[4] = e;
     io[5] = f;

@@ -75,7 +75,7 @@ describe('help and wrong command lines', () => {
     [['replay', small, '--technique', 'magic'], 'no magic, expected one of brute-force'],
     [['replay', small, '--technique', 'auto,auto'], 'expected one name'],
     [['replay', small, '--cell-size', '-1'], '--cell-size'],
-    [['replay', small, '--cell-size', '1,2,3'], '2 with commas'],
+    [['replay', small, '--cell-size', '1,2,3'], '2 separated by commas'],
     [['replay', small, '--frames', '3..9'], 'from 0 to 5'],
     [['compare', small, '--passes', '0'], '--passes is 0'],
     [['tune', small, '--seconds', 'long'], '--seconds is long'],

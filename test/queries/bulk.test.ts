@@ -189,33 +189,29 @@ describe('what is refused', () => {
     [
       'NaN',
       () => space.queryBoxes([0, 0, 1, 1, 0, Number.NaN, 1, 1], { out }),
-      'queryBoxes: question 1: minY: got NaN, expected a number',
+      'queryBoxes: query 1: minY: got NaN, expected a number',
     ],
     [
       'a string',
       () => space.queryPoints([0, 0, 1, '2' as never]),
-      'queryPoints: question 1: y: got "2", expected a number',
+      'queryPoints: query 1: y: got "2", expected a number',
     ],
     [
       'a box inside out',
       () => space.queryBoxes([2, 0, 1, 1]),
-      'queryBoxes: question 0: minX: got 2, expected no more than maxX, which is 1',
+      'queryBoxes: query 0: minX: got 2, expected no more than maxX, which is 1',
     ],
     [
       'an infinite point',
       () => space.nearests([0, Infinity], 1),
-      'nearests: question 0: y: got Infinity, expected a finite number',
+      'nearests: query 0: y: got Infinity, expected a finite number',
     ],
     [
       'a radius',
       () => space.queryCircles([0, 0, -1]),
-      'queryCircles: question 0: radius: got -1, expected a number, at least 0',
+      'queryCircles: query 0: radius: got -1, expected a number, at least 0',
     ],
-    [
-      'a centre',
-      () => space.queryCircles([0, Number.NaN, 1]),
-      'queryCircles: question 0: y: got NaN, expected a number',
-    ],
+    ['a centre', () => space.queryCircles([0, Number.NaN, 1]), 'queryCircles: query 0: y: got NaN, expected a number'],
     ['k', () => space.nearests([0, 0], 0), 'nearests: k: got 0, expected an integer from 1 on, or Infinity'],
     [
       'too few to ignore',
@@ -236,7 +232,7 @@ describe('what is refused', () => {
     [
       'a way',
       () => space.sweeps([0, 0, 1, 1, Infinity, 0]),
-      'sweeps: question 0: dx: got Infinity, expected a finite number',
+      'sweeps: query 0: dx: got Infinity, expected a finite number',
     ],
   ];
   test.each(bad)('%s', (_, call, message) => {

@@ -133,7 +133,8 @@ describe('its own words', () => {
       const { out } = await run(argv, columns, columns);
       const table = out.split('\n\n').find((part) => part.includes('─'))!;
       for (const line of table.split('\n').slice(0, 3)) expect(line.length, line).toBeLessThanOrEqual(columns);
-      if (argv[0] === 'replay') expect(out).toMatch(/not shown, for lack of room: .*memory; --json has all/);
+      if (argv[0] === 'replay')
+        expect(out).toMatch(/not shown, as the terminal is too narrow: .*memory; --json has all/);
     }
     expect((await run(['replay', small], columns)).out).toContain('memory');
   });

@@ -128,14 +128,14 @@ describe(`in a world that wraps around (SEED=${seed})`, () => {
     expect(space.rayCast(50, 25, 1, 0)).toBeUndefined();
     expect(space.rayCastAll(15, 0, 0, 1, { maxDistance: 300 })).toEqual([{ id: 1, distance: 10, normal: [0, -1] }]);
     expect(space.sweep(50, 12, 52, 14, 70, 0)?.time).toBe(58 / 70);
-    const most = 'expected at most 50000, since each world on the way costs a search';
+    const most = 'expected at most 50000, since each world on the path costs a search';
     expect(() => space.rayCast(0, 0, 1, 0, { maxDistance: 1e9 })).toThrow(
       `rayCast: maxDistance: got 1000000000, ${most}`,
     );
     expect(() => space.rayCasts([0, 0, 1, 0], { maxDistance: 1e9 })).toThrow('rayCasts: maxDistance: got 1000000000');
-    expect(() => space.sweep(0, 0, 1, 1, 0, -1e9)).toThrow(`sweep: the way: got -1000000000, ${most}`);
+    expect(() => space.sweep(0, 0, 1, 1, 0, -1e9)).toThrow(`sweep: the motion: got -1000000000, ${most}`);
     expect(() => space.sweeps([0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 1e9])).toThrow(
-      'sweeps: question 1: the way: got 1000000000',
+      'sweeps: query 1: the motion: got 1000000000',
     );
   });
 
