@@ -1,4 +1,4 @@
-// Many questions in one call: each is answered as by a look at every box, whatever the order inside.
+// Many queries in one call: each is answered as by a look at every box, whatever the order inside.
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
@@ -18,7 +18,7 @@ type Call = (...given: unknown[]) => Many;
 const ascending = (ids: Iterable<number>) => [...ids].sort((a, b) => a - b);
 const idsOf = ({ ids, offsets }: Many, k: number) => [...ids.subarray(offsets[k], offsets[k + 1])];
 
-/** The hits of a question, as the reference has them. */
+/** The hits of a query, as the reference has them. */
 function hitsOf(answer: Many, k: number, dimensions: number): Ranked[] {
   const ranks = answer.distances ?? answer.times!;
   return idsOf(answer, k).map((id, n) => {
@@ -79,21 +79,21 @@ class Scene {
 
 const cases = [2, 3].flatMap((d) => [true, false].map((single) => [d as 2 | 3, single] as const));
 describe.each(cases)('in %iD, of float32 (%s)', (dimensions, single) => {
-  test('each question is answered as by a look at every box', () => {
+  test('each query is answered as by a look at every box', () => {
     const seed = Number(process.env.SEED ?? 41);
     console.info(`seed ${seed}`);
     const scene = new Scene(dimensions, single, seed);
     const call = scene.space as unknown as Record<string, Call>;
     const kept: Record<string, Many> = {};
-    const ask = (name: string, questions: number[][], options: object, k?: number) => {
-      const numbers = questions.flat();
+    const ask = (name: string, queries: number[][], options: object, k?: number) => {
+      const numbers = queries.flat();
       const given = scene.random() < 0.5 ? numbers : new Float64Array(numbers);
       const rest = k === undefined ? [] : [k];
       const fresh = call[name]!(given, ...rest, options);
       kept[name] = call[name]!(given, ...rest, { ...options, out: kept[name] });
-      expect(kept[name].offsets.subarray(0, questions.length + 1), name).toEqual(fresh.offsets);
+      expect(kept[name].offsets.subarray(0, queries.length + 1), name).toEqual(fresh.offsets);
       expect(kept[name].ids.subarray(0, fresh.ids.length), name).toEqual(fresh.ids);
-      expect(fresh.offsets.length).toBe(questions.length + 1);
+      expect(fresh.offsets.length).toBe(queries.length + 1);
       expect(fresh.offsets.at(-1)).toBe(fresh.ids.length);
       return fresh;
     };

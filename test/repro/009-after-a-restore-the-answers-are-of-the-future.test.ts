@@ -1,5 +1,5 @@
 // After `restore` pairs and answers were those of the frames that had been taken back, until the next update: games that
-// ask first ran out of step. And the very first question saw boxes as they were, later ones as of the last update.
+// ask first ran out of step. And the very first query saw boxes as they were, later ones as of the last update.
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 
@@ -53,7 +53,7 @@ test.each<[string, (space: BroadPhase) => void]>([
   ['setAll', (space) => space.setAll([7, 7, 8, 8])],
   ['boxes', (space) => space.boxes(2).fill(3)],
   ['setFilter', (space) => space.setFilter(0, 8, 8)],
-])('the first question after %s sees what later ones see: the last update', (_, change) => {
+])('the first query after %s sees what later ones see: the last update', (_, change) => {
   const [early, late] = [make(), make()];
   for (const space of [early, late]) start(space);
   const expected = answers(early);

@@ -308,9 +308,9 @@ describe('views of memory', () => {
     expect(space.stats.pairs).toBe(1);
   });
 
-  // What a game does with its pairs: boxes come and go meanwhile, and questions are asked.
+  // What a game does with its pairs: boxes come and go meanwhile, and queries are asked.
   test.each([2, 3] as const)(
-    'of pairs stay while a few boxes are added and questions asked, in %d dimensions',
+    'of pairs stay while a few boxes are added and queries asked, in %d dimensions',
     (dimensions) => {
       const calls: ((space: BroadPhase<2 | 3>, count: number) => unknown)[] = [
         (space, count) => setBox(space, count, Array(2 * dimensions).fill(count)),

@@ -99,7 +99,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     expect(space.get(5, [])).toEqual(point(9));
   });
 
-  test('the first question sees the last update, the outermost cells and the invariants what was set since', () => {
+  test('the first query sees the last update, the outermost cells and the invariants what was set since', () => {
     const point = (x: number) => Array<number>(dimensions).fill(x);
     const space = new BroadPhase({ dimensions, technique: 'incremental' });
     for (let id = 0; id < 500; id++) setBox(space, id, [...point(id), ...point(id + 1)]);

@@ -1,4 +1,4 @@
-// Spaces and questions in which boxes that only touch do not overlap. SEED=… runs the same sequences again.
+// Spaces and queries in which boxes that only touch do not overlap. SEED=… runs the same sequences again.
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { exactPairs } from '../../src/trace/exact.ts';
@@ -141,7 +141,7 @@ describe.each(BroadPhase.techniques)('%s', (technique) => {
   });
 });
 
-describe.each([2, 3] as const)('questions in %d dimensions', (dimensions) => {
+describe.each([2, 3] as const)('queries in %d dimensions', (dimensions) => {
   test.each([
     ['doubles', undefined, true],
     ['float32', whole, true],
