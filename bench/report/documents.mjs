@@ -8,7 +8,7 @@ import {
   objectsOthers,
   objectsTable,
   onceTable,
-  questionsTable,
+  queriesTable,
   scenesTable,
   techniquesTable,
 } from './tables.mjs';
@@ -71,7 +71,7 @@ export function figuresPage(record) {
       '`update` alone; the fastest is in bold.',
       techniquesTable(record),
     ),
-    part('questions', '## Questions', '1,000 queries per frame.', questionsTable(record)),
+    part('queries', '## Queries', '1,000 queries per frame.', queriesTable(record)),
     part('native', '## Native libraries, side by side', versionsOf(record), nativeTable(record)),
   );
 }

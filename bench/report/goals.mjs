@@ -62,9 +62,7 @@ function atMost(goal, value, limit, unit) {
 
 export function goals(record) {
   const [objects, scenes, motions] = ['objects', 'scenes', 'motions'].map((kind) => ofKind(record, kind));
-  const [movers, once, questions, native] = ['movers', 'once', 'questions', 'native'].map((kind) =>
-    ofKind(record, kind),
-  );
+  const [movers, once, queries, native] = ['movers', 'once', 'queries', 'native'].map((kind) => ofKind(record, kind));
   const held = motions.filter(({ count }) => count >= 10_000);
   const large = scenes.filter(({ count, numbers }) => count === 100_000 && numbers === 'float32');
   const totalOf = (row, name) => named(row, name)?.total.median;
@@ -176,7 +174,7 @@ export function goals(record) {
     ),
     inAll(
       'every query: ahead of every npm package',
-      questions,
+      queries,
       (row) => over(fastest(row, isPackage)?.total.median, totalOf(row, 'broadphase')),
       1,
       times,

@@ -116,9 +116,9 @@ export const motionsTable = (record, kind) => {
     .join('\n\n');
 };
 
-export function questionsTable(record) {
+export function queriesTable(record) {
   const titles = ['query', 'boxes', '`broadphase`', 'the fastest npm package', 'that is', 'answers'];
-  const cells = ofKind(record, 'questions').map((row) => {
+  const cells = ofKind(record, 'queries').map((row) => {
     const [ours, peer] = [named(row, 'broadphase'), fastest(row, isPackage)];
     const when = row.still ? '' : ' after an update of all';
     const name = `\`${row.name.replace('-moved', '')}\`${when}`;

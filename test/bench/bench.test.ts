@@ -169,7 +169,7 @@ describe('documents', () => {
       '## Cold',
       '## Scenes',
       '### Techniques',
-      '## Questions',
+      '## Queries',
       '## Native libraries, side by side',
     ]);
     expect(page).toContain('of commit abc1234');
