@@ -38,7 +38,7 @@ class Ids {
     named_ = true;
   }
 
-  /// Gives the slots sequence numbers, for the first time, or anew from 0 before they overflow.
+  /// Gives the slots sequence numbers, for the first time, or again from 0 before they overflow.
   SMALL void number_slots() {
     if (clock_ == 0) {
       since_.reserve(larger(count_, 1u));

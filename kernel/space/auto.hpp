@@ -1,10 +1,10 @@
 // Which technique `auto` runs in an update, and why. The choices (their wording for users is that of Reason in
 // search/stats.hpp):
-// - A handful of boxes: brute force, which costs less than measuring them first.
+//   - A handful of boxes: brute force, which costs less than measuring them first.
 //   - From the first snapshot on, strip sweep: it retains nothing, so that earlier updates do not affect the order of
 //     pairs.
-// - Otherwise incremental, which uses its candidates while that costs less, and strip sweep while it does not. It
-// decides by counting work, not time.
+//   - Otherwise incremental, which uses its candidates while that costs less, and strip sweep while it does not.
+//     It decides by counting work, not time.
 #pragma once
 #include "search/stats.hpp"
 #include "space/snapshot.hpp"

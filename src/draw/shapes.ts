@@ -144,7 +144,7 @@ function centre(box: Float64Array): Float64Array {
   return Float64Array.from({ length: half }, (_, axis) => box[axis] + (box[half + axis] - box[axis]) / 2);
 }
 
-/** @throws TypeError or RangeError where a ray is no list of so many numbers */
+/** @throws TypeError or RangeError if a ray is not a list of the right number of numbers */
 export function checkRay(where: string, ray: unknown, dimensions: 2 | 3): asserts ray is readonly number[] {
   const least = 2 * dimensions;
   if (Array.isArray(ray) && (ray.length === least || ray.length === least + 1)) return;

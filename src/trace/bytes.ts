@@ -58,7 +58,7 @@ export class Cursor {
     throw new TraceError(what, this.#frame, this.#offset + this.at);
   }
 
-  /** Checks that so many bytes are left, before anything of that size is allocated or read. */
+  /** Checks that this many bytes are left, before anything of that size is allocated or read. */
   need(count: number, what: string): void {
     if (count > this.left) this.fail(`${what} would take ${count} bytes, and the frame has ${this.left} left`);
   }

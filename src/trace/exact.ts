@@ -106,7 +106,7 @@ function whole(x: number): bigint {
   return x < 0 ? -size : size;
 }
 
-/** The pairs [a, b, a, b, …] as such a set; duplicates remain. */
+/** The pairs [a, b, a, b, …] as a sorted set, in which duplicates remain. */
 export function pairKeys(pairs: ArrayLike<number>): Float64Array {
   return Float64Array.from({ length: pairs.length / 2 }, (_, k) => key(pairs[2 * k], pairs[2 * k + 1])).sort();
 }
