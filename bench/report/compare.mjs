@@ -43,5 +43,5 @@ export function compare(before, after) {
       short(is),
       times(ratio),
     ]);
-  return `${head}${others}\n\n${markdownTable(['row', 'boxes', 'contender', 'before, ms', 'after, ms', 'that is'], cells)}`;
+  return `${head}${others}\n\n${markdownTable(['row', 'boxes', 'contender', 'before, ms', 'after, ms', 'ratio'], cells)}`;
 }

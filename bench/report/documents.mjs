@@ -118,7 +118,7 @@ export function headlineOf(record) {
     'A whole frame of a game: its things are objects, their boxes are given, all pairs found, and both things of each pair read.',
     worthTable(record, headlineThings),
     'The kernel alone, with boxes written in place as float32. `uniform`: all move; `mixed`: sizes from 2 to 2,000; `static`: 5 % move; `rain`: a recorded Box2D game.',
-    markdownTable(['scene', 'boxes', 'pairs', '`auto`', 'the fastest npm package', 'that is'], cells),
+    markdownTable(['scene', 'boxes', 'pairs', '`auto`', 'the fastest npm package', 'ratio'], cells),
   );
 }
 

@@ -63,7 +63,7 @@ export function scenesTable(record) {
     '`auto`',
     'in doubles',
     'the fastest npm package',
-    'that is',
+    'ratio',
     'in frames',
   ];
   const cells = rows.map((row) => {
@@ -117,7 +117,7 @@ export const motionsTable = (record, kind) => {
 };
 
 export function queriesTable(record) {
-  const titles = ['query', 'boxes', '`broadphase`', 'the fastest npm package', 'that is', 'answers'];
+  const titles = ['query', 'boxes', '`broadphase`', 'the fastest npm package', 'ratio', 'answers'];
   const cells = ofKind(record, 'queries').map((row) => {
     const [ours, peer] = [named(row, 'broadphase'), fastest(row, isPackage)];
     const when = row.still ? '' : ' after an update of all';
