@@ -11,7 +11,7 @@ export function adviceOf(row) {
   const isEnough = (name) => named(row, name)?.total.median < missed * frame;
   if (isEnough('brute force')) return 'fifteen lines';
   const byHand = ['sort and sweep', 'grid in a Map'].find(isEnough);
-  return byHand ?? 'this';
+  return byHand ?? '`broadphase`';
 }
 
 /** Whole frames from objects, and what is enough. `counts`: only so many things. */
@@ -19,12 +19,12 @@ export function worthTable(record, counts) {
   const rows = ofKind(record, 'objects').filter(({ count }) => !counts || counts.includes(count));
   const titles = [
     'things',
-    'enough is',
+    'fast enough',
     'brute force',
     'sort and sweep',
     'grid in a Map',
     'the fastest npm package',
-    'this, by `set`',
+    '`broadphase`, by `set`',
     'by `boxes()`',
   ];
   const cells = rows.map((row) => {
