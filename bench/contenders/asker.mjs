@@ -1,4 +1,4 @@
-// Who answers queries, as a contender: what it finds are pairs of a box and the number of a query.
+// A library that answers queries, as a contender: its results are pairs of a box and the number of a query.
 import { asking, makeQueries } from '../harness/queries.mjs';
 
 export async function create({ variant, row, scene, ...rest }) {

@@ -1,14 +1,14 @@
-// Queries asked between frames: seeded ones about a scene, and the exact answers.
-// In a frame 1,000 queries are asked. Answers are written as pairs are, [id, count + number of the query, …], so
-// that all that compares pairs compares answers. Queries are of float32 numbers, as the boxes are.
+// Queries between frames: seeded ones on a scene, and the exact answers. A frame has 1,000 queries. Answers are written
+// like pairs, [id, count + number of the query, …], so that code that compares pairs compares answers. Queries have
+// float32 numbers, like the boxes.
 import { createRandom } from '../../build/bench/library.mjs';
 
 const asked = 1000;
 /** How wide a queried box is, among boxes 10 wide that fill a quarter of the world: about 20 answers. */
 const width = { 2: 80, 3: 34 };
-/** The share of the world that a large one covers. */
+/** The share of the world that a large query box covers. */
 const share = 0.01;
-/** How many of the nearest are wanted. */
+/** The number of nearest boxes to find. */
 export const most = 10;
 /** How far a ray reaches: nearly all meet something. */
 export const reach = 200;
@@ -16,12 +16,15 @@ export const reach = 200;
 /** Numbers of a query: a box; a point; a point and a direction. */
 const numbers = { queryBox: (d) => 2 * d, nearest: (d) => d, rayCast: (d) => 2 * d };
 
-/** How far from all boxes rays begin: in the frames that are checked none begins in a box, and one box is met first. */
+/**
+ * The distance from all boxes at which rays begin: in the frames that are checked none begins in a box, and the first
+ * box met is unique.
+ */
 const clear = 4;
-/** Of the grid by which such places are found. */
+/** Cells of the grid that finds such places. */
 const cell = 5;
 
-/** Seeded queries about a scene. */
+/** Seeded queries on a scene. */
 export function makeQueries({ asks, query }, scene, seed) {
   const { dimensions, world } = scene;
   const isClear = query === 'rayCast' ? clearance(scene) : () => true;
@@ -41,7 +44,7 @@ export function makeQueries({ asks, query }, scene, seed) {
   return list;
 }
 
-/** Makes a contender of pairs of one that answers queries. `untimed`: it is asked for its answers only. */
+/** Turns a library that answers queries into a contender that finds pairs. `untimed`: only its answers are wanted. */
 export function asking(asker, item, queries, { dimensions, count }) {
   const stride = numbers[item.query](dimensions);
   let known = false;
@@ -99,7 +102,7 @@ export function lengthOf(q, at, dimensions) {
   return Math.sqrt(sum);
 }
 
-/** Says of a point in the world whether it is clear of all boxes: by cells, all that a box may be near are marked. */
+/** Tests whether a point is clear of all boxes, by a grid in which all cells near a box are marked. */
 function clearance({ dimensions, boxes, count, world }) {
   const side = Math.ceil(world / cell) + 1;
   const taken = new Uint8Array(side ** dimensions);

@@ -1,6 +1,6 @@
-// Queries between frames: 1,000 of them a frame, of boxes that stay, and right after an update of all boxes, when most
-// must make an index first. There our update finds all pairs as well, and anew. Boxes move by little, so that no ray comes
-// to begin in a box, of which libraries say different things.
+// Queries between frames: 1,000 per frame, on boxes at rest, and right after an update of all boxes, when most
+// libraries must build an index first. Our update also finds all pairs then, with a full rebuild. Boxes move little, so
+// that no ray comes to begin in a box, for which libraries give different answers.
 import { readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
@@ -30,7 +30,7 @@ export async function rows({ names, counts, dimensions = [2, 3], full }) {
     .filter(({ name }) => !names || names.includes(name));
 }
 
-/** Ours is the first. */
+/** Ours comes first. */
 async function askersThereAre() {
   const files = readdirSync(path('../askers'))
     .filter((file) => file.endsWith('.mjs'))

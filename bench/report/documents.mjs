@@ -1,4 +1,4 @@
-// Documents out of a record of results: docs/figures.md, and the tables of README.md and of docs/guides/worth-it.md.
+// Documents made from a record of results: docs/figures.md, and the tables of README.md and of docs/guides/worth-it.md.
 import { goals } from './goals.mjs';
 import { fastest, isPackage, named, ofKind } from './rows.mjs';
 import {
@@ -20,7 +20,7 @@ const joined = (...parts) => parts.filter(Boolean).join('\n\n');
 const originOf = ({ machine, date, commit, cut }) =>
   `Milliseconds, medians, one thread, on ${machine.cpu} (${machine.system}, Node ${machine.node}), ${date.slice(0, 10)}, of commit ${commit}.${cut ? ` ${cut}` : ''}`;
 
-/** The page, of those kinds that there are rows of. */
+/** The page, with the kinds that have rows. */
 export function figuresPage(record) {
   const has = (kind) => record.rows.some((row) => row.kind === kind);
   const part = (kind, ...text) => has(kind) && joined(...text);
@@ -133,7 +133,7 @@ export const worthOf = (record) =>
 
 const [begin, end] = ['<!-- figures: written by npm run bench -->', '<!-- end of figures -->'];
 
-/** A document with what stands between its two marks replaced. */
+/** Replaces the text between the two marks of a document. */
 export function putFigures(text, figures) {
   const [from, to] = [text.indexOf(begin), text.indexOf(end)];
   if (from < 0 || to < from) throw new Error('The document has no marks for the figures.');

@@ -1,4 +1,4 @@
-// What the library must reach: each goal with its figure out of a record of results, and whether it is met.
+// The goals of the library: each with its figure from a record of results, and whether it is met.
 import { ratiosOf } from './motions.mjs';
 import { autoAgainstBest, fastest, isPackage, named, ofKind } from './rows.mjs';
 import { short, times, whole } from './words.mjs';
@@ -28,13 +28,13 @@ const limits = {
   hail: 1.03,
   blasts: 1.03,
 };
-/** In 3D a limit below 1 may be exceeded by so much. */
+/** In 3D a limit below 1 may be exceeded by this much. */
 const moreIn3d = 1.5;
 
 const limitOf = ({ motion, dimensions }) =>
   dimensions === 3 && limits[motion] < 1 ? Math.min(1, moreIn3d * limits[motion]) : limits[motion];
 
-/** How many of the rows have a value of at most, or at least, the limit, and which is the worst. */
+/** How many of the rows have a value of at most, or at least, the limit, and the worst value. */
 function inAll(goal, rows, figureOf, limit, show, least = false) {
   const found = rows.map((row) => ({
     row,

@@ -7,7 +7,7 @@ const cell = (found) => (found ? short(found.total.median) : '');
 const withName = (found) => (found ? `${short(found.total.median)} ${found.name}` : '');
 const pairsOf = ({ pairs }) => `${whole(pairs.mean)} (${whole(pairs.least)}–${whole(pairs.most)})`;
 
-/** Whole frames from objects. `counts`: only so many things. */
+/** Whole frames from objects. `counts`: only these numbers of things. */
 export function objectsTable(record, counts) {
   const rows = ofKind(record, 'objects').filter(({ count }) => !counts || counts.includes(count));
   const titles = [
@@ -32,7 +32,7 @@ export function objectsTable(record, counts) {
   return markdownTable(titles, cells);
 }
 
-/** How many times the time of `set` each contender takes. */
+/** The time of each contender divided by that of `set`. */
 export function objectsOthers(record) {
   const rows = ofKind(record, 'objects').filter(({ name }) => name === 'all move');
   const names = [...new Set(rows.flatMap(({ contenders }) => contenders.filter(isPackage).map(({ name }) => name)))];

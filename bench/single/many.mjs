@@ -18,7 +18,7 @@ const timed = 15;
 const asked = 10_000;
 const median = (times) => times.sort((a, b) => a - b)[times.length >> 1];
 
-/** Times contenders in turns; returns the median of each. Each returns a number, by which those that differ are found. */
+/** Times contenders in turns; returns the median of each. Each returns a number, to detect differences. */
 function race(contenders, prepare = () => {}) {
   const times = contenders.map(() => []);
   for (let turn = 0; turn < warmUp + timed; turn++) {
@@ -37,7 +37,7 @@ function race(contenders, prepare = () => {}) {
 const cells = (times) => times.map((time) => `${time.toPrecision(3)} (${(times[0] / time).toFixed(2)}x)`).join(' | ');
 const spaceOf = (scene) => new BroadPhase({ dimensions: scene.dimensions }).setAll(scene.boxes).update();
 
-/** Seeded numbers of so many queries; `make` gives those of one. */
+/** Seeded numbers of many queries; `make` gives those of one. */
 function queries(scene, seed, make) {
   const random = createRandom(seed);
   return Float64Array.from(Array.from({ length: asked }, () => make(() => scene.world * random(), random)).flat());
@@ -109,7 +109,7 @@ function bulk(count) {
   }
 }
 
-/** Points, as kdbush holds them: circles that double until they hold enough, and what is in them sorted. */
+/** Points in kdbush: circles that double until they contain enough points, which are then sorted. */
 function nearestByKdbush(index, xs, ys, x, y, k, first) {
   for (let radius = first; ; radius *= 2) {
     const found = index.within(x, y, radius);
