@@ -198,7 +198,7 @@ test.describe('on a phone', () => {
   });
 });
 
-test('a box that has to hold them wholly finds fewer', async ({ page }) => {
+test('a box that must contain boxes wholly finds fewer', async ({ page }) => {
   await open(page, 'box');
   await drag(page, [0.2, 0.2], [0.8, 0.8]);
   await expectFound(page).toBeGreaterThan(50);
@@ -208,7 +208,7 @@ test('a box that has to hold them wholly finds fewer', async ({ page }) => {
   await expect(call(page)).toContainText('{ within: true }');
 });
 
-test('a camera sees what is not behind its planes, and is told what is wholly in view', async ({ page }) => {
+test('a camera sees what is not behind its planes, and which boxes are wholly in view', async ({ page }) => {
   await open(page, 'view');
   await drag(page, [0.05, 0.5], [0.9, 0.5]);
   await expectFound(page).toBeGreaterThan(20);

@@ -89,7 +89,7 @@ describe('help and wrong command lines', () => {
   });
 });
 
-describe('files that are none', () => {
+describe('files that are not traces', () => {
   test('one that is not there: code 4', async () => {
     expect(await run('info', file('nowhere'))).toMatchObject({ code: 4, err: expect.stringContaining('cannot read') });
     expect(await run('convert', small, file('no/where'))).toMatchObject({ code: 4 });

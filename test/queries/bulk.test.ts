@@ -151,7 +151,7 @@ describe.each(cases)('in %iD, of float32 (%s)', (dimensions, single) => {
   });
 });
 
-test('boxes without an end are near to each other where they meet', () => {
+test('infinite boxes that meet have distance 0', () => {
   const space = new BroadPhase();
   space.set(0, Infinity, 0, Infinity, 1).set(1, 5, 0, Infinity, 1).set(2, -Infinity, 3, 0, 4).update();
   const { of, ids, offsets, distances } = space.nearestsOfAll(1);
@@ -161,7 +161,7 @@ test('boxes without an end are near to each other where they meet', () => {
   expect([...distances]).toEqual([0, 0, Math.sqrt(29)]);
 });
 
-test('a box that is off has no neighbours and is none', () => {
+test('a box that is off has no neighbours and is not one', () => {
   const space = new BroadPhase();
   for (let id = 0; id < 4; id++) space.set(id, 10 * id, 0, 10 * id + 1, 1);
   space.setEnabled(1, false).update();

@@ -9,21 +9,24 @@ import { setBox } from '../support/set-box.ts';
 
 // Among the model's calls are those that switch to any technique.
 describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
-  test.each([1, 2, 3, 4, 5, 6])('answers by what the last update saw, after any sequence of calls, seed %i', (seed) => {
-    const model = new Modelled({ dimensions }, seed);
-    const asker = new Asker(model.space, model.random, 60);
-    asker.everything(new Map());
-    for (let round = 0; round < 15; round++) {
-      for (let call = 0; call < 30; call++) model.step();
-      model.space.update();
-      const seen = copyOf(model.entries);
-      for (let call = 0; call < 3; call++) {
-        for (let k = 0; k < 4; k++) asker.everything(seen);
-        // Seen no sooner than with the next update.
-        for (let k = 0; k < 5; k++) model.step();
+  test.each([1, 2, 3, 4, 5, 6])(
+    'answers with the boxes of the last update, after any sequence of calls, seed %i',
+    (seed) => {
+      const model = new Modelled({ dimensions }, seed);
+      const asker = new Asker(model.space, model.random, 60);
+      asker.everything(new Map());
+      for (let round = 0; round < 15; round++) {
+        for (let call = 0; call < 30; call++) model.step();
+        model.space.update();
+        const seen = copyOf(model.entries);
+        for (let call = 0; call < 3; call++) {
+          for (let k = 0; k < 4; k++) asker.everything(seen);
+          // Seen no sooner than with the next update.
+          for (let k = 0; k < 5; k++) model.step();
+        }
       }
-    }
-  });
+    },
+  );
 });
 
 // Few queries an update, so that the index keeps its order while boxes drift, come and go.
@@ -225,7 +228,7 @@ describe.each([2, 3] as const)('bad queries in %d dimensions', (dimensions) => {
     expect(() => ask.sweep(...box.with(0, 2), ...point)).toThrow('minX: got 2');
   });
 
-  test('a negative radius, and numbers of neighbours that are none', () => {
+  test('a negative radius, and bad numbers of neighbours', () => {
     expect(() => ask[round](...point, -1)).toThrow(`${round}: radius: got -1`);
     for (const k of [0, -1, 1.5, Number.NaN]) expect(() => ask.nearest(...point, k)).toThrow(`nearest: k: got ${k}`);
   });

@@ -27,7 +27,7 @@ const guess = (space: BroadPhase) => {
 };
 
 describe.each([true, false])('whether it was asked before: %s', (asks) => {
-  test('a space that guessed and went back answers as one that never guessed', () => {
+  test('a space that rolled back a prediction answers like one that never predicted', () => {
     const [never, rolled] = [make(), make()];
     for (const space of [never, rolled]) start(space);
     const saved = rolled.snapshot();
@@ -65,7 +65,7 @@ test.each<[string, (space: BroadPhase) => void]>([
   expect(answers(late)).toEqual(answers(early));
 });
 
-test('a large space that was never asked says so rather than seeing another world', () => {
+test('a large space that was never queried throws instead of answering from other boxes', () => {
   const space = new BroadPhase().setAll(new Float32Array(4 * 20_000)).update();
   space.set(0, 5, 5, 6, 6);
   expect(() => space.queryPoint(0, 0)).toThrow('queryPoint: boxes have changed since the last update');

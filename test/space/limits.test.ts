@@ -141,7 +141,7 @@ describe('with 64 MiB of memory', () => {
     expect(many.validate().size).toBe(1_000_000);
   });
 
-  test.each([2, 3] as const)('boxes are added one by one until memory ends, in %d dimensions', (dimensions) => {
+  test.each([2, 3] as const)('boxes are added one by one until memory runs out, in %d dimensions', (dimensions) => {
     const space = new BroadPhase({ dimensions });
     const add = (id: number) =>
       dimensions === 2 ? space.set(id, id, 0, id + 0.1, 1) : space.set(id, id, 0, 0, id + 0.1, 1, 1);
@@ -296,7 +296,7 @@ describe('views of memory', () => {
     space.update().validate();
   });
 
-  test('of pairs are made anew when memory has grown', () => {
+  test('of pairs are renewed when memory has grown', () => {
     const space = new BroadPhase().setAll([0, 0, 1, 1, 1, 1, 2, 2]).update();
     const { pairs } = space;
     expect(Array.from(pairs)).toEqual([0, 1]);

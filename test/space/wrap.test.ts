@@ -121,7 +121,7 @@ describe(`in a world that wraps around (SEED=${seed})`, () => {
     expect(space.set(1, 2e-17, 0, 0.5, 1).update().pairCount).toBe(0);
   });
 
-  test('a ray goes once around, or as far as it is told; too far is refused by name', () => {
+  test('a ray goes once around, or up to its limit; too large a limit is refused by name', () => {
     const space = new BroadPhase({ wrap: [100, 50] }).set(1, 10, 10, 20, 20).update();
     expect(space.rayCast(50, 15, 1, 0)).toEqual({ id: 1, distance: 60, normal: [-1, 0] });
     expect(space.rayCast(50, 5, 1, 0.5)).toEqual(space.rayCast(-50, 105, 1, 0.5));
