@@ -28,7 +28,7 @@ export default defineConfig({
           name: 'unit',
           include: ['test/**/*.test.ts'],
           exclude: ['test/browser/**'],
-          testTimeout: 30_000,
+          testTimeout: 120_000, // a busy machine is slow, and no test is about time
         },
       },
       {
@@ -36,7 +36,7 @@ export default defineConfig({
         test: {
           name: 'examples', // several wait for processes of their own
           include: ['examples/test/*.test.mjs'],
-          testTimeout: 30_000,
+          testTimeout: 120_000, // a busy machine is slow, and no test is about time
         },
       },
     ],
