@@ -1,24 +1,25 @@
-// A WebAssembly module with what is alike together: its opcodes in one stream, the numbers of locals in another, and so
-// on, where the module has them mixed. gzip makes a fifth less of it, as each stream repeats itself more than the mix.
-// kernel/decoder.cpp puts them together again, byte for byte.
-// From: what executable packers and the class files of Java's pack200 do (W. Pugh, Compressing Java Class Files, 1999).
+// Splits a WebAssembly module into streams: opcodes in one, the numbers of locals in another, and so on. gzip makes it
+// a fifth smaller than the module, since each stream is more repetitive than the mix. kernel/decoder.cpp reassembles
+// the module byte for byte. From: executable packers, and Java's pack200 (W. Pugh, Compressing Java Class Files, 1999).
 
 /**
- * In the order of the file, which puts those together that gzip finds alike. All are numbers in LEB128, but for the first,
- * whose bytes stand as they are.
+ * In the order of the file, in which similar streams are next to each other for gzip. All are numbers in LEB128, except
+ * the first, which has raw bytes.
  */
 const streams = ['raw', 'locals', 'long', 'integer', 'offset', 'call', 'local', 'branch', 'small', 'block'];
-/** Each instruction is one of so many kinds at most: its opcode, with what of its immediates is no number of a stream. */
+/**
+ * The most kinds of instructions. A kind is an opcode with those of its immediates that are not numbers of a stream.
+ */
 const mostKinds = 256;
-/** Bytes of an opcode at most, its alignment included. */
+/** The most bytes of an opcode, including its alignment. */
 const longest = 4;
 
 const branchTable = 0x0e;
 const end = 0x0b;
 
 /**
- * What follows each opcode: how many numbers of which stream, `raw` so many bytes; `memory` an alignment and an offset.
- * Those that nothing follows have none of `small`. What is not here the compiler does not write, as it is told to.
+ * What follows each opcode: how many numbers of which stream; for `raw`, how many bytes; for `memory`, an alignment and
+ * an offset. Opcodes without immediates have 0 numbers of `small`. The compiler's flags exclude all other opcodes.
  */
 const immediates = new Map();
 const opcodes = (from, to, ...what) => {
@@ -79,7 +80,7 @@ export class Reader {
     }
   }
 
-  /** The bytes of so many numbers. */
+  /** The bytes of this many numbers. */
   numbers(count) {
     const from = this.at;
     for (let k = 0; k < count; k++) this.number();
@@ -109,7 +110,7 @@ export function codeOf(wasm) {
   throw new Error('the module has no code');
 }
 
-/** One instruction: its kind (bytes, stream, numbers), and what goes into the stream. */
+/** One instruction: its kind (bytes, stream, numbers), and its numbers for the stream. */
 function instruction(reader) {
   const from = reader.at;
   const opcode = reader.byte();
@@ -147,7 +148,7 @@ export function functionsOf(wasm, { count, from, to }) {
 
 const keyOf = ({ bytes, stream, count, last }) => [Number(!last), ...bytes, stream, count].join();
 
-/** One instruction of each kind: that which ends functions, then what is most frequent. */
+/** One instruction of each kind: first the one that ends functions, then the most frequent. */
 function kindsOf(instructions) {
   const counts = new Map();
   const kinds = new Map();

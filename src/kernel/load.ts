@@ -14,7 +14,7 @@ interface DecoderExports {
   decode(characters: number, unused: number): number;
 }
 
-/** How many axes boxes may have in this build, the default first. */
+/** The dimensions that this build supports, the default first. */
 export const builtDimensions = kernel.dimensions;
 
 /** By dimensions. */
@@ -45,7 +45,7 @@ export function init(source: WebAssembly.Module | BufferSource): void {
   techniques = 0;
 }
 
-/** The module, if it is a kernel of this library: else what was there before stays. */
+/** Checks that a module is a kernel of this library; if not, the previous one stays. */
 function checked(module: WebAssembly.Module): WebAssembly.Module {
   if (WebAssembly.Module.exports(module).some(({ name }) => name === 'open_space')) return module;
   throw new TypeError("init: got a module that is not a kernel, expected that of 'broadphase/kernel.wasm'");
@@ -57,7 +57,7 @@ export function instantiate(dimensions: Dimensions): KernelExports {
   return new WebAssembly.Instance(modules[dimensions]).exports as unknown as KernelExports;
 }
 
-/** Which techniques the kernel has: a bit for each. */
+/** The techniques of the kernel: a bit for each. */
 export function builtTechniques(): number {
   techniques ||= instantiate(
     builtDimensions.find((dimensions) => modules[dimensions]) ?? builtDimensions[0]!,

@@ -25,7 +25,7 @@ const moduleOf = (functions: number[][], before: number[] = [], behind: number[]
   ]);
 const anyBytes = (maxLength: number) => fc.array(fc.nat(255), { maxLength });
 
-test('any bytes beside the code come back', () => {
+test('any bytes around the code come back', () => {
   const few = fc.array(fc.constantFrom(0, 1, 128, 255));
   fc.assert(
     fc.property(fc.oneof(anyBytes(2000), few), anyBytes(20), (before, behind) => {
@@ -35,7 +35,7 @@ test('any bytes beside the code come back', () => {
   );
 });
 
-test('every byte has its character or its two, whatever is frequent', () => {
+test('every byte has its one or two characters, whichever bytes are frequent', () => {
   for (let first = 0; first < 256; first += 5) {
     const bytes = Array.from({ length: 1024 }, (_, k) => (k < 256 ? k : first + (k % 100)) & 255);
     const wasm = moduleOf([[0, 0x0b]], bytes);
