@@ -16,8 +16,9 @@ const single = characters.length - prefixes;
 const pairOf = (number) => characters[Math.floor(number / characters.length)] + characters[number % characters.length];
 
 /**
- * A module of WebAssembly, of `size` bytes, as text: the bytes that are one character each, as pairs; the counts and
- * lengths; the streams. Of all other bytes, a pair is the place among them. `owners`: of each of its functions, the dimensions that it is for, where it is for some only.
+ * A module of WebAssembly, of `size` bytes, as text. First the bytes that are one character each, as pairs; of all others,
+ * the pair is their place among them. Then the counts and lengths, and the streams. `owners`: for each function, the
+ * dimensions that it is for, or 0 for both.
  */
 export function inline(wasm, owners = []) {
   const { counts, kinds, before, owners: owned, order, given, behind } = apart(wasm, owners);
@@ -27,7 +28,11 @@ export function inline(wasm, owners = []) {
   const bytes = Array.from(often.keys()).sort((a, b) => often[b] - often[a] || a - b);
   const written = [];
   for (const [k, byte] of bytes.slice(0, single).entries()) written[byte] = characters[prefixes + k];
-  for (const [k, byte] of bytes.slice(single).sort((a, b) => a - b).entries()) written[byte] = pairOf(k);
+  for (const [k, byte] of bytes
+    .slice(single)
+    .sort((a, b) => a - b)
+    .entries())
+    written[byte] = pairOf(k);
   const textOf = (stream) => stream.map((byte) => written[byte]).join('');
   // Where a stream ends is told in characters, but for the first and the last, which are read at once.
   const lengths = [before.length, behind.length, ...[owned, order, ...given].map((stream) => textOf(stream).length)];
