@@ -1,106 +1,185 @@
-// A module of its own, of a kilobyte: decodes the text that scripts/inline.mjs writes into bytes, and puts the streams
-// that scripts/streams.mjs has made of the kernel together again. It runs once, before the kernel is compiled;
-// JavaScript, which no engine has optimised by then, would take several times as long.
+// A module of its own, of a kilobyte: puts the streams that scripts/streams.mjs has made of the kernel together again, out
+// of the text in which scripts/inline.mjs has written them. It runs once, before the kernel is compiled; JavaScript, which
+// no engine has optimised by then, would take several times as long. Nor is this code optimised by then: so it reads the
+// text where it stands, in one pass.
 #include "base/simd.hpp"
 
 extern "C" u8 __heap_base;
 
 namespace {
 
-/// What JavaScript writes before it calls `decode`.
-struct Given {
-  u8 bytes[128];  // by character: the byte that it stands for
-  u8 places[128];  // by character: its place in the alphabet
-  u8 pairs[256];  // by two characters: the byte that they stand for
-  u8 text[1];  // and more: up to the end of the memory
-};
+// The alphabet of scripts/inline.mjs: these characters, but those that mean something in strings and in HTML.
+constexpr u8 first = 33, end = 127;
+constexpr u8 first_single = '(';  // those before it begin a pair
+constexpr u32 letters = 87;
+bool has_meaning(u8 character) {
+  for (char one : "'\"`\\$<&")
+    if (one == character) return true;
+  return false;
+}
+
+// By character: its place in the alphabet, the byte that it stands for, and whether more belongs to it: the second of a
+// pair, or another byte of the same number.
+u8 places[end], bytes[end], more[end];
+constexpr u8 more_bit = 0x80;
+u8 rare[256];  // in ascending order, the bytes that no character stands for alone
+
+[[gnu::noinline]] u8 pair_at(const u8* at) { return places[at[0]] * letters + places[at[1]]; }
+
+[[gnu::always_inline]] u8 read(const u8*& from) {
+  u8 character = *from++;
+  return character < first_single ? rare[pair_at(from++ - 1)] : bytes[character];
+}
+[[gnu::noinline]] u8 read_one(const u8*& from) { return read(from); }
+
+/// Three bytes, the least significant first.
+u32 read_number(const u8*& from) {
+  u32 low = read_one(from), middle = read_one(from);
+  return low | middle << 8 | read_one(from) << 16;
+}
+
+u8* copy(const u8*& from, u32 count, u8* to) {
+  for (; count; count--) *to++ = read_one(from);
+  return to;
+}
+
+/// A text begins with the bytes that stand as one character each.
+void read_alphabet(const u8*& from) {
+  u8 place = 0;
+  for (u8 c = first; c < end; c++)
+    if (!has_meaning(c)) places[c] = place++;
+  static bool alone[256];
+  for (u8 c = first; c < end; c++) {
+    more[c] = more_bit;
+    if (has_meaning(c) || c < first_single) continue;
+    u8 byte = pair_at(from);
+    from += 2;
+    bytes[c] = byte;
+    more[c] = byte & more_bit;
+    alone[byte] = true;
+  }
+  u8* next = rare;
+  for (u32 byte = 0; byte < 256; byte++)
+    if (!alone[byte]) *next++ = u8(byte);
+}
 
 // As in scripts/streams.mjs.
 constexpr u32 streams = 10, raw = 0;
 constexpr u32 longest = 4;  // bytes of an opcode
-enum Head : u32 { functions, kinds, before, behind, order, lengths, numbers_in_head = lengths + streams };
-
-/// Three bytes, the least significant first.
-u32 number(const u8* at) { return at[0] | at[1] << 8 | at[2] << 16; }
-
-/// The text, of that many characters, as bytes in its place.
-void read_text(Given& given, u32 count, u32 singles, u32 length) {
-  const u8* from = given.text;
-  const u8* end = from + count;
-  u8* to = given.text;
-  while (from < end) {
-    u32 at = *from++;
-    u8 byte = given.bytes[at];
-    if (at < singles) byte = given.pairs[given.places[at] * length + given.places[*from++]];
-    *to++ = byte;
-  }
-}
+constexpr u8 trap[] = {0, 0, 0x0b};  // a function without locals, whose only instruction is `unreachable`
+enum Head : u32 { functions, kinds, before, behind, owners, order, lengths, numbers_in_head = lengths + streams };
 
 /// A kind of instructions.
 struct Kind {
   u8 opcode[longest];
   u8 length;  // of the opcode
   u8 stream, count;  // so many numbers of it follow, or bytes where it is raw
-  u8 more;  // the bit of a byte that says that another one of the number follows
+  u8 more;  // where one number follows, the bit that says that more belongs to its first byte; else 0
 };
+Kind known[256];
 
-/// Writes the module whose streams stand here.
-void put_together(const u8* from, u8* to) {
-  u32 head[numbers_in_head];
-  for (u32 k = 0; k < numbers_in_head; k++, from += 3) head[k] = number(from);
-  Kind known[256];
-  u32 many = head[kinds];
-  for (u32 k = 0; k < many; k++, from++) {
-    for (u32 b = 0; b < longest; b++) known[k].opcode[b] = from[b * many];
-    known[k].length = from[4 * many] >> 4;
-    known[k].stream = from[4 * many] & 15;
-    known[k].more = known[k].stream == raw ? 0 : 0x80;
-    known[k].count = from[5 * many];
+void read_kinds(const u8*& from, u32 many) {
+  for (u32 b = 0; b < longest; b++)
+    for (u32 k = 0; k < many; k++) known[k].opcode[b] = read_one(from);
+  for (u32 k = 0; k < many; k++) {
+    u8 form = read_one(from);
+    known[k].length = form >> 4;
+    known[k].stream = form & 15;
   }
-  from += 5 * many;
-  __builtin_memcpy(to, from, head[before]);
-  to += head[before];
-  const u8* next = from + head[before];
+  for (u32 k = 0; k < many; k++) {
+    known[k].count = read_one(from);
+    known[k].more = known[k].count == 1 ? more_bit : 0;
+  }
+}
+
+u8* write_number(u8* to, u32 value) {
+  for (; value >= 0x80; value >>= 7) *to++ = u8(value | 0x80);
+  *to++ = u8(value);
+  return to;
+}
+
+/// Writes how many bytes stand behind a gap, and moves them into it; returns where they end then.
+u8* close(u8* to, const u8* begin, const u8* end) {
+  u32 size = u32(end - begin);
+  to = write_number(to, size);
+  __builtin_memmove(to, begin, size);
+  return to + size;
+}
+constexpr u32 gap = 5;
+
+/// Writes one function; returns its end.
+u8* write_function(const u8*& next, const u8** at, u8* to) {
+  u32 k;
+  do {
+    k = read(next);
+    const Kind& kind = known[k];
+    store(to, load<u32>(kind.opcode));
+    to += kind.length;
+    const u8*& given = at[kind.stream];
+    u8 character = *given;
+    if (kind.count <= 1 && !(more[character] & kind.more)) {
+      *to = bytes[character];
+      given += kind.count;
+      to += kind.count;
+      continue;
+    }
+    u8 bit = kind.stream == raw ? 0 : more_bit, byte;
+    for (u32 count = kind.count; count; count--) {
+      do *to++ = byte = read(given);
+      while (byte & bit);
+    }
+  } while (k != 0);
+  return to;
+}
+
+/// Writes the module that a text stands for; what is only for `unused` dimensions does nothing. Returns its end.
+u8* put_together(const u8* from, u8* to, u32 unused) {
+  read_alphabet(from);
+  u32 head[numbers_in_head];
+  for (u32& one : head) one = read_number(from);
+  read_kinds(from, head[kinds]);
+  to = copy(from, head[before], to);
+  const u8* owner = from;
+  from += head[owners];
+  const u8* next = from;
+  from += head[order];
   const u8* at[streams];
-  from = next + head[order];
   for (u32 s = 0; s < streams; s++) {
     at[s] = from;
     from += head[lengths + s];
   }
+  u8* section = to + gap;
+  u8* last = write_number(section, head[functions]);
   for (u32 left = head[functions]; left; left--) {
-    u8* begin = to + 3;  // its size is known when it is there
-    u8* end = begin;
-    u32 k;
-    do {
-      k = *next++;
-      const Kind& kind = known[k];
-      store(end, load<u32>(kind.opcode));
-      end += kind.length;
-      const u8*& given = at[kind.stream];
-      for (u32 count = kind.count; count; count--) {
-        u8 byte;
-        do *end++ = byte = *given++;
-        while (byte & kind.more);
-      }
-    } while (k != 0);
-    u32 size = u32(end - begin);
-    for (u32 rest = size; rest; rest >>= 7) *to++ = u8(rest < 0x80 ? rest : rest | 0x80);
-    __builtin_memmove(to, begin, size);
-    to += size;
+    u8* begin = last + gap;
+    u8* end = write_function(next, at, begin);
+    if (unused && read_one(owner) == unused) {
+      __builtin_memcpy(begin, trap, sizeof trap);
+      end = begin + sizeof trap;
+    }
+    last = close(last, begin, end);
   }
-  __builtin_memcpy(to, from, head[behind]);
+  to = close(to, section, last);
+  return copy(from, head[behind], to);
 }
 
 }  // namespace
 
 #define EXPORT(name) extern "C" __attribute__((export_name(#name))) auto name
 
-EXPORT(given)() -> Given* { return reinterpret_cast<Given*>(&__heap_base); }
+/// Room for a text of so many characters, and a module of so many bytes behind it.
+EXPORT(room)(u32 characters, u32 bytes) -> u8* {
+  u8* text = &__heap_base;
+  size_t needed = size_t(text) + characters + bytes + 16;
+  size_t pages = (needed + 0xffff) / 0x10000, there = __builtin_wasm_memory_size(0);
+  if (pages > there) __builtin_wasm_memory_grow(0, pages - there);
+  return text;
+}
 
-/// Decodes the text, of that many characters: the module is behind it then. Of the characters of the alphabet, which
-/// are so many, those below `singles` begin a pair.
-EXPORT(decode)(u32 count, u32 singles, u32 length) -> void {
-  Given& given = *reinterpret_cast<Given*>(&__heap_base);
-  read_text(given, count, singles, length);
-  put_together(given.text, given.text + count);
+/// Decodes the text, of that many characters; returns how many bytes the module has, which begins behind it. Functions
+/// that are only for `unused` dimensions become traps.
+EXPORT(decode)(u32 characters, u32 unused) -> u32 {
+  u8* text = &__heap_base;
+  u8* module = text + characters;
+  return u32(put_together(text, module, unused) - module);
 }

@@ -1,7 +1,8 @@
-// Loads the kernel: one WebAssembly module for all spaces, one instance with its own memory for each.
+// Loads the kernel: one WebAssembly module for all spaces of as many dimensions, one instance with its own memory for each.
 // The module is inlined as text and compiled on first use, synchronously, so that `new BroadPhase()` works everywhere
 // without waiting; `init` is for hosts that forbid that or want to load the bytes themselves. Builds of the library
 // with all techniques take the other text (scripts/every-technique.mjs).
+import type { Dimensions } from '../dimensions.ts';
 import type { KernelExports } from '../generated/abi.ts';
 import * as kernel from '../generated/kernel-lean.ts';
 import { bytesOf, isModule } from '../values.ts';
@@ -9,14 +10,15 @@ import { bytesOf, isModule } from '../values.ts';
 /** The exported functions of kernel/decoder.cpp. */
 interface DecoderExports {
   memory: WebAssembly.Memory;
-  given(): number;
-  decode(count: number, prefixes: number, length: number): void;
+  room(characters: number, bytes: number): number;
+  decode(characters: number, unused: number): number;
 }
 
-/** How many axes boxes may have in this build, the default first. */
+/** The dimensions that this build supports, the default first. */
 export const builtDimensions = kernel.dimensions;
 
-let module: WebAssembly.Module | undefined;
+/** By dimensions. */
+let modules: (WebAssembly.Module | undefined)[] = [];
 let techniques = 0;
 
 /**
@@ -34,28 +36,32 @@ let techniques = 0;
  */
 export function init(source: WebAssembly.Module | BufferSource): void {
   const bytes = bytesOf(source);
+  let module: WebAssembly.Module;
   if (isModule(source)) module = checked(source);
   else if (bytes)
     module = checked(compile(bytes.slice())); // a shared or resizable buffer cannot be compiled
   else throw new TypeError(`init: got ${String(source)}, expected a WebAssembly.Module or the bytes of one`);
+  modules = [undefined, undefined, module, module];
   techniques = 0;
 }
 
-/** The module, if it is a kernel of this library: else what was there before stays. */
+/** Checks that a module is a kernel of this library; if not, the previous one stays. */
 function checked(module: WebAssembly.Module): WebAssembly.Module {
   if (WebAssembly.Module.exports(module).some(({ name }) => name === 'open_space')) return module;
   throw new TypeError("init: got a module that is not a kernel, expected that of 'broadphase/kernel.wasm'");
 }
 
-/** A fresh kernel with memory of its own. */
-export function instantiate(): KernelExports {
-  module ??= compile(read(kernel));
-  return new WebAssembly.Instance(module).exports as unknown as KernelExports;
+/** A fresh kernel with memory of its own, for boxes of so many dimensions. */
+export function instantiate(dimensions: Dimensions): KernelExports {
+  modules[dimensions] ??= compile(read(kernel, dimensions === 2 ? 3 : 2));
+  return new WebAssembly.Instance(modules[dimensions]).exports as unknown as KernelExports;
 }
 
-/** Which techniques the kernel has: a bit for each. */
+/** The techniques of the kernel: a bit for each. */
 export function builtTechniques(): number {
-  techniques ||= instantiate().techniques();
+  techniques ||= instantiate(
+    builtDimensions.find((dimensions) => modules[dimensions]) ?? builtDimensions[0]!,
+  ).techniques();
   return techniques;
 }
 
@@ -77,45 +83,26 @@ function compile(bytes: BufferSource): WebAssembly.Module {
 }
 
 /**
- * The module of `size` bytes that scripts/inline.mjs has written as text: see there. The first characters of the alphabet
- * begin a pair; the others stand for the bytes in `order`. A small module decodes it (kernel/decoder.cpp): half of what a
- * page waits for.
+ * The module of `size` bytes that scripts/inline.mjs has written as text: see there. What is only for `unused` dimensions
+ * is left out, since engines take about as long for every byte that they compile. A small module decodes the text
+ * (kernel/decoder.cpp).
  */
-export function read({
-  alphabet,
-  order,
-  text,
-  decoder,
-  size,
-}: Record<'alphabet' | 'order' | 'text' | 'decoder', string> & { size: number }): Uint8Array<ArrayBuffer> {
-  const made = compile(digits(decoder)); // first: it says so where there is no WebAssembly
-  const { exports } = new WebAssembly.Instance(made);
-  const { memory, given, decode } = exports as unknown as DecoderExports;
-  const at = given();
-  const tables = 128 + 128 + 256;
-  const end = at + tables + text.length; // of what is given: behind it comes what is made
-  const lacking = end + size - memory.buffer.byteLength;
-  if (lacking > 0) memory.grow((lacking + 0xffff) >>> 16);
-  const io = new Uint8Array(memory.buffer, at);
-  const single = digits(order);
-  const { length } = alphabet;
-  const prefixes = length - single.length;
-  for (let k = 0; k < length; k++) {
-    io[alphabet.charCodeAt(k)] = single[k - prefixes] ?? 0;
-    io[128 + alphabet.charCodeAt(k)] = k;
-  }
-  // The bytes of pairs follow in ascending order.
-  const bytes = new Set(single);
-  for (let byte = 0; byte < 256; byte++) bytes.add(byte);
-  io.set([...bytes].slice(single.length), 256);
-  encodeInto(text, io.subarray(tables));
-  decode(text.length, alphabet.charCodeAt(prefixes), length);
-  return new Uint8Array(memory.buffer, end, size);
+export function read(
+  { text, decoder, size }: { text: string; decoder: string; size: number },
+  unused = 0,
+): Uint8Array<ArrayBuffer> {
+  const made = compile(bytesOfLetters(decoder)); // first: it says so where there is no WebAssembly
+  const { memory, room, decode } = new WebAssembly.Instance(made).exports as unknown as DecoderExports;
+  const at = room(text.length, size);
+  encodeInto(text, new Uint8Array(memory.buffer, at));
+  return new Uint8Array(memory.buffer, at + text.length, decode(text.length, unused));
 }
 
-/** The bytes that stand as two hexadecimal digits each. */
-function digits(text: string): Uint8Array<ArrayBuffer> {
-  return Uint8Array.from({ length: text.length / 2 }, (_, k) => Number.parseInt(text.slice(2 * k, 2 * k + 2), 16));
+/** The bytes that stand as two letters each. */
+function bytesOfLetters(text: string): Uint8Array<ArrayBuffer> {
+  const bytes = new Uint8Array(text.length / 2);
+  for (let k = 0; k < bytes.length; k++) bytes[k] = (text.charCodeAt(2 * k) << 4) | (text.charCodeAt(2 * k + 1) & 15);
+  return bytes;
 }
 
 /** Writes characters of ASCII as bytes. Jest's pages and audio worklets have no TextEncoder, which is much faster. */

@@ -9,7 +9,8 @@ import { read } from '../../src/kernel/load.ts';
 
 const fileOf = (name: string) =>
   new Uint8Array(readFileSync(fileURLToPath(new URL(`../../build/${name}.wasm`, import.meta.url))));
-const through = (bytes: Uint8Array) => read({ ...lean, ...inline(bytes) });
+const through = (bytes: Uint8Array, owners?: number[], unused?: number) =>
+  read({ ...lean, ...inline(bytes, owners) }, unused);
 
 /** A number as WebAssembly writes it. */
 const leb = (value: number): number[] => (value < 128 ? [value] : [(value & 127) | 128, ...leb(value >> 7)]);
@@ -24,7 +25,7 @@ const moduleOf = (functions: number[][], before: number[] = [], behind: number[]
   ]);
 const anyBytes = (maxLength: number) => fc.array(fc.nat(255), { maxLength });
 
-test('any bytes beside the code come back', () => {
+test('any bytes around the code come back', () => {
   const few = fc.array(fc.constantFrom(0, 1, 128, 255));
   fc.assert(
     fc.property(fc.oneof(anyBytes(2000), few), anyBytes(20), (before, behind) => {
@@ -34,7 +35,7 @@ test('any bytes beside the code come back', () => {
   );
 });
 
-test('every byte has its character or its two, whatever is frequent', () => {
+test('every byte has its one or two characters, whichever bytes are frequent', () => {
   for (let first = 0; first < 256; first += 5) {
     const bytes = Array.from({ length: 1024 }, (_, k) => (k < 256 ? k : first + (k % 100)) & 255);
     const wasm = moduleOf([[0, 0x0b]], bytes);
@@ -78,6 +79,24 @@ test('instructions of every form come back', () => {
       expect(through(wasm)).toEqual(wasm);
     }),
   );
+});
+
+test('functions that are only for unused dimensions become traps', () => {
+  const body = [1, (300 & 127) | 128, 300 >> 7, 0x7f, ...Array(90).fill([0x20, 1, 0x1a]).flat(), 0x0b];
+  const trap = [0, 0, 0x0b];
+  const wasm = moduleOf([body, body, body], [1], [2]);
+  expect(through(wasm, [0, 2, 3], 3)).toEqual(moduleOf([body, body, trap], [1], [2]));
+  expect(through(wasm, [0, 2, 3], 2)).toEqual(moduleOf([body, trap, body], [1], [2]));
+  expect(through(wasm, [0, 2, 3])).toEqual(wasm);
+});
+
+test('about half of the kernel is for each number of dimensions', () => {
+  const whole = read(lean);
+  for (const unused of [2, 3]) {
+    const half = read(lean, unused);
+    expect(WebAssembly.validate(half)).toBe(true);
+    expect(half.length).toBeLessThan(0.7 * whole.length);
+  }
 });
 
 test('an instruction that nobody knows is told when the kernel is built', () => {

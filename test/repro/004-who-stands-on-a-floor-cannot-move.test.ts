@@ -110,7 +110,7 @@ describe('a ray from a touch', () => {
     const diagonal = new BroadPhase().set(0, 0, 0, 10, 10).set(1, 10, 10, 20, 20).update();
     expect(diagonal.rayCast(5, 15, 1, -1)?.distance).toBeCloseTo(Math.sqrt(50));
   });
-  test('a visitor hears of the same', () => {
+  test('a visitor gets the same answers', () => {
     const heard: unknown[] = [];
     space.rayCastAll(0, 5, 0, 1, { visit: (...hit) => heard.push(hit) });
     space.sweep(-5, 0, 0, 5, 0, 9, { visit: (...hit) => heard.push(hit) });
@@ -225,7 +225,7 @@ describe.each(kinds)('in %s', (_, array, round) => {
   });
 });
 
-test('a million steps of Pong', () => {
+test('a million steps of Pong', { tags: 'long' }, () => {
   const space = new BroadPhase();
   room(space, 0, 500, 50, (x) => x);
   const ask = space as unknown as Loose;

@@ -69,25 +69,29 @@ describe.each(combinations)('a cell size far too small, %s in %d dimensions', (t
 describe('with 32 MiB of memory', () => {
   beforeAll(() => init(kernelWith(32 * mebibyte)));
 
-  test.each(combinations)('%s in %d dimensions recovers from too many pairs', (technique, dimensions) => {
-    const space = new BroadPhase({ technique, dimensions });
-    const count = 20_000;
-    for (let round = 0; round < 2; round++) {
-      space.setAll(identical(count, dimensions));
-      const update = () => space.update();
-      expect(update).toThrow(RangeError);
-      expect(update).toThrow(/^update: out of memory: \d+ more bytes are needed for 20000 boxes and their pairs/);
-      expect(space.size).toBe(count);
-      expect(space.pairCount).toBe(0);
-      expect(space.pairs.length).toBe(0);
-      expect(space.stats.pairs).toBe(0);
-      expect(space.structure().length).toBe(0);
-      space.validate();
-      for (let id = 1000; id < count; id++) space.delete(id);
-      expect(space.update().pairCount).toBe((1000 * 999) / 2);
-      expect(space.validate().stats.pairs).toBe(space.pairCount);
-    }
-  });
+  test.each(combinations)(
+    '%s in %d dimensions recovers from too many pairs',
+    { tags: 'long' },
+    (technique, dimensions) => {
+      const space = new BroadPhase({ technique, dimensions });
+      const count = 20_000;
+      for (let round = 0; round < 2; round++) {
+        space.setAll(identical(count, dimensions));
+        const update = () => space.update();
+        expect(update).toThrow(RangeError);
+        expect(update).toThrow(/^update: out of memory: \d+ more bytes are needed for 20000 boxes and their pairs/);
+        expect(space.size).toBe(count);
+        expect(space.pairCount).toBe(0);
+        expect(space.pairs.length).toBe(0);
+        expect(space.stats.pairs).toBe(0);
+        expect(space.structure().length).toBe(0);
+        space.validate();
+        for (let id = 1000; id < count; id++) space.delete(id);
+        expect(space.update().pairCount).toBe((1000 * 999) / 2);
+        expect(space.validate().stats.pairs).toBe(space.pairCount);
+      }
+    },
+  );
 });
 
 describe('with 64 MiB of memory', () => {
@@ -141,7 +145,7 @@ describe('with 64 MiB of memory', () => {
     expect(many.validate().size).toBe(1_000_000);
   });
 
-  test.each([2, 3] as const)('boxes are added one by one until memory ends, in %d dimensions', (dimensions) => {
+  test.each([2, 3] as const)('boxes are added one by one until memory runs out, in %d dimensions', (dimensions) => {
     const space = new BroadPhase({ dimensions });
     const add = (id: number) =>
       dimensions === 2 ? space.set(id, id, 0, id + 0.1, 1) : space.set(id, id, 0, 0, id + 0.1, 1, 1);
@@ -229,7 +233,7 @@ describe('views of memory', () => {
     space.update();
   }
 
-  test('of 20,000,000 pairs and more are views of all of them', () => {
+  test('of 20,000,000 pairs and more are views of all of them', { tags: 'long' }, () => {
     const count = 6400;
     const space = new BroadPhase({ technique: 'brute-force' }).setAll(identical(count, 2)).update();
     expect(space.pairCount).toBeGreaterThan(20_000_000);
@@ -296,7 +300,7 @@ describe('views of memory', () => {
     space.update().validate();
   });
 
-  test('of pairs are made anew when memory has grown', () => {
+  test('of pairs are renewed when memory has grown', () => {
     const space = new BroadPhase().setAll([0, 0, 1, 1, 1, 1, 2, 2]).update();
     const { pairs } = space;
     expect(Array.from(pairs)).toEqual([0, 1]);
@@ -308,9 +312,10 @@ describe('views of memory', () => {
     expect(space.stats.pairs).toBe(1);
   });
 
-  // What a game does with its pairs: boxes come and go meanwhile, and questions are asked.
+  // What a game does with its pairs: boxes come and go meanwhile, and queries are asked.
   test.each([2, 3] as const)(
-    'of pairs stay while a few boxes are added and questions asked, in %d dimensions',
+    'of pairs stay while a few boxes are added and queries asked, in %d dimensions',
+    { tags: 'long' },
     (dimensions) => {
       const calls: ((space: BroadPhase<2 | 3>, count: number) => unknown)[] = [
         (space, count) => setBox(space, count, Array(2 * dimensions).fill(count)),

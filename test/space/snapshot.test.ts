@@ -89,48 +89,49 @@ function play(space: BroadPhase<2 | 3>, calls: readonly Call[]): Uint32Array {
 }
 
 describe(`a restored space (SEED=${seed})`, () => {
-  test.each(combinations)(
-    'goes on as the one that was not interrupted: %s in %d dimensions',
-    (technique, dimensions) => {
-      const numbers = fc.record({ seed: fc.nat(), before: fc.nat(60), after: fc.nat(40), lost: fc.nat(40) });
-      const property = fc.property(numbers, ({ seed, before, after, lost }) => {
-        const options = { technique, dimensions, events: true } as const;
-        const [history, future, taken] = [before, after + 1, lost].map((count, k) =>
-          randomCalls(count, dimensions, seed + k),
-        );
-        const [untouched, rolled] = [new BroadPhase(options), new BroadPhase(options)];
-        play(untouched, history);
-        play(rolled, history);
-        const saved = rolled.snapshot();
-        untouched.snapshot(); // from the first one on, pairs come in an order that no update before shows in
-        const expected = play(untouched, future);
-        expectSameWords(play(rolled, future), expected, 'after a snapshot');
+  test.each(combinations)('continues like the original: %s in %d dimensions', (technique, dimensions) => {
+    const numbers = fc.record({ seed: fc.nat(), before: fc.nat(60), after: fc.nat(40), lost: fc.nat(40) });
+    const property = fc.property(numbers, ({ seed, before, after, lost }) => {
+      const options = { technique, dimensions, events: true } as const;
+      const [history, future, taken] = [before, after + 1, lost].map((count, k) =>
+        randomCalls(count, dimensions, seed + k),
+      );
+      const [untouched, rolled] = [new BroadPhase(options), new BroadPhase(options)];
+      play(untouched, history);
+      play(rolled, history);
+      const saved = rolled.snapshot();
+      untouched.snapshot(); // from the first one on, pairs come in an order that no update before shows in
+      const expected = play(untouched, future);
+      expectSameWords(play(rolled, future), expected, 'after a snapshot');
 
-        play(rolled, taken);
-        expectSameWords(play(rolled.restore(saved), future), expected, 'rolled back');
-        const other = new BroadPhase(options);
-        play(other, taken);
-        expectSameWords(play(other.restore(saved).validate(), future), expected, 'from elsewhere');
-        expectSameWords(play(new BroadPhase(options).restore(saved), future), expected, 'a fresh space');
-        expect(Buffer.compare(rolled.restore(saved).snapshot(), saved)).toBe(0);
-        expect(rolled.size).toBe(new BroadPhase(options).restore(saved).size);
-      });
-      fc.assert(property, { seed, numRuns });
+      play(rolled, taken);
+      expectSameWords(play(rolled.restore(saved), future), expected, 'rolled back');
+      const other = new BroadPhase(options);
+      play(other, taken);
+      expectSameWords(play(other.restore(saved).validate(), future), expected, 'from elsewhere');
+      expectSameWords(play(new BroadPhase(options).restore(saved), future), expected, 'a fresh space');
+      expect(Buffer.compare(rolled.restore(saved).snapshot(), saved)).toBe(0);
+      expect(rolled.size).toBe(new BroadPhase(options).restore(saved).size);
+    });
+    fc.assert(property, { seed, numRuns });
+  });
+
+  test.each(combinations)(
+    'replays a recorded scene: %s in %d dimensions',
+    { tags: 'long' },
+    (technique, dimensions) => {
+      const trace = readTrace(dimensions === 2 ? 'smash' : 'rapier3d-freefall10k');
+      const options = { technique, dimensions };
+      const [space, other] = [new BroadPhase(options), new BroadPhase(options)];
+      const frames = Math.min(trace.frames, 6);
+      for (let k = 0; k < frames / 2; k++) space.setAll(trace.frame(k)).update();
+      other.restore(space.snapshot());
+      for (let k = frames / 2; k < frames; k++) {
+        const { pairs } = space.setAll(trace.frame(k)).update();
+        expect(Buffer.compare(bytesOf(other.setAll(trace.frame(k)).update().pairs), bytesOf(pairs))).toBe(0);
+      }
     },
   );
-
-  test.each(combinations)('replays a recorded scene: %s in %d dimensions', (technique, dimensions) => {
-    const trace = readTrace(dimensions === 2 ? 'smash' : 'rapier3d-freefall10k');
-    const options = { technique, dimensions };
-    const [space, other] = [new BroadPhase(options), new BroadPhase(options)];
-    const frames = Math.min(trace.frames, 6);
-    for (let k = 0; k < frames / 2; k++) space.setAll(trace.frame(k)).update();
-    other.restore(space.snapshot());
-    for (let k = frames / 2; k < frames; k++) {
-      const { pairs } = space.setAll(trace.frame(k)).update();
-      expect(Buffer.compare(bytesOf(other.setAll(trace.frame(k)).update().pairs), bytesOf(pairs))).toBe(0);
-    }
-  });
 
   test.each([2, 3] as const)('has the boxes, filters and flags of the model, in %d dimensions', (dimensions) => {
     const modelled = new Modelled({ dimensions }, 7);
@@ -148,7 +149,7 @@ describe(`a restored space (SEED=${seed})`, () => {
 
 const bytesOf = (array: Uint32Array) => new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
 
-test('a snapshot is as small as what it says', () => {
+test('a snapshot has only the parts that differ from the default', () => {
   const space = new BroadPhase({ capacity: 5000 });
   expect(space.snapshot().length).toBe(24);
   space.setAll(new Float32Array(4000)).update();
@@ -189,7 +190,7 @@ test('pairs and answers are those of the boxes that were restored', () => {
 describe('events after a restore', () => {
   const events = (space: BroadPhase<2 | 3>) => [Array.from(space.began), Array.from(space.ended)];
 
-  test('are against the pairs of the snapshot, and come again as they came', () => {
+  test('are relative to the pairs of the snapshot, and repeat exactly', () => {
     const space = new BroadPhase({ events: true }).set(1, 0, 0, 2, 2).set(2, 1, 1, 3, 3).update();
     const saved = space.snapshot();
     const next = () => space.set(2, 5, 5, 6, 6).set(3, 0, 0, 1, 1).update();
@@ -225,7 +226,7 @@ describe('events after a restore', () => {
     }
   });
 
-  test('all begin where the snapshot has no pairs, and a space without events takes one that has', () => {
+  test('all pairs begin if the snapshot has none, and a space without events restores one with pairs', () => {
     const plain = new BroadPhase().set(1, 0, 0, 2, 2).set(2, 1, 1, 3, 3).update();
     const space = new BroadPhase({ events: true }).set(5, 0, 0, 2, 2).set(6, 1, 1, 3, 3).update();
     const saved = space.snapshot();
@@ -266,7 +267,7 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     space.validate();
   };
 
-  test.each([2, 3] as const)('any bit that is wrong, in %d dimensions', (dimensions) => {
+  test.each([2, 3] as const)('any bit that is wrong, in %d dimensions', { tags: 'long' }, (dimensions) => {
     const saved = full(dimensions).snapshot();
     const space = full(dimensions);
     const before = space.set(1000, ...([0, 0, 0.1, 9, 9, 9].slice(0, 2 * dimensions) as [0, 0, 0, 0])).snapshot();
@@ -294,7 +295,7 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     fc.assert(property, { seed, numRuns: 20 * numRuns });
   });
 
-  test('any bytes behind a right checksum: refused, or a space in order', () => {
+  test('any bytes with a correct checksum: refused, or a valid space', () => {
     const saved = full(2).snapshot();
     const property = fc.property(
       fc.array(fc.tuple(fc.nat(saved.length - 1), fc.nat(255)), { minLength: 1, maxLength: 4 }),
