@@ -114,9 +114,10 @@ template <int D> class Queries {
         lo -= asked_.radius + (asked_.radius + __builtin_fabs(lo)) * 1e-15 + 1e-160;
         hi += asked_.radius + (asked_.radius + __builtin_fabs(hi)) * 1e-15 + 1e-160;
       }
-      // Inward, and still exact: the numbers that are compared with them are float32.
-      lo_[a] = splat(asked_.touching || is_circle() ? round_up(lo) : next_above(lo));
-      hi_[a] = splat(asked_.touching || is_circle() ? round_down(hi) : next_below(hi));
+      f32 least, most;
+      round_inward(lo, hi, asked_.touching || is_circle(), least, most);
+      lo_[a] = splat(least);
+      hi_[a] = splat(most);
     }
   }
 
@@ -211,18 +212,13 @@ template <int D> class Queries {
     if (is_circle()) left &= distances(number, squared_, ranks);
     bool whole = asked_.radius == Question<D>::within;
     if (whole && !index_.rounded()) return left & within(index_.block(0, number));
-    bool closed = asked_.touching;
-    if (!index_.rounded() && squared_ < 1e300 && (closed || !is_circle())) return left;
+    if (!index_.rounded() && squared_ < 1e300 && (asked_.touching || !is_circle())) return left;
     for (u32 all = left; all; all &= all - 1) {
       u32 lane = u32(__builtin_ctz(all));
       f64 box[2 * D];
       index_.box(number * 8 + lane, box);
-      bool touch = true;
-      if (is_circle()) touch = is_in(squared_ < 1e300 ? ranks[lane] : distance(number * 8 + lane, ranks[lane]));
-      for (int a = 0; a < D && !is_circle(); a++) {
-        f64 one = box[whole ? D + a : a], other = box[whole ? a : D + a];
-        touch &= closed ? one <= asked_.hi[a] && asked_.lo[a] <= other : one < asked_.hi[a] && asked_.lo[a] < other;
-      }
+      bool touch = is_circle() ? is_in(squared_ < 1e300 ? ranks[lane] : distance(number * 8 + lane, ranks[lane]))
+                               : asked_.touches(box, whole);
       if (!touch) left &= ~(1u << lane);
     }
     return left;
@@ -345,7 +341,7 @@ template <int D> class Queries {
   static f64 squared_limit(f64 limit) { return limit * limit * (1 + 1e-15) + 1e-300; }
 
   /// The distance to a box whose square is given, which may have overflowed.
-  f64 distance(u32 place, f64 squared) const {
+  SHARED f64 distance(u32 place, f64 squared) const {
     if (squared < 1e300) return __builtin_sqrt(squared);
     f64 box[2 * D], away[D];
     index_.box(place, box);
