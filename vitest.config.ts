@@ -20,6 +20,9 @@ export default defineConfig({
     ],
   },
   test: {
+    tags: [{ name: 'long', description: 'left out of `npm run check`, which is to take less than a minute' }],
+    testTimeout: 120_000, // a busy machine is slow, and no test is about time
+    hookTimeout: 120_000,
     maxWorkers: '100%', // also where there are but two cores
     projects: [
       {
@@ -28,7 +31,6 @@ export default defineConfig({
           name: 'unit',
           include: ['test/**/*.test.ts'],
           exclude: ['test/browser/**'],
-          testTimeout: 30_000,
         },
       },
       {
@@ -36,7 +38,6 @@ export default defineConfig({
         test: {
           name: 'examples', // several wait for processes of their own
           include: ['examples/test/*.test.mjs'],
-          testTimeout: 30_000,
         },
       },
     ],

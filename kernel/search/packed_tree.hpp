@@ -127,11 +127,13 @@ template <int D> class PackedTree {
     count = 0;
     for (u32 l = 1; l < levels_; l++) {
       boxes.grow(u64(count + sizes_[l]) * 2 * D, u64(count) * 2 * D);
-      for (u32 k = 0; k < sizes_[l]; k++, count++) {
+      for (u32 k = 0; k < sizes_[l]; k++) {
+        if (!(lanes_.lo(0)[first_[l] + k] <= lanes_.hi(0)[first_[l] + k])) continue;  // of spare places alone
         for (int a = 0; a < D; a++) {
           boxes[u64(count) * 2 * D + a] = lanes_.lo(a)[first_[l] + k];
           boxes[u64(count) * 2 * D + D + a] = lanes_.hi(a)[first_[l] + k];
         }
+        count++;
       }
     }
   }

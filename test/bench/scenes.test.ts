@@ -122,7 +122,7 @@ test('a scene may be empty, and an unknown one or a bad count is an error that n
 describe.each([...sceneNames, ...gameNames])('%s keeps its character', (name) => {
   const frames = 2000;
 
-  test('frame 2,000 has as many pairs as frame 0', () => {
+  test('frame 2,000 has as many pairs as frame 0', { tags: 'long' }, () => {
     const scene = createScene(name, 1000);
     const space = new BroadPhase({ dimensions: scene.dimensions });
     const pairs: number[] = [];

@@ -131,7 +131,7 @@ test('info tells what is in a trace', async () => {
   expect(out).toContain('█');
 });
 
-test.each(BroadPhase.techniques)('replay verifies %s', async (technique) => {
+test.each(BroadPhase.techniques)('replay verifies %s', { tags: 'long' }, async (technique) => {
   for (const name of ['smash', 'rapier3d-gravity8k'] as const) {
     const argv = ['replay', traceFile(name), '--technique', technique, '--frames', '0..1', '--verify'];
     const { code, result } = await json(...argv, '--cell-size', '3');

@@ -61,7 +61,7 @@ describe('the code that the documentation shows', () => {
     expect(documented.filter(({ module }) => module.checks === 0).map(({ example }) => example.name)).toEqual([]);
   });
 
-  test('has no errors of types', () => {
+  test('has no errors of types', { tags: 'long' }, () => {
     const { config } = ts.readConfigFile(path('tsconfig.json'), ts.sys.readFile);
     const { options } = ts.parseJsonConfigFileContent({ ...config, files: [], include: [] }, ts.sys, path(''));
     const program = ts.createProgram(
@@ -74,7 +74,7 @@ describe('the code that the documentation shows', () => {
       return `${documented[index]?.example.name ?? file?.fileName}: ${ts.flattenDiagnosticMessageText(messageText, '\n')}: ${line}`;
     });
     expect(errors).toEqual([]);
-  }, 120_000);
+  });
 
   documented.forEach(({ example }, k) => {
     test(example.name, async () => {

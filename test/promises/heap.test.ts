@@ -38,9 +38,9 @@ beforeAll(async () => {
   const flags = ['--expose-gc', '--min-semi-space-size=64', '--max-semi-space-size=64'];
   const { stdout } = await promisify(execFile)(process.execPath, [...flags, script, library, String(nothing)]);
   results = JSON.parse(stdout);
-}, 60_000);
+});
 
-test.each(usesOfAuto)('%s: allocates nothing per frame', (use) => {
+test.each(usesOfAuto)('%s: allocates nothing per frame', { tags: 'long' }, (use) => {
   const here = results.filter((result) => result.use === use);
   expect(here.length).toBe(2);
   for (const { dimensions, allocated } of here) {
@@ -48,7 +48,7 @@ test.each(usesOfAuto)('%s: allocates nothing per frame', (use) => {
   }
 });
 
-describe.each(uses)('%s', (use) => {
+describe.each(uses)('%s', { tags: 'long' }, (use) => {
   test.each(BroadPhase.techniques)('allocates nothing per frame with %s', (technique) => {
     const here = results.filter((result) => result.use === use && result.technique === technique);
     expect(here.length).toBe(2);

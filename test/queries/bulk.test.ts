@@ -79,7 +79,7 @@ class Scene {
 
 const cases = [2, 3].flatMap((d) => [true, false].map((single) => [d as 2 | 3, single] as const));
 describe.each(cases)('in %iD, of float32 (%s)', (dimensions, single) => {
-  test('each question is answered as by a look at every box', () => {
+  test('each question is answered as by a look at every box', { tags: 'long' }, () => {
     const seed = Number(process.env.SEED ?? 41);
     console.info(`seed ${seed}`);
     const scene = new Scene(dimensions, single, seed);

@@ -61,7 +61,7 @@ const cases = ([2, 3] as const).flatMap((dimensions) =>
 );
 
 describe(`pairs with another space (SEED=${seed})`, () => {
-  test.each(cases)('in %iD, wrapped %j, touching %j', (dimensions, wrap, touching) => {
+  test.each(cases)('in %iD, wrapped %j, touching %j', { tags: 'long' }, (dimensions, wrap, touching) => {
     for (let round = 0; round < runs(12); round++) {
       const options = { dimensions, touching, ...(wrap && { wrap }) } as never;
       const here = new Side(options, seed + round);

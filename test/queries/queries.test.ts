@@ -28,7 +28,7 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
 
 // Few questions an update, so that the index keeps its order while boxes drift, come and go.
 describe.each([2, 3] as const)('among many boxes in %d dimensions', (dimensions) => {
-  test.each([1, 2, 3, 4, 5, 6])('answers while most of them move, seed %i', (seed) => {
+  test.each([1, 2, 3, 4, 5, 6])('answers while most of them move, seed %i', { tags: 'long' }, (seed) => {
     const model = new Modelled({ dimensions }, seed, anyPlace, 200, 700);
     const { space, random, entries } = model;
     const asker = new Asker(space, random, 200);
@@ -61,7 +61,7 @@ describe.each([2, 3] as const)('among many boxes in %d dimensions', (dimensions)
   });
 });
 
-test.each(traceNames)('answers in the recorded %s', (name) => {
+test.each(traceNames)('answers in the recorded %s', { tags: 'long' }, (name) => {
   const recording = readTrace(name);
   const { dimensions, count } = recording;
   const random = createRandom(3);

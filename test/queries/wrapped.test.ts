@@ -325,7 +325,7 @@ const cases = worlds.flatMap((world) =>
 );
 
 describe(`what is near and ahead, in a world that wraps around (SEED=${seed})`, () => {
-  test.each(cases)('of %j, in whole steps: %s', (wrap, whole) => {
+  test.each(cases)('of %j, in whole steps: %s', { tags: 'long' }, (wrap, whole) => {
     const scene = new Copied(wrap, seed, whole);
     for (let round = 0; round < runs(12); round++) {
       for (let n = scene.pick(3, 40); n > 0; n--) scene.step();

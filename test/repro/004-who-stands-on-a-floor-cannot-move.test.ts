@@ -225,7 +225,7 @@ describe.each(kinds)('in %s', (_, array, round) => {
   });
 });
 
-test('a million steps of Pong', () => {
+test('a million steps of Pong', { tags: 'long' }, () => {
   const space = new BroadPhase();
   room(space, 0, 500, 50, (x) => x);
   const ask = space as unknown as Loose;

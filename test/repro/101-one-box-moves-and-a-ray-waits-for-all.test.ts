@@ -13,7 +13,7 @@ test.each([
   [3, 400],
   [2, 30],
   [2, 3000],
-] as const)('in %d dimensions, among %d boxes, it answers as a look at all', (dimensions, count) => {
+] as const)('in %d dimensions, among %d boxes, it answers as a look at all', { tags: 'long' }, (dimensions, count) => {
   const random = createRandom(dimensions + count);
   const world = 100;
   const place = () => world * random() * (random() < 0.02 ? 50 : 1);

@@ -147,7 +147,7 @@ describe.each(BroadPhase.techniques)('the views and figures of %s', (technique) 
 
   test.each([2, 3] as const)('structure is whole boxes in %d dimensions', (dimensions) => {
     const space = new BroadPhase({ technique, dimensions });
-    space.setAll(createScene(`uniform${dimensions}d`, 500).boxes).update();
+    space.setAll(createScene(`uniform${dimensions}d`, 5000).boxes).update();
     const boxes = space.structure();
     expect(boxes).toBeInstanceOf(Float32Array);
     expect(boxes.length % (2 * dimensions)).toBe(0);
@@ -156,6 +156,19 @@ describe.each(BroadPhase.techniques)('the views and figures of %s', (technique) 
         if (!(boxes[axis] <= boxes[axis + dimensions])) expect.fail(`cell at ${at} is no box`);
       }
     }
+  });
+
+  test.each([2, 3] as const)('one cell at most holds all others in %d dimensions', (dimensions) => {
+    const space = new BroadPhase({ technique, dimensions });
+    const width = 2 * dimensions;
+    space.setAll(createScene(`uniform${dimensions}d`, 5000).boxes).update();
+    const cells = Array.from({ length: space.structure().length / width }, (_, k) =>
+      space.structure().slice(width * k, width * (k + 1)),
+    );
+    const bounds = Array.from({ length: width }, (_, k) =>
+      Math[k < dimensions ? 'min' : 'max'](...cells.map((cell) => cell[k]!)),
+    );
+    expect(cells.filter((cell) => cell.every((x, k) => x === bounds[k])).length).toBeLessThanOrEqual(1);
   });
 
   test('validate finds nothing wrong, before and after anything', () => {

@@ -26,7 +26,7 @@ const runs = [
 ] as const;
 
 describe.each(runs)('incremental, $dimensions dimensions, speed $speed of $share, huge $huge', (run) => {
-  test.each([1, 2])('finds what strip-sweep finds, seed %i', (seed) => {
+  test.each([1, 2])('finds what strip-sweep finds, seed %i', { tags: 'long' }, (seed) => {
     const random = createRandom(seed);
     const { dimensions } = run;
     const count = 400 + Math.floor(random() * 600);
@@ -196,7 +196,7 @@ test.each([2, 3] as const)('what is kept takes little memory, %i dimensions', (d
   space.dispose();
 });
 
-test('few boxes that move fast among many at rest are found', () => {
+test('few boxes that move fast among many at rest are found', { tags: 'long' }, () => {
   const random = createRandom(3);
   const count = 8000;
   const world = 10 * (count / 0.2) ** (1 / 3);
@@ -229,7 +229,7 @@ test('few boxes that move fast among many at rest are found', () => {
 });
 
 // Seeds 61 and 95 found a box that was not in all the cells it touches.
-test.each([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 61, 95])('among thousands of boxes, seed %i', (seed) => {
+test.each([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 61, 95])('among thousands of boxes, seed %i', { tags: 'long' }, (seed) => {
   const crowd = new Crowd(seed);
   for (let frame = 0; frame < 120; frame++) {
     crowd.step();
@@ -261,6 +261,7 @@ test('a box that jumps beside one that turns is not reported twice', () => {
 
 test.each([2, 3] as const)(
   'a box at rest that jumps leaves nothing behind where others move, %i dimensions',
+  { tags: 'long' },
   (dimensions) => {
     const random = createRandom(7);
     const [kept, fresh] = (['incremental', 'strip-sweep'] as const).map(
@@ -377,6 +378,7 @@ test('boxes that all stand in a row are kept too', () => {
 
 test.each([2, 3] as const)(
   'boxes at rest that become static, or cease to, are seen where all are written, %iD',
+  { tags: 'long' },
   (dimensions) => {
     const random = createRandom(dimensions);
     const count = 6000;
@@ -413,7 +415,7 @@ test.each([2, 3] as const)(
   },
 );
 
-test('what is kept of a world at rest is given up while more and more boxes begin to jump', () => {
+test('what is kept of a world at rest is given up while more and more boxes begin to jump', { tags: 'long' }, () => {
   const count = 4000;
   const world = Math.sqrt(count * 200);
   const random = createRandom(3);

@@ -69,25 +69,29 @@ describe.each(combinations)('a cell size far too small, %s in %d dimensions', (t
 describe('with 32 MiB of memory', () => {
   beforeAll(() => init(kernelWith(32 * mebibyte)));
 
-  test.each(combinations)('%s in %d dimensions recovers from too many pairs', (technique, dimensions) => {
-    const space = new BroadPhase({ technique, dimensions });
-    const count = 20_000;
-    for (let round = 0; round < 2; round++) {
-      space.setAll(identical(count, dimensions));
-      const update = () => space.update();
-      expect(update).toThrow(RangeError);
-      expect(update).toThrow(/^update: out of memory: \d+ more bytes are needed for 20000 boxes and their pairs/);
-      expect(space.size).toBe(count);
-      expect(space.pairCount).toBe(0);
-      expect(space.pairs.length).toBe(0);
-      expect(space.stats.pairs).toBe(0);
-      expect(space.structure().length).toBe(0);
-      space.validate();
-      for (let id = 1000; id < count; id++) space.delete(id);
-      expect(space.update().pairCount).toBe((1000 * 999) / 2);
-      expect(space.validate().stats.pairs).toBe(space.pairCount);
-    }
-  });
+  test.each(combinations)(
+    '%s in %d dimensions recovers from too many pairs',
+    { tags: 'long' },
+    (technique, dimensions) => {
+      const space = new BroadPhase({ technique, dimensions });
+      const count = 20_000;
+      for (let round = 0; round < 2; round++) {
+        space.setAll(identical(count, dimensions));
+        const update = () => space.update();
+        expect(update).toThrow(RangeError);
+        expect(update).toThrow(/^update: out of memory: \d+ more bytes are needed for 20000 boxes and their pairs/);
+        expect(space.size).toBe(count);
+        expect(space.pairCount).toBe(0);
+        expect(space.pairs.length).toBe(0);
+        expect(space.stats.pairs).toBe(0);
+        expect(space.structure().length).toBe(0);
+        space.validate();
+        for (let id = 1000; id < count; id++) space.delete(id);
+        expect(space.update().pairCount).toBe((1000 * 999) / 2);
+        expect(space.validate().stats.pairs).toBe(space.pairCount);
+      }
+    },
+  );
 });
 
 describe('with 64 MiB of memory', () => {
@@ -229,7 +233,7 @@ describe('views of memory', () => {
     space.update();
   }
 
-  test('of 20,000,000 pairs and more are views of all of them', () => {
+  test('of 20,000,000 pairs and more are views of all of them', { tags: 'long' }, () => {
     const count = 6400;
     const space = new BroadPhase({ technique: 'brute-force' }).setAll(identical(count, 2)).update();
     expect(space.pairCount).toBeGreaterThan(20_000_000);
@@ -311,6 +315,7 @@ describe('views of memory', () => {
   // What a game does with its pairs: boxes come and go meanwhile, and questions are asked.
   test.each([2, 3] as const)(
     'of pairs stay while a few boxes are added and questions asked, in %d dimensions',
+    { tags: 'long' },
     (dimensions) => {
       const calls: ((space: BroadPhase<2 | 3>, count: number) => unknown)[] = [
         (space, count) => setBox(space, count, Array(2 * dimensions).fill(count)),

@@ -119,18 +119,22 @@ describe(`a restored space (SEED=${seed})`, () => {
     },
   );
 
-  test.each(combinations)('replays a recorded scene: %s in %d dimensions', (technique, dimensions) => {
-    const trace = readTrace(dimensions === 2 ? 'smash' : 'rapier3d-freefall10k');
-    const options = { technique, dimensions };
-    const [space, other] = [new BroadPhase(options), new BroadPhase(options)];
-    const frames = Math.min(trace.frames, 6);
-    for (let k = 0; k < frames / 2; k++) space.setAll(trace.frame(k)).update();
-    other.restore(space.snapshot());
-    for (let k = frames / 2; k < frames; k++) {
-      const { pairs } = space.setAll(trace.frame(k)).update();
-      expect(Buffer.compare(bytesOf(other.setAll(trace.frame(k)).update().pairs), bytesOf(pairs))).toBe(0);
-    }
-  });
+  test.each(combinations)(
+    'replays a recorded scene: %s in %d dimensions',
+    { tags: 'long' },
+    (technique, dimensions) => {
+      const trace = readTrace(dimensions === 2 ? 'smash' : 'rapier3d-freefall10k');
+      const options = { technique, dimensions };
+      const [space, other] = [new BroadPhase(options), new BroadPhase(options)];
+      const frames = Math.min(trace.frames, 6);
+      for (let k = 0; k < frames / 2; k++) space.setAll(trace.frame(k)).update();
+      other.restore(space.snapshot());
+      for (let k = frames / 2; k < frames; k++) {
+        const { pairs } = space.setAll(trace.frame(k)).update();
+        expect(Buffer.compare(bytesOf(other.setAll(trace.frame(k)).update().pairs), bytesOf(pairs))).toBe(0);
+      }
+    },
+  );
 
   test.each([2, 3] as const)('has the boxes, filters and flags of the model, in %d dimensions', (dimensions) => {
     const modelled = new Modelled({ dimensions }, 7);
@@ -266,7 +270,7 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     space.validate();
   };
 
-  test.each([2, 3] as const)('any bit that is wrong, in %d dimensions', (dimensions) => {
+  test.each([2, 3] as const)('any bit that is wrong, in %d dimensions', { tags: 'long' }, (dimensions) => {
     const saved = full(dimensions).snapshot();
     const space = full(dimensions);
     const before = space.set(1000, ...([0, 0, 0.1, 9, 9, 9].slice(0, 2 * dimensions) as [0, 0, 0, 0])).snapshot();

@@ -106,7 +106,7 @@ describe.each(combinations)(`%s in %d dimensions (SEED=${seed})`, (technique, di
     expect(space.update().pairCount).toBeGreaterThan(2 ** dimensions - 1);
   });
 
-  test('in a world that wraps around', () => {
+  test('in a world that wraps around', { tags: 'long' }, () => {
     const wrap = Array.from({ length: dimensions }, () => 40);
     for (const place of [whole, undefined]) {
       const model = new Modelled({ technique, dimensions, wrap, touching: false }, seed, place);

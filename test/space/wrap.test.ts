@@ -25,7 +25,7 @@ function remember(key: string, find: () => Float64Array): Float64Array {
   return found;
 }
 
-describe(`in a world that wraps around (SEED=${seed})`, () => {
+describe(`in a world that wraps around (SEED=${seed})`, { tags: 'long' }, () => {
   test.each(combinations)('%s in %d dimensions finds the pairs of the reference', (technique, dimensions) => {
     const boxes = aWorld.chain((world) => {
       const wrap = world.slice(0, dimensions);

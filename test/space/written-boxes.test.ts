@@ -113,6 +113,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     ['doubles', false],
   ] as const)(
     'in a world mostly at rest, given by %s, all that is else than expected is seen (static: %s)',
+    { tags: 'long' },
     (way, isStatic) => {
       const count = 1203;
       const width = 2 * dimensions;

@@ -268,7 +268,7 @@ test('a gzip bomb is stopped, and a broken gzip said to be', async () => {
 });
 
 // Whoever sends a trace must not be able to keep its reader busy for longer than the bytes are worth.
-describe('many small frames after a large one are opened in time that goes with their bytes', () => {
+describe('many small frames after a large one are opened in time that goes with their bytes', { tags: 'long' }, () => {
   const count = 2 ** 18;
   const varint = (value: number): number[] => (value < 128 ? [value] : [(value & 127) | 128, ...varint(value >>> 7)]);
   const large = varint(count);

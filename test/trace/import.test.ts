@@ -14,26 +14,30 @@ import { expect, test } from 'vitest';
 import { concat } from '../support/random-frames.ts';
 import { traceFile, traceNames } from '../support/recordings.ts';
 
-test.each(traceNames)('%s goes through a trace unchanged, which is smaller than the raw recording', async (name) => {
-  const source = await openAny(readFileSync(traceFile(name)));
-  const writer = new TraceWriter(source.dimensions);
-  const pieces = [writer.header()];
-  for (const frame of source) pieces.push(writer.frame(frame.boxes as Float32Array));
-  pieces.push(writer.end());
-  const bytes = Buffer.concat(pieces);
-  const trace = openTrace(bytes);
-  expect(trace).toMatchObject({ dimensions: source.dimensions, frames: source.frames });
-  const frames = Array.from(source, ({ boxes }) => boxes.slice());
-  for (const frame of trace) {
-    expect(Buffer.compare(bytesOf(frame.boxes), bytesOf(frames[frame.index]))).toBe(0);
-  }
-  const raw = exportRecording(trace);
-  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThan(gzipSync(raw, { level: 9 }).length);
-  for (const { index, boxes } of importRecording(raw)) {
-    expect(Buffer.compare(bytesOf(boxes), bytesOf(frames[index]))).toBe(0);
-  }
-  expect(Buffer.compare(exportRecording(importRecording(raw)), raw)).toBe(0);
-});
+test.each(traceNames)(
+  '%s goes through a trace unchanged, which is smaller than the raw recording',
+  { tags: 'long' },
+  async (name) => {
+    const source = await openAny(readFileSync(traceFile(name)));
+    const writer = new TraceWriter(source.dimensions);
+    const pieces = [writer.header()];
+    for (const frame of source) pieces.push(writer.frame(frame.boxes as Float32Array));
+    pieces.push(writer.end());
+    const bytes = Buffer.concat(pieces);
+    const trace = openTrace(bytes);
+    expect(trace).toMatchObject({ dimensions: source.dimensions, frames: source.frames });
+    const frames = Array.from(source, ({ boxes }) => boxes.slice());
+    for (const frame of trace) {
+      expect(Buffer.compare(bytesOf(frame.boxes), bytesOf(frames[frame.index]))).toBe(0);
+    }
+    const raw = exportRecording(trace);
+    expect(gzipSync(bytes, { level: 9 }).length).toBeLessThan(gzipSync(raw, { level: 9 }).length);
+    for (const { index, boxes } of importRecording(raw)) {
+      expect(Buffer.compare(bytesOf(boxes), bytesOf(frames[index]))).toBe(0);
+    }
+    expect(Buffer.compare(exportRecording(importRecording(raw)), raw)).toBe(0);
+  },
+);
 
 const bytesOf = ({ buffer, byteOffset, byteLength }: Float32Array | Float64Array) =>
   new Uint8Array(buffer, byteOffset, byteLength);

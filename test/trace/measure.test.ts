@@ -41,7 +41,7 @@ test.each([
   ['compare', (source: FrameSource) => compare(source)],
   ['tune', (source: FrameSource) => tune(source, { seconds: 0 })],
   ['tune, exhaustively', (source: FrameSource) => tune(source, { seconds: 0, exhaustive: true })],
-])('%s plays each frame after the one before it, or from nothing', (_, measure) => {
+])('%s plays each frame after the one before it, or from nothing', { tags: 'long' }, (_, measure) => {
   measure(moving(9));
   expect(seen.size).toBeGreaterThan(0);
   for (const frames of seen.values()) {
