@@ -12,7 +12,7 @@ template <int D> class Together {
   using Block = typename Index<D>::Block;
   static constexpr u32 number_bits = 26;  // of a block; above them stands the question
   static constexpr u32 part = 64;  // entries that are followed at once
-  static constexpr u32 list_size = 8 * part + 4;
+  static constexpr u32 list_room = 8 * part + 4;
   struct Aim {
     f32 lo[D], hi[D];
   };
@@ -30,7 +30,7 @@ template <int D> class Together {
   u32 begin(const Index<D>& index, u32 left) {
     index_ = &index;
     aims_.reserve(most);
-    lists_.reserve((index.top() + 1) * list_size);
+    lists_.reserve((index.top() + 1) * list_room);
     __builtin_memset(ends, 0, sizeof(ends));
     return smaller(left, most);
   }
@@ -42,7 +42,7 @@ template <int D> class Together {
 
   /// Writes what so many questions touch behind what was found before. Returns how many blocks they looked at.
   SMALL u32 search(u32 count, Buffer<u32>& places, u32 found) {
-    u32* list = lists_.data() + index_->top() * list_size;
+    u32* list = lists_.data() + index_->top() * list_room;
     for (u32 k = 0; k < count; k++) list[k] = k << number_bits;
     found_ = found;
     return descend(index_->top(), count, places);
@@ -55,14 +55,14 @@ template <int D> class Together {
 
  private:
   u32 descend(u32 level, u32 count, Buffer<u32>& places) {
-    u32* list = lists_.data() + level * list_size;
+    u32* list = lists_.data() + level * list_room;
     u32 looks = count;
     for (u32 k = 0; k < count; k += part) {
       u32 some = smaller(count - k, part);
       if (level > 0) {
-        looks += descend(level - 1, expand(level, list + k, some, list - list_size), places);
+        looks += descend(level - 1, expand(level, list + k, some, list - list_room), places);
       } else {
-        places.grow(u64(found_) + list_size, found_);
+        places.grow(u64(found_) + list_room, found_);
         found_ += expand(0, list + k, some, places.data() + found_);
       }
     }
