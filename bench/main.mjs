@@ -15,7 +15,7 @@ import { compare } from './report/compare.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
 /** In the order of a run. */
-const kinds = ['objects', 'cold', 'once', 'movers', 'motions', 'questions', 'scenes', 'native'];
+const kinds = ['objects', 'cold', 'once', 'movers', 'motions', 'queries', 'scenes', 'native'];
 /** Runs only when it is asked for: what it needs is not everywhere. */
 const onRequest = ['native'];
 

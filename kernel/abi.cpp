@@ -2,10 +2,10 @@
 // Numbers that do not fit in a return value are passed through `io`, an array of doubles.
 #include "space/space.hpp"
 
-// As <new> has it, which a compiler without a standard library lacks.
+// Placement new, as in <new>, which is missing without a standard library.
 inline void* operator new(size_t, void* at) noexcept { return at; }
 
-// Next to one another, as the techniques are: see there.
+// Next to each other in the module: see BOTH in techniques.hpp.
 BOTH(Index)
 BOTH(Queries)
 BOTH(PlaneQuery)
@@ -52,7 +52,7 @@ template <class What> auto with_space(What what) {
 
 EXPORT(io_address)() -> f64* { return io; }
 
-/// Once, first; then, where the user says so, the margin, and the cell size, the world and the bounds, from io.
+/// Called once, first; then the setters of the options that the user gives: margin, and from io cell size, wrap, bounds.
 EXPORT(open_space)([[maybe_unused]] u32 dimensions) -> void {
 #if !defined(DIMENSIONS)
   is_flat = dimensions == 2;
@@ -76,7 +76,7 @@ EXPORT(reserve)(u32 count) -> void {
 EXPORT(ring_address)() -> f64* {
   return with_ring([](auto&, auto& ring) { return &ring.dense; });
 }
-/// Adds or moves the boxes of the ring.
+/// Adds or moves the boxes that wait in the ring.
 EXPORT(take)(u32 count) -> void {
   with_ring([&](auto& space, auto& ring) { space.store.take(ring, count); });
 }
@@ -92,7 +92,7 @@ EXPORT(clear)() -> void {
   with_space([](auto& space) { space.store.clear(); });
 }
 
-/// These return 0 where there is no such box.
+/// The setters of rules return 0 if there is no such box.
 EXPORT(set_filter)(u32 id, u32 layer, u32 mask) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
@@ -123,22 +123,24 @@ EXPORT(set_reach)(u32 id, f64 distance) -> u32 {
   with_space([&](auto& space) { space.store.set_reach(slot, distance); });
   return 1;
 }
-/// In io: layer, mask, whether it is static, whether it is enabled, its group and its reach. 0 where there is no such box.
+/// What get_rule writes to io, in this order.
+enum RulePlace : u32 { layer_at, mask_at, static_at, enabled_at, group_at, reach_at };
+/// Writes the rule of a box to io; returns 0 if there is no such box.
 EXPORT(get_rule)(u32 id) -> u32 {
   u32 slot = ids.slot(id);
   if (slot == Ids::none) return 0;
   with_space([&](auto& space) {
     Rule rule = space.store.own.rule(slot);
-    io[0] = rule.layer;
-    io[1] = rule.mask;
-    io[2] = (rule.excluded & is_static) != 0;
-    io[3] = !rule.is_off();
-    io[4] = space.store.own.groups.of(slot);
-    io[5] = space.store.own.reaches.of(slot);
+    io[layer_at] = rule.layer;
+    io[mask_at] = rule.mask;
+    io[static_at] = (rule.excluded & is_static) != 0;
+    io[enabled_at] = !rule.is_off();
+    io[group_at] = space.store.own.groups.of(slot);
+    io[reach_at] = space.store.own.reaches.of(slot);
   });
   return 1;
 }
-/// Writes the ids to answers, in the order in which they came; returns how many.
+/// Writes the ids to answers, in the order in which they were added; returns how many.
 EXPORT(list_ids)() -> u32 {
   return with_space([](auto& space) {
     ids.in_order(space.questions.answers);
@@ -162,7 +164,7 @@ EXPORT(expose)(u32 count) -> f32* {
   return with_space([&](auto& space) { return space.store.expose(count); });
 }
 
-/// The bytes of a snapshot; in io, how many, and the first bad id among boxes written in place (-1: none).
+/// The bytes of a snapshot. In io: how many, and the first bad id among boxes written in place (-1: none).
 EXPORT(save)() -> const u64* {
   return with_space([](auto& space) {
     io[1] = space.save();
@@ -170,14 +172,14 @@ EXPORT(save)() -> const u64* {
     return space.snapshot.words();
   });
 }
-/// Room for a snapshot of so many bytes, the first of which are in io; where they are bad, io[0] says how, else it is 0.
+/// Room for a snapshot of `size` bytes, whose header is in io. Then io[0] is what is wrong with the header, or 0.
 EXPORT(stage_snapshot)(u32 size) -> const u64* {
   return with_space([&](auto& space) {
     io[0] = f64(u32(space.snapshot.stage(load<SnapshotHeader>(io), size, is_flat ? 2 : 3, built)));
     return space.snapshot.words();
   });
 }
-/// What is wrong with what was staged; 0: nothing, and it is restored.
+/// What is wrong with the staged snapshot; 0: nothing, and it is restored.
 EXPORT(restore)() -> u32 {
   return with_space([](auto& space) { return u32(space.restore()); });
 }
@@ -189,7 +191,7 @@ EXPORT(split)(u32 red) -> void {
   });
 }
 
-/// Which techniques there are: a bit for each, in the order of their names.
+/// The techniques of this build: a bit for each, in the order of their names.
 EXPORT(techniques)() -> u32 {
   return built;
 }
@@ -205,7 +207,7 @@ EXPORT(pairs_address)() -> u64* {
 EXPORT(pair_count)() -> u32 {
   return with_space([](auto& space) { return u32(space.pairs.count); });
 }
-/// From now on the pairs that began and ended are kept with every update.
+/// Turns events on: each update records the pairs that began and ended.
 EXPORT(set_events)() -> void {
   with_space([](auto& space) { space.store.keeps_events = true; });
 }
@@ -224,20 +226,19 @@ EXPORT(ended_count)() -> u32 {
 EXPORT(is_pair)(u32 a, u32 b) -> u32 {
   return with_space([&](auto& space) { return space.is_pair(a, b); });
 }
-/// The number of answers, which are ids.
+/// Returns the number of ids in answers.
 EXPORT(partners)(u32 id) -> u32 {
   return with_space([&](auto& space) { return space.partners(id); });
 }
 EXPORT(answers_address)() -> u32* {
   return with_space([](auto& space) { return space.questions.answers.data(); });
 }
-/// Questions. What they ask is in io: the box or twice the point, what it moves by, then at fixed places, of areas,
-/// whether what only touches counts, the radius
-/// (negative: none; -2: boxes are to be within the box), the limit, the rank of the hit to go on behind, whose id is
-/// `after`, and the planes, each a normal and an offset.
+/// Queries. Their arguments are in io: the box, or twice the point; the displacement; then at fixed places: whether
+/// touching counts (for areas), the radius or one of its codes, the limit, the rank of the hit to resume after, whose id
+/// is `after`, and the planes, each a normal and an offset.
 enum Place : u32 { touching_at = 11, radius_at = 12, limit_at = 13, after_at = 14, planes_at = 15 };
 inline constexpr u32 no_id = 0xffffffff;
-/// What hits are in order of: what is nearest, on a ray, or on the way of a box that is to stop.
+/// What hits are ordered by: distance, distance along a ray, or the time of a box that stops.
 enum class Order : u32 { near, ray, way };
 
 template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignored) {
@@ -253,7 +254,7 @@ template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignore
   to.ignored = ignored;
 }
 
-/// The number of ids in answers. Where there may be more, io says from where to go on; else -1.
+/// Returns the number of ids in answers. io[0] says where to resume, or is -1 if there are no more.
 EXPORT(ask_area)(u32 mask, u32 ignored, u32 from, u32 most) -> u32 {
   return with_space([&](auto& space) {
     read_question(space.questions.asked, mask, ignored);
@@ -262,7 +263,7 @@ EXPORT(ask_area)(u32 mask, u32 ignored, u32 from, u32 most) -> u32 {
     return count;
   });
 }
-/// The same for the boxes that are not behind one of so many planes; ids have PlaneQuery::inside with them.
+/// The same for the boxes that are not behind one of the planes; ids may have the flag PlaneQuery::inside.
 EXPORT(ask_planes)(u32 planes, u32 mask, u32 ignored, u32 from, u32 most) -> u32 {
   return with_space([&]<int D>(Space<D>& space) {
     read_question(space.questions.asked, mask, ignored);
@@ -277,7 +278,7 @@ EXPORT(ask_planes)(u32 planes, u32 mask, u32 ignored, u32 from, u32 most) -> u32
     return count;
   });
 }
-/// The number of hits, in an Order.
+/// Returns the number of hits, in the order of this kind.
 EXPORT(ask_order)(u32 kind, u32 mask, u32 ignored, u32 after, u32 most) -> u32 {
   return with_space([&](auto& space) {
     read_question(space.questions.asked, mask, ignored);
@@ -286,16 +287,16 @@ EXPORT(ask_order)(u32 kind, u32 mask, u32 ignored, u32 after, u32 most) -> u32 {
     return space.questions.ask_order(Order(kind) != Order::near, most, after == no_id ? nullptr : &last);
   });
 }
-/// Many questions: where their numbers go, and then of each the id it ignores.
+/// Many queries at once: room for their numbers, followed by the id that each ignores.
 EXPORT(stage_questions)(u32 numbers) -> f64* {
   return with_space([&](auto& space) { return space.questions.bulk.stage(numbers); });
 }
-/// The first whose numbers are bad, or -1.
+/// The first query with bad numbers, or -1.
 EXPORT(bad_question)(u32 kind, u32 count) -> i32 {
   return with_space([&](auto& space) { return space.questions.bulk.first_bad(Asks(kind), count); });
 }
-/// The number of questions. Of each, offsets_address says where its answers begin among those of all, which are ids for
-/// areas, else hits; and behind them where the last ones end. Of all boxes, their ids are in answers.
+/// Returns the number of queries. offsets_address has, for each, where its answers begin among all, and finally where
+/// the last ones end. Answers are ids for areas, else hits. For `others`, the ids of the boxes that ask are in answers.
 EXPORT(ask_many)(u32 kind, u32 count, u32 mask, u32 most) -> u32 {
   return with_space([&](auto& space) {
     read_question(space.questions.asked, mask, no_id);
@@ -311,7 +312,7 @@ EXPORT(many_ids_address)() -> const u32* {
 EXPORT(many_hits_address)() -> const Hit* {
   return with_space([](auto& space) { return space.questions.bulk.hits.data(); });
 }
-/// For who keeps pairs with another space: the epoch of the list of what has changed (-1: nobody has kept what the last
+/// For spaces that keep pairs with this one: the epoch of the list of changes (-1: no copy was kept of what the last
 /// update saw), its length, and the list itself: see changed_ids.hpp.
 EXPORT(log_epoch)() -> u32 {
   return with_space([](auto& space) { return space.questions.keep_changes(); });
@@ -322,19 +323,19 @@ EXPORT(log_count)() -> u32 {
 EXPORT(log_address)() -> const u32* {
   return with_space([](auto& space) { return space.store.changed.list(); });
 }
-/// How many boxes the last update saw.
+/// The number of boxes in the last update.
 EXPORT(seen_count)() -> u32 {
   return with_space([](auto& space) { return space.questions.index().count(); });
 }
-/// Fills rows that were staged in place of questions, and begin with a slot: see Bulk::fill_rows.
+/// Fills rows that were staged instead of queries, and begin with a slot: see Bulk::fill_rows.
 EXPORT(see_rows)(u32 count) -> void {
   with_space([&](auto& space) { space.questions.bulk.fill_rows(space.questions.index(), count); });
 }
-/// How far a box reaches at most that the last update saw.
+/// The largest reach of a box in the last update.
 EXPORT(most_reach)() -> f64 {
   return with_space([](auto& space) { return space.questions.index().most_reach(); });
 }
-/// Whether the two boxes that `io` begins with overlap, in a world that wraps around.
+/// Whether the two boxes at the start of `io` overlap, in a world that wraps around.
 EXPORT(meet_around)() -> u32 {
   return with_space([](auto& space) { return u32(space.questions.meet_around(io)); });
 }
@@ -366,7 +367,7 @@ EXPORT(validate)() -> u32 {
 }
 
 #if defined(__wasm__)
-/// After a trap: what it was, and how many bytes were asked for (in io[0]); the space is usable again.
+/// After a trap: returns its cause, with the number of bytes asked for in io[0], and makes the space usable again.
 EXPORT(recover)() -> u32 {
   Fault what = fault;
   io[0] = fault_bytes;
@@ -375,8 +376,8 @@ EXPORT(recover)() -> u32 {
   return u32(what);
 }
 
-/// Everything as in a new instance, but that memory has grown. Returns how many bytes have been in use at most.
-/// What holds memory is made anew rather than emptied: so no list of what has to be reset can miss anything.
+/// Resets everything as in a new instance, except that memory stays grown. Returns the largest number of bytes that were
+/// ever in use. Objects are constructed again rather than emptied, so that nothing can be missed.
 SMALL EXPORT(begin_anew)() -> size_t {
   new (&ids) Ids;
   options = Settings{};

@@ -1,18 +1,18 @@
-// A module of its own, of a kilobyte: decodes the text that scripts/inline.mjs writes into bytes, and puts the streams
-// that scripts/streams.mjs has made of the kernel together again. It runs once, before the kernel is compiled;
-// JavaScript, which no engine has optimised by then, would take several times as long.
+// A module of its own, of a kilobyte: decodes the text that scripts/inline.mjs writes into bytes, and reassembles the
+// kernel from the streams that scripts/streams.mjs made of it. It runs once, before the kernel is compiled. JavaScript
+// would take several times as long, since no engine has optimized it by then.
 #include "base/simd.hpp"
 
 extern "C" u8 __heap_base;
 
 namespace {
 
-/// What JavaScript writes before it calls `decode`.
+/// Written by JavaScript before it calls `decode`.
 struct Given {
-  u8 bytes[128];  // by character: the byte that it stands for
+  u8 bytes[128];  // by character: the byte it encodes
   u8 places[128];  // by character: its place in the alphabet
-  u8 pairs[256];  // by two characters: the byte that they stand for
-  u8 text[1];  // and more: up to the end of the memory
+  u8 pairs[256];  // by two characters: the byte they encode
+  u8 text[1];  // extends to the end of the memory
 };
 
 // As in scripts/streams.mjs.
@@ -23,7 +23,7 @@ enum Head : u32 { functions, kinds, before, behind, order, lengths, numbers_in_h
 /// Three bytes, the least significant first.
 u32 number(const u8* at) { return at[0] | at[1] << 8 | at[2] << 16; }
 
-/// The text, of that many characters, as bytes in its place.
+/// Decodes `count` characters of text in place.
 void read_text(Given& given, u32 count, u32 singles, u32 length) {
   const u8* from = given.text;
   const u8* end = from + count;
@@ -40,11 +40,11 @@ void read_text(Given& given, u32 count, u32 singles, u32 length) {
 struct Kind {
   u8 opcode[longest];
   u8 length;  // of the opcode
-  u8 stream, count;  // so many numbers of it follow, or bytes where it is raw
-  u8 more;  // the bit of a byte that says that another one of the number follows
+  u8 stream, count;  // how many numbers of the stream follow, or bytes if it is raw
+  u8 more;  // the bit that says that another byte of the number follows
 };
 
-/// Writes the module whose streams stand here.
+/// Writes the module that these streams encode.
 void put_together(const u8* from, u8* to) {
   u32 head[numbers_in_head];
   for (u32 k = 0; k < numbers_in_head; k++, from += 3) head[k] = number(from);
@@ -68,7 +68,7 @@ void put_together(const u8* from, u8* to) {
     from += head[lengths + s];
   }
   for (u32 left = head[functions]; left; left--) {
-    u8* begin = to + 3;  // its size is known when it is there
+    u8* begin = to + 3;  // the size is written once it is known
     u8* end = begin;
     u32 k;
     do {
@@ -97,8 +97,8 @@ void put_together(const u8* from, u8* to) {
 
 EXPORT(given)() -> Given* { return reinterpret_cast<Given*>(&__heap_base); }
 
-/// Decodes the text, of that many characters: the module is behind it then. Of the characters of the alphabet, which
-/// are so many, those below `singles` begin a pair.
+/// Decodes the text, of `count` characters, and writes the module after it. The alphabet has `length` characters; those
+/// with a place below `singles` begin a pair.
 EXPORT(decode)(u32 count, u32 singles, u32 length) -> void {
   Given& given = *reinterpret_cast<Given*>(&__heap_base);
   read_text(given, count, singles, length);

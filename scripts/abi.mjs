@@ -1,6 +1,6 @@
 // What the kernel and the library have in common, read out of kernel/ and written as TypeScript: the exported functions,
-// and enumerations and places by name. So C++ says each once, and what the library does not know does not compile.
-// In an enumeration whose members are words for users, the words stand in the comment behind each.
+// enumerations, places and constants by name. So C++ states each once, and TypeScript that misses one does not compile.
+// If the members of an enumeration have texts for users, these are the comments after them.
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -13,7 +13,7 @@ const camel = (name) => name.replace(/_(\w)/g, (_, letter) => letter.toUpperCase
 const constant = (name, value) => `export const ${name} = ${value};`;
 const list = (name, words) => `export const ${name} = [\n${words.map((word) => `  '${word}',\n`).join('')}] as const;`;
 
-/** What stands between the braces of `head`. */
+/** The text between the braces after `head`. */
 function bodyOf(file, head) {
   const text = read(file);
   const at = text.indexOf(`${head} {`);
@@ -24,7 +24,18 @@ function bodyOf(file, head) {
 const membersOf = (file, head) => [...bodyOf(file, head).matchAll(/(\w+)(?: = (\w+))?(?=\s*(?:,|$))/gm)];
 const namesOf = (file, head) => membersOf(file, head).map(([, name]) => name);
 
-/** The comments behind the members. */
+/** The members of an enumeration as constants: its number for each. */
+const places = (file, head) => membersOf(file, head).map(([, name, value], k) => constant(camel(name), value ?? k));
+
+/** A constant of C++, under its own name or another one. */
+function number(file, name, as = camel(name)) {
+  const value = new RegExp(`constexpr [^;]*\\b${name} = (-?\\d+)[,;]`).exec(read(file))?.[1];
+  if (value === undefined)
+    throw new Error(`kernel/${file} has no constant "${name}", expected it for src/generated/abi.ts`);
+  return constant(as, value);
+}
+
+/** The comments after the members. */
 const wordsOf = (file, head) => [...bodyOf(file, head).matchAll(/^\s*\w+,\s*\/\/ (.*)$/gm)].map(([, words]) => words);
 
 /** A function of kernel/abi.cpp, as a method. */
@@ -38,7 +49,6 @@ function method([, name, given, result]) {
 export function abi() {
   const source = read('abi.cpp');
   const exports = [...source.matchAll(/EXPORT\((\w+)\)\(([^)]*)\) -> ([^{]+)\{/g)].map(method);
-  const places = membersOf('abi.cpp', 'enum Place : u32').map(([, name, value]) => constant(camel(name), value));
   const stats = [...bodyOf('search/stats.hpp', 'struct Stats').matchAll(/f64 (\w+) =/g)].map(([, name]) => name);
   const asks = namesOf('questions/bulk.hpp', 'enum class Asks : u32');
   return [
@@ -55,13 +65,23 @@ export function abi() {
     list('broken', wordsOf('space/space.hpp', 'enum class Broken : u32')),
     '/** Numbers in the array `io`, and places in it. */',
     constant('ioLength', /f64 io\[(\d+)\]/.exec(source)[1]),
-    ...places,
+    ...places('abi.cpp', 'enum Place : u32'),
+    '/** Places of what get_rule writes. */',
+    ...places('abi.cpp', 'enum RulePlace : u32'),
+    '/** Places of the addresses that contents writes. */',
+    ...places('space/store.hpp', 'enum ContentsPlace : u32'),
+    '/** Instead of a radius. */',
+    number('questions/question.hpp', 'no_circle'),
+    number('questions/question.hpp', 'within'),
+    '/** The ring: numbers before its entries, and how many entries it holds. */',
+    number('boxes/ring.hpp', 'head', 'ringHead'),
+    number('boxes/ring.hpp', 'most_entries', 'ringCapacity'),
     '/** Places of the counters. */',
     constant('statsLength', stats.length),
     ...stats.map((name, place) => constant(`${name}Stat`, place)),
-    '/** Kinds of questions that are asked many at once. */',
+    '/** Kinds of queries that can be made many at once. */',
     constant('asks', `{ ${asks.map((name, number) => `${name}: ${number}`).join(', ')} }`),
-    '/** Kinds of questions whose answers are in order. */',
+    '/** Kinds of queries whose answers are in order. */',
     ...namesOf('abi.cpp', 'enum class Order : u32').map((name, number) => constant(camel(`order_${name}`), number)),
     '',
   ].join('\n');

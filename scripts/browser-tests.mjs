@@ -1,4 +1,4 @@
-// Runs the browser tests in the Chromium of this machine. Where there is none, says so: that is a failure in CI only.
+// Runs the browser tests in the Chromium of this machine. If there is none, says so; only in CI is that a failure.
 import { spawnSync } from 'node:child_process';
 import { fileURLToPath } from 'node:url';
 import { chromium } from './chromium.mjs';

@@ -6,7 +6,7 @@ import { everyTechnique } from './every-technique.mjs';
 const root = fileURLToPath(new URL('..', import.meta.url));
 
 /**
- * Both paths are relative to the repository. Returns the path of what was written.
+ * Both paths are relative to the repository. Returns the path of the file written.
  * @param plugins `[]`: with the techniques of `import 'broadphase'` alone
  */
 export async function bundle(entry, output, plugins = [everyTechnique]) {

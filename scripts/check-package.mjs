@@ -1,5 +1,5 @@
-// Uses what was built as its users do, by the names in package.json: all builds of the library find the same pairs,
-// each has the techniques and dimensions it says, and the entries go together.
+// Uses the built package as users do, by the names in package.json: all builds of the library find the same pairs, each
+// has its techniques and dimensions, and the entry points work together.
 import { deepEqual, equal, ok, throws } from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
@@ -60,7 +60,7 @@ const deltas = shards.flatMap((shard) => shard.exchange());
 for (const shard of shards) shard.update(deltas.filter(({ to }) => to === shard.zone));
 equal(shards[0].pairs.length + shards[1].pairs.length, 2 * expected.length);
 
-// Those of one dimension find the same pairs, are of theirs without being told, and refuse the other.
+// Builds of one dimension find the same pairs, have it as their default, and refuse the other.
 for (const technique of leanTechniques) deepEqual(pairsOf(flat, technique), expected, technique);
 const cubes = Float32Array.from(
   { length: 6 * 2000 },
@@ -82,7 +82,7 @@ throws(() => new solid.BroadPhase({ dimensions: 2 }), other(2, 3));
 throws(() => solid.findPairs([], { dimensions: 2 }), other(2, 3));
 await record(new flat.BroadPhase()).stop();
 
-// What a host has loaded itself has every technique, for both.
+// A kernel that the host has loaded has every technique, in both dimensions.
 lean.init(readFileSync(fileURLToPath(import.meta.resolve('broadphase/kernel.wasm'))));
 deepEqual(lean.BroadPhase.techniques, techniqueNames());
 deepEqual(pairsOf(lean, 'quadtree'), expected);

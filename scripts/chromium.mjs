@@ -1,4 +1,4 @@
-// Where the Chromium of this machine is: CHROMIUM, or the usual places. Undefined where there is none.
+// The path of Chromium on this machine: CHROMIUM, or one of the usual places; undefined if there is none.
 import { existsSync } from 'node:fs';
 
 export const chromium = [

@@ -1,4 +1,4 @@
-// Compiles C++ of this repository to one freestanding wasm, with the compiler that npm ci has brought.
+// Compiles C++ of this repository to one freestanding wasm, with the compiler that `npm ci` installs.
 import { mkdirSync, readdirSync, readFileSync } from 'node:fs';
 import { join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -11,7 +11,7 @@ export const flags = [
   '--target=wasm32-wasip1',
   '-std=c++20',
   '-O2',
-  // Vectorised by hand where it pays; the compiler's own attempts only add bytes.
+  // Vectorized by hand where it pays; the compiler's own vectorization only adds bytes.
   '-fno-vectorize',
   '-fno-slp-vectorize',
   '-msimd128',
@@ -20,7 +20,7 @@ export const flags = [
   '-fno-exceptions',
   '-fno-rtti',
   '-ffp-contract=off',
-  // Nor does it pay to unroll loops of which it does not know how long they are.
+  // Nor does it pay to unroll loops of unknown length.
   '-mllvm',
   '-unroll-runtime=false',
   '-Ikernel',
@@ -34,7 +34,7 @@ export const flags = [
   '-Wl,-z,stack-size=65536',
 ];
 
-/** Every C++ file below kernel/ but its native tests, by path relative to the root. */
+/** Every C++ file below kernel/ except its native tests, by path relative to the root. */
 export function kernelSources(folder = join(root, 'kernel')) {
   return readdirSync(folder, { withFileTypes: true })
     .flatMap((entry) => {
@@ -45,7 +45,7 @@ export function kernelSources(folder = join(root, 'kernel')) {
     .sort();
 }
 
-/** What `import 'broadphase'` brings; 'broadphase/all' has every technique. */
+/** The techniques of `import 'broadphase'`; 'broadphase/all' has all. */
 export const lean = ['brute-force', 'strip-sweep', 'incremental', 'auto'];
 
 /** The techniques in the order of their bits, which is that of BroadPhase.techniques. */
@@ -65,7 +65,7 @@ export function only(techniques) {
   return `-DTECHNIQUES=${bits}`;
 }
 
-/** The wasm made from one source file, given by its path relative to the root, and the kernel's headers. */
+/** Compiles one source file, given by its path relative to the root, to wasm. */
 export async function compile(entry, more = []) {
   const tree = {};
   for (const file of new Set([...kernelSources(), entry])) {
@@ -78,10 +78,10 @@ export async function compile(entry, more = []) {
   return make([...flags, ...more, entry], tree, entry);
 }
 
-/** The wasm that the compiler in npm makes of these files. */
+/** Compiles these files to wasm with the compiler from npm. */
 async function make(options, tree, entry) {
   const { runClang } = await import('@yowasp/clang');
-  // The compiler prints its diagnostics itself; its exit is an exception that carries the whole file tree.
+  // The compiler prints its diagnostics itself; it exits with an exception that contains the whole file tree.
   const output = await runClang(['clang++', ...options, '-o', 'out.wasm'], tree, { fetchProgress: () => {} }).catch(
     (error) => {
       throw new Error(`${entry} was not compiled (${error.message})`);
@@ -91,8 +91,8 @@ async function make(options, tree, entry) {
 }
 
 /**
- * The same in a third of the time, if the machine has a clang of its own that knows wasm; only linked by the one in npm.
- * For `npm run dev`: the package is made by one compiler everywhere.
+ * The same in a third of the time, if the machine has a clang with support for wasm; only linked by the compiler from
+ * npm. Only for `npm run dev`: the package is built by the same compiler everywhere.
  */
 export async function compileSoon(entry, more = []) {
   const folder = join(root, 'build/dev');

@@ -1,9 +1,10 @@
-// Same calls, same answers, in the same order, everywhere: plays the same tapes (test/promises/determinism/tape.ts) with every
-// technique in Node, in Chromium, in Firefox, and natively as g++ and clang compile the kernel, and compares the hash of
-// all answers with those kept in test/promises/determinism/golden.json.
+// Checks that the same calls give the same answers in the same order everywhere: plays the same tapes
+// (test/promises/determinism/tape.ts) with every technique in Node, in Chromium, in Firefox, and natively as g++ and
+// clang compile the kernel, and compares the hash of all answers with those kept in
+// test/promises/determinism/golden.json.
 //
-//   npm run determinism                 all that is here; what is not is named
-//   npm run determinism -- --write      rewrites the hashes, if all agree: after a change of what an order is
+//   npm run determinism                 everything on this machine; names what is missing
+//   npm run determinism -- --write      rewrites the hashes, if all agree: after an intended change of the order
 //
 // CHROMIUM and FIREFOX choose the browsers.
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
@@ -22,7 +23,7 @@ const { play, techniqueNames, randomTape, framesTape, framesOf, openTrace } = aw
 );
 mkdirSync(folder, { recursive: true });
 
-// Of each the first frame that is played.
+// For each recording, the first frame that is played.
 const recordings = {
   rain: 0,
   junkyard: 14,
@@ -64,7 +65,7 @@ const cases = Object.keys(tapes).flatMap((tape) =>
   techniques.map((technique, number) => ({ name: `${tape} ${technique}`, tape, number })),
 );
 
-/** Each gives the hashes of all cases, in their order; or says why it cannot. */
+/** Each returns the hashes of all cases, in order, or says why it cannot. */
 const players = {
   [`Node ${process.versions.node}`]: () => cases.map(({ tape, number }) => play(tapes[tape], number)),
   Chromium: () => inBrowser('chrome', [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/google-chrome']),

@@ -1,6 +1,6 @@
-// The fast inner loop: a header is edited, and the nearest tests say in seconds whether all still holds. Only the lean
-// kernel is compiled, under a name of its own, by the machine's own clang if there is one. What is loaded stays: linker
-// and test runner take as long to start as to work.
+// The fast inner loop: when a header is edited, runs the nearest tests within seconds. Compiles only the lean kernel,
+// under a separate name, with the machine's own clang if there is one. Linker and test runner stay loaded, since they
+// take as long to start as to run.
 //
 //   npm run dev                    watches kernel/; the tests named as the header is, else properties and set
 //   npm run dev -- wrap events     these tests, whatever was edited
@@ -26,13 +26,13 @@ process.env.KERNEL = name; // for vitest.config.ts
 const vitest = await createVitest('test', { root, project: ['unit'], watch: false });
 await vitest.standalone();
 
-/** The tests whose names start so, but those of pages. */
+/** The tests whose names start like this, except browser tests. */
 const testsOf = (stem) =>
   readdirSync(join(root, 'test'), { recursive: true, encoding: 'utf8' })
     .filter((file) => file.endsWith('.test.ts') && basename(file).startsWith(stem))
     .map((file) => join('test', file));
 
-/** The tests that are named as a header is. */
+/** The tests named like a header. */
 const nearest = (header) => testsOf(parse(header).name.replaceAll('_', '-'));
 
 /** Compiles the lean kernel, and runs tests on it. */
@@ -53,7 +53,7 @@ async function check(header) {
 
 let edited;
 let running = false;
-/** Once more for what was edited meanwhile. */
+/** Runs again if something was edited meanwhile. */
 async function again() {
   if (running) return;
   running = true;

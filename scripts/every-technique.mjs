@@ -1,5 +1,5 @@
-// For bundlers: the library with another kernel in place of the lean one. That is all in which 'broadphase/all',
-// 'broadphase/2d' and 'broadphase/3d' differ from 'broadphase'.
+// A bundler plugin: replaces the lean kernel by another. That is the only difference of 'broadphase/all',
+// 'broadphase/2d' and 'broadphase/3d' from 'broadphase'.
 import { fileURLToPath } from 'node:url';
 
 /** A plugin for Vite and rolldown: the kernel of that name (scripts/kernel.mjs). */

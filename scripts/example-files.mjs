@@ -1,7 +1,7 @@
-// Each folder of examples can be taken as it is, so what several have in common stands in each: the files of their
-// pages, which are written once in examples/page, and the version of the library.
+// Each folder of examples can be copied on its own, so files that several share are in each of them: the files of their
+// pages, whose originals are in examples/page, and the version of the library.
 //
-//   npm run examples    writes both into the folders; test/house/example-folders.test.ts tells where that was forgotten
+//   npm run examples    writes both into the folders; test/house/example-folders.test.ts fails if that was forgotten
 import { existsSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
@@ -17,7 +17,7 @@ const packagesIn = (folder) =>
 /** The folders with a package.json of their own, by their paths in examples/. */
 export const folders = [...packagesIn(''), ...packagesIn('apart/')];
 
-/** What has to be in which file, by its path in examples/. */
+/** The contents of each shared file, by its path in examples/. */
 export function expectedFiles() {
   const expected = new Map();
   for (const name of folders) {

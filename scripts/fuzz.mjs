@@ -2,11 +2,11 @@
 //
 //   npm run fuzz                        a minute
 //   npm run fuzz -- --seconds 3600      an hour
-//   npm run fuzz -- --keep              afterwards makes kernel/test/corpus the smallest set that reaches as much
-//   npm run fuzz -- --coverage          instead of fuzzing, says which lines of the kernel native tests and corpus reach
+//   npm run fuzz -- --keep              afterwards reduces kernel/test/corpus to the smallest set with this coverage
+//   npm run fuzz -- --coverage          instead of fuzzing, reports the coverage by native tests and corpus
 //   npm run fuzz -- FILE                runs one sequence, such as one that failed
 //
-// What is found on the way waits in build/fuzz/found for the next run. Where clang has no libFuzzer it says so.
+// New sequences are kept in build/fuzz/found for the next run. If clang has no libFuzzer, it says so.
 import { mkdirSync, readdirSync, renameSync, rmSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
@@ -21,14 +21,14 @@ const { values, positionals } = parseArgs({
   },
 });
 
-// Without the tracing of comparisons, whose operands are coordinates here: it would take half of the time.
+// Without tracing of comparisons, which would take half of the time: their operands are coordinates here.
 const options = ['-O2', '-fsanitize=fuzzer,address,undefined', '-fno-sanitize-coverage=trace-cmp'];
 const folder = join(root, 'build/fuzz');
 const corpus = join(tests, 'corpus');
 const found = join(folder, 'found');
 const longest = 600; // bytes: about 60 calls
-const slowest = 120; // seconds for one sequence, most of which take less than one: also where others use the machine
-const fewest = 0.95; // of the kernel's lines that are reached
+const slowest = 120; // seconds for one sequence; most take less than one, but the machine may be busy
+const fewest = 0.95; // share of the kernel's lines that must be covered
 
 const probe = 'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }\n';
 const { compiler, reasons } = await findCompiler(clangs, options, probe, folder, ['-runs=1']);
@@ -50,7 +50,7 @@ if (values.coverage) {
   const limits = [
     `-max_len=${longest}`,
     '-len_control=0',
-    '-entropic_scale_per_exec_time=1', // more of what is quick
+    '-entropic_scale_per_exec_time=1', // prefer fast sequences
     `-timeout=${slowest}`,
     `-artifact_prefix=${folder}/`,
   ];
@@ -67,7 +67,7 @@ if (values.coverage) {
   if (values.keep) await keep(program);
 }
 
-/** The smallest set of sequences, out of the corpus and what was found, that reaches as much as all of them. */
+/** The smallest set of sequences from the corpus and the new ones with the coverage of all. */
 async function keep(program) {
   const merged = join(folder, 'merged');
   rmSync(merged, { recursive: true, force: true });

@@ -1,14 +1,14 @@
-// Bytes as text for a JavaScript string, so that a compressor finds as much in the text as in the bytes.
-// Idea: bytes that occur often become one character each, the others two, of which the first is one of a few that
-// stand for nothing else. What repeats in the bytes thus repeats in the text, and no character needs an escape,
-// neither in a string, nor in HTML, nor in any encoding of the page. src/kernel/load.ts reads it.
+// Bytes as text for a JavaScript string, so that gzip compresses the text as well as the bytes. Idea: frequent bytes
+// become one character each, others two, the first of which is one of a few reserved for that. So repetitions in the
+// bytes are repetitions in the text. No character needs an escape, neither in a string, nor in HTML, nor in any
+// encoding of the page. src/kernel/load.ts reads it.
 import { apart } from './streams.mjs';
 
-/** All of ASCII that can be seen, but what means something in strings and in HTML. */
+/** Printable ASCII, without characters that are special in strings or HTML. */
 const characters = Array.from({ length: 94 }, (_, k) => String.fromCharCode(33 + k)).filter(
   (character) => !'\'"`\\$<&'.includes(character),
 );
-/** So many of them begin a pair. */
+/** This many of them begin a pair. */
 const prefixes = 3;
 
 /** A module of WebAssembly as text. `order`: the bytes of single characters, two hexadecimal digits each; `text`: what stands for
@@ -20,7 +20,7 @@ export function inline(wasm) {
   const { length } = characters;
   const single = length - prefixes;
   const order = Uint8Array.from(counts.keys()).sort((a, b) => counts[b] - counts[a] || a - b);
-  order.subarray(single).sort(); // so that they need not be told
+  order.subarray(single).sort(); // sorted, so that they need not be stored
   const written = [];
   for (const [k, byte] of order.entries()) {
     const pair = k - single;
@@ -35,7 +35,7 @@ export function inline(wasm) {
   };
 }
 
-/** A kernel as a module of TypeScript, with how it is decoded, and what it knows. */
+/** A kernel as a TypeScript module, with the data for decoding, and its techniques. */
 export function moduleOf(wasm, decoder, techniques, dimensions) {
   const { size, ...texts } = inline(wasm);
   const lines = [

@@ -1,9 +1,9 @@
-// Compiles kernel/ to freestanding wasm, with all techniques and with a few, and inlines each for the library; and writes
-// what the two have in common (abi.mjs).
-// Rebuilt only when a source, a flag or the compiler changed: their hash is kept beside the result.
+// Compiles kernel/ to freestanding wasm, with all techniques and with a few, and inlines each for the library. Also
+// writes the definitions that kernel and library share (abi.mjs). Rebuilt only when a source, a flag or the compiler
+// changed: their hash is kept beside the result.
 //
-//   node scripts/kernel.mjs              the two that tests and pages need
-//   node scripts/kernel.mjs --package    and those of one dimension, which only the package has
+//   node scripts/kernel.mjs              the two builds that tests and pages need
+//   node scripts/kernel.mjs --package    also those of one dimension, which only the package has
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';

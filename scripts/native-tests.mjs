@@ -1,6 +1,6 @@
 // Builds the kernel's native tests with AddressSanitizer and UndefinedBehaviorSanitizer and runs them.
-// Where no compiler is found it says so and all else goes on; a compiler whose sanitizers do not work is a failure
-// in CI only. `npm run test:native -- ids` runs the tests with `ids` in their name; CXX chooses the compiler.
+// Without a compiler it says so, and succeeds; a compiler whose sanitizers do not work is a failure only in CI. `npm
+// run test:native -- ids` runs the tests with `ids` in their name; CXX chooses the compiler.
 import { join } from 'node:path';
 import { techniqueNames } from './compile.mjs';
 import { build, clangs, findCompiler, flags, root, run, testSources } from './native.mjs';
@@ -8,7 +8,7 @@ import { build, clangs, findCompiler, flags, root, run, testSources } from './na
 const options = ['-fsanitize=address,undefined'];
 const folder = join(root, 'build/native');
 
-// What the kernel needs: SSE4.1, vector shuffles, and a sanitizer that runs here.
+// A program with what the kernel needs: SSE4.1, vector shuffles, and a sanitizer that runs on this machine.
 const probe = `#include <smmintrin.h>
 typedef float f32x4 __attribute__((vector_size(16)));
 int main(int count, char**) {
@@ -34,7 +34,7 @@ const program = await build(compiler, options, testSources(), folder, 'tests').c
   console.error(message);
   process.exit(1);
 });
-// Techniques can be left out, in whatever numbers: `scripts/technique-sizes.mjs` leaves out all.
+// Any number of techniques can be left out: `scripts/technique-sizes.mjs` leaves out all.
 const none = [...flags, '-w', '-DTECHNIQUES=0', '-fsyntax-only', join(root, 'kernel/abi.cpp')];
 const without = await run(compiler, none);
 if (!without.ok) {
@@ -42,7 +42,7 @@ if (!without.ok) {
   process.exit(1);
 }
 
-// A build with `auto` and without what it stands for would find no pairs: it must not compile.
+// A build with `auto`, but without the techniques it uses, would find no pairs: it must not compile.
 const auto = 1 << techniqueNames().indexOf('auto');
 const alone = await run(compiler, [...none.filter((flag) => flag !== '-DTECHNIQUES=0'), `-DTECHNIQUES=${auto}`]);
 if (alone.ok || !alone.output.includes('a build with it has all three')) {

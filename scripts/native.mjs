@@ -1,5 +1,5 @@
 // Compiles the kernel for this machine with sanitizers, for the native tests and the fuzzer.
-// Which compilers are here, and whether their sanitizers run, is found out by a program of a few lines.
+// A program of a few lines tests which compilers there are, and whether their sanitizers run.
 import { spawn } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -24,7 +24,7 @@ export const flags = [
   '-Werror',
 ];
 
-/** clang++ without and with the version in its name, as Debian installs it. */
+/** clang++ without and with a version in its name, as Debian installs it. */
 export const clangs = ['clang++', ...Array.from({ length: 12 }, (_, k) => `clang++-${25 - k}`)];
 
 /** The C++ files of kernel/test, without the fuzzer. */
@@ -33,7 +33,7 @@ export const testSources = () =>
     .filter((name) => name.endsWith('.cpp') && name !== 'fuzz.cpp')
     .map((name) => join(tests, name));
 
-/** Runs a program to its end. `output` is what it wrote, unless that went to the terminal. */
+/** Runs a program to its end. `output` is its output, unless that went to the terminal. */
 export function run(program, options, { show = false, env = {} } = {}) {
   return new Promise((resolve) => {
     const child = spawn(program, options, {
@@ -48,8 +48,8 @@ export function run(program, options, { show = false, env = {} } = {}) {
 }
 
 /**
- * The first compiler of these names that makes `program` into something that runs when `given` these arguments. Else `reasons` says why each that
- * was found does not do: it is empty where there is none at all.
+ * The first of these compilers whose build of `program` with the arguments `given` runs. Otherwise `reasons` says why
+ * each compiler found was rejected; it is empty if there is none.
  */
 export async function findCompiler(names, options, program, folder, given = []) {
   mkdirSync(folder, { recursive: true });
@@ -67,7 +67,7 @@ export async function findCompiler(names, options, program, folder, given = []) 
   return { reasons };
 }
 
-/** A hash of all that goes into a program but the compiler's version. */
+/** A hash of all inputs of a program except the compiler's version. */
 function digestOf(...settings) {
   const hash = createHash('sha256').update(JSON.stringify([flags, ...settings]));
   const names = readdirSync(join(root, 'kernel'), { recursive: true }).filter((name) => /\.(cpp|hpp)$/.test(name));
@@ -76,8 +76,8 @@ function digestOf(...settings) {
 }
 
 /**
- * Compiles each source in a process of its own and links them, unless nothing changed since the last time. Returns
- * the path of what was made.
+ * Compiles all sources in parallel and links them, unless nothing has changed since the last time. Returns the path of
+ * the program.
  */
 export async function build(compiler, options, sources, folder, name) {
   const digest = digestOf(compiler, options, sources);

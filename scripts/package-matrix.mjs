@@ -1,11 +1,11 @@
-// Tries the package as its users do. It is built and packed; then each consumer in consumers/ is copied to a fresh
-// folder outside the repository, the tarball is installed there, and the consumer is built and run until it says the
-// right pairs: runtimes, bundlers (their output opened in Chromium), the TypeScript compiler, pages without any tool.
+// Tests the package as users use it. It is built and packed. Then each consumer in consumers/ is copied to a fresh
+// folder outside the repository, the tarball is installed there, and the consumer is built and run until it reports the
+// right pairs: runtimes, bundlers (their output opened in Chromium), the TypeScript compiler, pages without tools.
 //
 //   npm run test:package                 all of them
 //   npm run test:package -- vite deno    those with these words in their names
 //
-// What is not on this machine (Chromium; Deno and Bun but on Linux) is skipped by name; in CI it is an error.
+// Tools missing on this machine (Chromium; Deno and Bun except on Linux) are named and skipped; in CI that is an error.
 import { equal, ok } from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import {
@@ -34,7 +34,7 @@ const tools = join(consumers, 'node_modules');
 const wanted = process.argv.slice(2);
 const longest = 120_000; // milliseconds a command may take
 
-/** What shared/every.js must say. */
+/** The expected output of shared/every.js. */
 const every =
   'index 7,9; findPairs 0,1; 2d 7,9; 3d 0,1; all 7,9; draw 5,5,10,10; ro 1 pair; shard 7,9 | 9,11,7,11; trace 1 frame; kernel.wasm 7,9';
 const script = 'index 7,9';
@@ -42,7 +42,7 @@ const one = 'index 7,9; findPairs 0,1; kernel.wasm 7,9';
 
 class Absent extends Error {}
 
-// A consumer works in a folder of its own, with what is in consumers/<from> and in consumers/shared.
+// A consumer runs in its own folder, with the files of consumers/<from> and consumers/shared.
 const matrix = {
   'Node, import': { from: 'node', try: async (at) => equal(await at.run('node', 'main.mjs'), every) },
   'Node, worker_threads': { from: 'node', try: async (at) => equal(await at.run('node', 'worker.mjs'), every) },
@@ -145,7 +145,7 @@ const matrix = {
   'Parcel, as it comes': {
     from: 'no-exports',
     async try(at) {
-      // It does not read `exports` then: the library alone is there.
+      // It does not read `exports` then, and finds only the library.
       await at.run('parcel', 'build', 'index.html', '--public-url', './');
       await at.page('dist/', script, script);
     },
@@ -229,7 +229,7 @@ function binary(path) {
 
 const environment = { ...process.env, PATH: join(tools, '.bin') + delimiter + process.env.PATH, NO_COLOR: '1' };
 
-/** Runs a command and gives what it prints; where it fails, the error has all it said. */
+/** Runs a command and returns its output; if it fails, the error contains the output. */
 async function run(folder, command, ...args) {
   try {
     const options = { cwd: folder, env: environment, timeout: longest, maxBuffer: 2 ** 26 };
@@ -241,13 +241,13 @@ async function run(folder, command, ...args) {
 }
 
 const types = {
-  '.html': 'text/html', // no charset: what a page does not declare is not declared
+  '.html': 'text/html', // no charset, so that pages are tested without one
   '.js': 'text/javascript',
   '.wasm': 'application/wasm',
 };
 let browser;
 
-/** Opens a page, of this folder or at an address, and waits until it and its worker say what they must. */
+/** Opens a page, in this folder or at an address, and waits until it and its worker report the expected result. */
 async function page(folder, address, expected, expectedOfWorker) {
   if (!chromium) throw new Absent('no Chromium found: install it or set CHROMIUM to its path');
   browser ??= await (await import('@playwright/test')).chromium.launch({
@@ -283,7 +283,7 @@ async function page(folder, address, expected, expectedOfWorker) {
   }
 }
 
-/** Packs the package, and looks at what is in it. */
+/** Packs the package, and checks its contents. */
 async function pack(folder) {
   const report = await run(root, 'npm', 'pack', '--json', '--pack-destination', folder);
   const packed = JSON.parse(report.slice(report.search(/^[[{]/m)));

@@ -1,5 +1,5 @@
-// Makes docs/picture-light.gif and docs/picture-dark.gif, the moving picture of the README, from the first page as it
-// is: stepped frame by frame in Chromium, forth and back so that it has no seam. npm run build:site first.
+// Makes docs/picture-light.gif and docs/picture-dark.gif, the animation in the README, from the first page: stepped
+// frame by frame in Chromium, forward and back, so that the loop has no seam. Run `npm run build:site` first.
 import { writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { chromium } from '@playwright/test';
@@ -11,7 +11,7 @@ const path = (file) => fileURLToPath(new URL(`../${file}`, import.meta.url));
 const [width, height] = [720, 400];
 const frames = 32;
 const delay = 50; // milliseconds
-const colours = 63; // and one for what has not changed
+const colours = 63; // and one for unchanged pixels
 const address = '?boxes=700&scene=uniform2d&renderer=canvas-2d';
 
 const server = await preview({ root: path('site'), configFile: path('site/vite.config.ts'), logLevel: 'error' });
@@ -20,7 +20,7 @@ const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? 
 for (const colorScheme of ['light', 'dark']) {
   const page = await browser.newPage({ viewport: { width: 1400, height: 700 }, colorScheme, reducedMotion: 'reduce' });
   await page.goto(server.resolvedUrls.local[0] + address);
-  // The view alone, at the size of the picture: the page lays itself out anew.
+  // Only the view, at the size of the picture: the page adapts its layout.
   await page.addStyleTag({
     content: `.stage { position: fixed; z-index: 9; top: 0; left: 0; width: ${width}px; height: ${height}px; border: 0 !important; background: var(--page) }
       .view { width: 100%; height: 100%; } .tools { display: none !important; }`,
@@ -55,7 +55,7 @@ for (const colorScheme of ['light', 'dark']) {
 await browser.close();
 await server.close();
 
-/** What a picture holds, as RGBA, unpacked by the browser. */
+/** The pixels of a picture as RGBA, decoded by the browser. */
 async function pixelsOf(page, png) {
   const base64 = await page.evaluate(async (source) => {
     const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${source}`)).blob());

@@ -1,27 +1,27 @@
-// Makes build/publish, the folder that is published: what was built, and a README whose links lead to the repository,
-// since those of a file lead nowhere on npm. All addresses come from package.json. While they are placeholders nothing
-// is made: `.invalid` is a name that never exists (RFC 2606).
+// Makes build/publish, the folder that is published: the build, and a README with links to the repository, since
+// relative links do not work on npm. All addresses come from package.json. While they are placeholders it refuses:
+// `.invalid` is a domain that never exists (RFC 2606).
 //
 //   node scripts/publish-folder.mjs           after npm run build
-//   node scripts/publish-folder.mjs --here    what prepublishOnly says: the folder of the repository is not published
+//   node scripts/publish-folder.mjs --here    run by prepublishOnly: refuses to publish the repository's folder itself
 import { cpSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
 const root = new URL('../', import.meta.url);
 
-/** The fields of package.json whose address is still to be given. */
+/** The fields of package.json whose address is missing or a placeholder. */
 export function placeholders({ repository, homepage, bugs }) {
   const fields = { repository: repository?.url, homepage, bugs: bugs?.url };
   return Object.keys(fields).filter((name) => !fields[name] || new URL(fields[name]).hostname.endsWith('.invalid'));
 }
 
-/** Where the files of this version are to be seen. */
+/** The address of the files of this version. */
 const addressOf = ({ repository, version }, kind) =>
   `${repository.url.replace(/^git\+/, '').replace(/\.git$/, '')}/${kind}/v${version}/`;
 
 /**
- * The README with whole addresses. Pictures come raw, folders as a list, files as pages.
- * @param isFolder says so of a path of the repository
+ * The README with absolute addresses: pictures as raw files, folders as trees, files as pages.
+ * @param isFolder whether a path of the repository is a folder
  */
 export function readmeForNpm(text, manifest, isFolder) {
   const page = (path) => addressOf(manifest, isFolder(path) ? 'tree' : 'blob') + path;

@@ -1,6 +1,6 @@
-// Hours of churn (test/promises/soak.ts): boxes come and go, techniques are switched, states restored; everything is compared
-// with a model after each update, crowds of thousands with strip-sweep, and memory must stay what it was, the kernels' and
-// JavaScript's.
+// Hours of churn (test/promises/soak.ts): boxes come and go, techniques are switched, states restored. After each
+// update everything is compared with a model, crowds of thousands of boxes with strip-sweep. The memory of kernels and
+// JavaScript must not grow.
 //   npm run soak                            an hour
 //   npm run soak -- --hours 12 --seed 5
 import { parseArgs } from 'node:util';
@@ -20,7 +20,7 @@ const { soak } = await import(await bundle('test/promises/soak.ts', 'build/soak/
 setFlagsFromString('--expose-gc');
 const collectGarbage = runInNewContext('gc');
 const megabytes = (bytes) => `${(bytes / 2 ** 20).toFixed(1)} MiB`;
-const slack = 4 * 2 ** 20; // of the JavaScript heap, from one half to the other
+const slack = 4 * 2 ** 20; // allowed growth of the JavaScript heap, from the first half to the second
 
 console.log(`soak: ${hours} hours, seed ${seed}`);
 const started = performance.now();

@@ -1,13 +1,13 @@
-// Takes the examples and the starter as someone would who has the published package and nothing of this repository:
-// each folder of examples/ is copied out of it, the package comes from its tarball, and the example is built, started,
-// and looked at in Chromium until it shows what it must. After `npm run build`:
+// Tests the examples and the starter like someone who has only the published package: each folder of examples/ is
+// copied out of the repository, the package is installed from its tarball, and the example is built, started, and
+// opened in Chromium until it shows the expected result. After `npm run build`:
 //
 //   npm run test:examples                    all of them
 //   npm run test:examples -- react starter   those with these words in their names
 //
-// Most share what examples/node_modules has, beside the tarball, and those of examples/apart what that has;
-// test/house/example-folders.test.ts says that each folder names all that it imports. The starter and the hooks for
-// React are installed by npm itself.
+// Besides the tarball, most use the packages in examples/node_modules, and those of examples/apart the ones there;
+// test/house/example-folders.test.ts checks that each folder names all that it imports. The starter and the hooks for
+// React are installed by npm.
 import { equal, match, ok } from 'node:assert/strict';
 import { execFile, spawn } from 'node:child_process';
 import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, symlinkSync } from 'node:fs';
@@ -23,10 +23,10 @@ const root = fileURLToPath(new URL('..', import.meta.url));
 const tools = join(root, 'examples/node_modules');
 const apart = join(root, 'examples/apart/node_modules');
 const wanted = process.argv.slice(2);
-const longest = 300_000; // milliseconds that a command may take, or a page until it shows what it must
+const longest = 300_000; // milliseconds for a command, or for a page to show the expected result
 const install = ['install', '--prefer-offline', '--no-audit', '--no-fund'];
 
-/** What a page must say, and where; `search` is the end of its address. */
+/** What a page must show, and where; `search` is the end of its address. */
 const pages = {
   'bullets-phaser': { where: '#numbers', says: /you caught/, plain: true },
   'culling-pixi': { where: '#numbers', says: /of 100,000 drawn/ },
@@ -41,7 +41,7 @@ const pages = {
   'record-phaser': { where: '#save', says: /Save the recording/ },
 };
 
-/** What a program must say. */
+/** What a program must print. */
 const programs = {
   ecs: /^bitecs: [1-9].*koota: [1-9]/s,
   'matter-broadphase': /^heap +500 +\d/m,
@@ -55,12 +55,12 @@ const programs = {
   'server-interest': /sees [\d.]+ others/,
   'apart/join-duckdb': /^1,000,000 boxes:\s+broadphase join: [\d.]+ s, 1,99\d,\d+ pairs in \d+ tiles/,
 };
-/** These measure for minutes, and are ended once they have said that. */
+/** These measure for minutes, and are ended once they have printed that. */
 const longPrograms = ['matter-broadphase', 'planck-broadphase'];
 
 const environment = { ...process.env, BROWSER: 'none', NO_COLOR: '1' };
 
-/** Runs a command and gives what it prints, as { stdout, stderr }; where it fails, the error has all it said. */
+/** Runs a command and returns its output, as { stdout, stderr }; if it fails, the error contains the output. */
 async function run(folder, command, ...args) {
   try {
     const options = { cwd: folder, env: environment, timeout: longest, maxBuffer: 2 ** 26 };
@@ -70,7 +70,9 @@ async function run(folder, command, ...args) {
   }
 }
 
-/** Runs a script of a package, hands what it has printed to `use` once that matches, and ends it with all that it has started. */
+/**
+ * Runs a script of a package, passes its output to `use` once that matches, and ends it with all its child processes.
+ */
 async function whileStarted(folder, expected, use, script = ['start']) {
   const child = spawn('npm', ['run', '--silent', ...script], {
     cwd: folder,
@@ -99,7 +101,7 @@ async function whileStarted(folder, expected, use, script = ['start']) {
 
 const types = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css' };
 
-/** Serves a folder while `use` has its address. */
+/** Serves a folder while `use` runs, which gets the address. */
 async function whileServed(folder, use) {
   const server = createServer(({ url }, answer) => {
     const path = normalize(decodeURIComponent(new URL(url, 'http://localhost').pathname));
@@ -120,8 +122,8 @@ async function whileServed(folder, use) {
 let browser;
 
 /**
- * Opens a page until it says what it must, without a fault, and without a request to elsewhere; `then` does the rest.
- * What it wants from a CDN it gets from the folder `cdn`.
+ * Opens a page until it shows the expected result, without errors, and without requests to other hosts; `then` does the
+ * rest. Requests to a CDN are answered from the folder `cdn`.
  */
 async function look(address, { where, says, plain = false, cdn }, then = async () => {}) {
   browser ??= await (await import('@playwright/test')).chromium.launch({
@@ -146,7 +148,7 @@ async function look(address, { where, says, plain = false, cdn }, then = async (
       return route.fulfill({ path: join(cdn, name, file), contentType: 'text/javascript', headers });
     });
   }
-  // WebGL on a processor is too slow for so many things; Phaser then draws on a 2D canvas.
+  // WebGL in software is too slow for this many objects, so Phaser draws on a 2D canvas.
   if (plain) await page.addInitScript(withoutWebgl);
   try {
     await page.goto(address);
@@ -165,7 +167,7 @@ async function look(address, { where, says, plain = false, cdn }, then = async (
   }
 }
 
-/** Where what is on npm is served. */
+/** The address that serves npm packages. */
 const cdnAddress = 'https://cdn.jsdelivr.net/npm/';
 
 const withoutWebgl = `{
@@ -175,7 +177,7 @@ const withoutWebgl = `{
   };
 }`;
 
-/** What `npm run server` sends is there before any script runs, and the page goes on with it without a fault. */
+/** The page of `npm run server` has its content before any script runs, and hydrates without errors. */
 async function rendered(folder, page) {
   const goOn = async ([address]) => {
     const html = await (await fetch(address)).text();
@@ -185,7 +187,7 @@ async function rendered(folder, page) {
   await whileStarted(folder, /http:\S+/, goOn, ['server']);
 }
 
-/** A copy of a folder of examples, without what was installed or built in it. */
+/** Copies a folder of examples, without installed packages and build output. */
 function copyOut(workshop, name) {
   const folder = join(workshop, name);
   const filter = (path) => !/[/\\](node_modules|dist)$/.test(path);
@@ -193,7 +195,7 @@ function copyOut(workshop, name) {
   return folder;
 }
 
-/** Installs what a folder names, by npm, with the tarball for what is not on npm yet. */
+/** Installs the dependencies of a folder with npm, using the tarball for packages that are not on npm yet. */
 async function installInto(folder, tarball) {
   await run(folder, 'npm', 'pkg', 'set', `dependencies.broadphase=file:${tarball}`);
   await run(folder, 'npm', ...install);
@@ -217,7 +219,7 @@ async function example(name, workshop, tarball) {
 
 /** The tests by name; each gets the folder to work in, and the tarball. */
 const all = {
-  /** Opened as a file; what the network would give comes from the package. */
+  /** Opened as a file; requests to the network are answered from the package. */
   async smallest(workshop) {
     const folder = copyOut(workshop, 'smallest');
     const address = pathToFileURL(join(folder, 'index.html')).href;
@@ -228,7 +230,7 @@ const all = {
     const use = ([address]) => look(address, { where: '#pairs', says: /^7, 9, 9, 11$/ });
     await whileStarted(copyOut(workshop, 'csp'), /http:\S+/, use);
   },
-  /** In memory, as where there is no Redis. By npm it runs in the Node that it brings. */
+  /** In memory, as without Redis. Through npm it runs in the Node that it installs. */
   async 'apart/world-colyseus'(workshop) {
     const port = await freePort();
     const options = ['--', '--memory', '--entities', '500', '--clients', '10', '--port', port];
@@ -236,7 +238,7 @@ const all = {
     const use = ([address]) => look(address, shown);
     await whileStarted(copyOut(workshop, 'apart/world-colyseus'), /http:[^, ]+/, use, ['start', ...options]);
   },
-  /** The game of `broadphase init`, as its last lines say to go on; it is played until a rock is hit. */
+  /** The game of `broadphase init`, started as the command's output says; it is played until a rock is hit. */
   async starter(workshop, tarball) {
     const apart = join(workshop, 'starter');
     mkdirSync(apart);
@@ -265,7 +267,7 @@ async function played(page) {
   await page.waitForFunction('/^[1-9]/.test(globalThis.drawn)', undefined, { timeout: longest });
 }
 
-/** node_modules for the copies: the package as it is packed, and beside it what is installed in the repository. */
+/** node_modules for the copies: the packed package, and beside it the packages installed in the repository. */
 async function furnish(workshop) {
   await run(root, 'npm', 'pack', '--pack-destination', workshop);
   const tarball = join(
@@ -289,7 +291,7 @@ function link(from, to) {
   }
 }
 
-/** A port that is free now. */
+/** A free port. */
 async function freePort() {
   const server = createServer();
   await new Promise((resolve) => server.listen(0, resolve));

@@ -1,24 +1,25 @@
-// A WebAssembly module with what is alike together: its opcodes in one stream, the numbers of locals in another, and so
-// on, where the module has them mixed. gzip makes a fifth less of it, as each stream repeats itself more than the mix.
-// kernel/decoder.cpp puts them together again, byte for byte.
-// From: what executable packers and the class files of Java's pack200 do (W. Pugh, Compressing Java Class Files, 1999).
+// Splits a WebAssembly module into streams: opcodes in one, the numbers of locals in another, and so on. gzip makes it
+// a fifth smaller than the module, since each stream is more repetitive than the mix. kernel/decoder.cpp reassembles
+// the module byte for byte. From: executable packers, and Java's pack200 (W. Pugh, Compressing Java Class Files, 1999).
 
 /**
- * In the order of the file, which puts those together that gzip finds alike. All are numbers in LEB128, but for the first,
- * whose bytes stand as they are.
+ * In the order of the file, in which similar streams are next to each other for gzip. All are numbers in LEB128, except
+ * the first, which has raw bytes.
  */
 const streams = ['raw', 'locals', 'long', 'integer', 'offset', 'call', 'local', 'branch', 'small', 'block'];
-/** Each instruction is one of so many kinds at most: its opcode, with what of its immediates is no number of a stream. */
+/**
+ * The most kinds of instructions. A kind is an opcode with those of its immediates that are not numbers of a stream.
+ */
 const mostKinds = 256;
-/** Bytes of an opcode at most, its alignment included. */
+/** The most bytes of an opcode, including its alignment. */
 const longest = 4;
 
 const branchTable = 0x0e;
 const end = 0x0b;
 
 /**
- * What follows each opcode: how many numbers of which stream, `raw` so many bytes; `memory` an alignment and an offset.
- * Those that nothing follows have none of `small`. What is not here the compiler does not write, as it is told to.
+ * What follows each opcode: how many numbers of which stream; for `raw`, how many bytes; for `memory`, an alignment and
+ * an offset. Opcodes without immediates have 0 numbers of `small`. The compiler's flags exclude all other opcodes.
  */
 const immediates = new Map();
 const opcodes = (from, to, ...what) => {
@@ -79,7 +80,7 @@ class Reader {
     }
   }
 
-  /** The bytes of so many numbers. */
+  /** The bytes of this many numbers. */
   numbers(count) {
     const from = this.at;
     for (let k = 0; k < count; k++) this.number();
@@ -92,7 +93,7 @@ class Reader {
   }
 }
 
-/** Where the functions of a module begin, and where they end; `count` of them. */
+/** The begin and end of a module's functions, and their `count`. */
 function codeOf(wasm) {
   const reader = new Reader(wasm, 8);
   while (reader.at < wasm.length) {
@@ -108,7 +109,7 @@ function codeOf(wasm) {
   throw new Error('the module has no code');
 }
 
-/** One instruction: its kind (bytes, stream, numbers), and what goes into the stream. */
+/** One instruction: its kind (bytes, stream, numbers), and its numbers for the stream. */
 function instruction(reader) {
   const from = reader.at;
   const opcode = reader.byte();
@@ -125,7 +126,7 @@ function instruction(reader) {
   return { opcode, bytes, stream, count, given: stream === 'raw' ? reader.raw(count) : reader.numbers(count) };
 }
 
-/** Every function as a list of instructions; the first stands for its locals. */
+/** Every function as a list of instructions; the first represents its locals. */
 function functionsOf(wasm, { count, from, to }) {
   const reader = new Reader(wasm, from);
   const functions = Array.from({ length: count }, () => {
@@ -146,7 +147,7 @@ function functionsOf(wasm, { count, from, to }) {
 
 const keyOf = ({ bytes, stream, count, last }) => [Number(!last), ...bytes, stream, count].join();
 
-/** One instruction of each kind: that which ends functions, then what is most frequent. */
+/** One instruction of each kind: first the one that ends functions, then the most frequent. */
 function kindsOf(instructions) {
   const counts = new Map();
   const kinds = new Map();
@@ -160,9 +161,9 @@ function kindsOf(instructions) {
 }
 
 /**
- * The module apart. In front, three bytes each: how many functions there are, how many kinds of instructions, and how many
- * bytes before the first function, behind the last one, in the stream of the kinds, and in each of the others. Then the
- * kinds, one property after the other; the bytes before; the streams; the bytes behind.
+ * The split module. The head has numbers of three bytes each: the number of functions, of kinds of instructions, and of
+ * bytes before the first function, after the last one, in the stream of kinds, and in each of the others. Then the
+ * kinds, property by property; the bytes before; the streams; the bytes after.
  */
 export function apart(wasm) {
   const code = codeOf(wasm);

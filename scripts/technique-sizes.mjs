@@ -1,10 +1,10 @@
-// Prints what each technique weighs: what it adds to a kernel with none, and what all techniques weigh without it, since
-// techniques share much. The kernel is compiled twice for each: takes minutes.
+// Prints the size of each technique: what it adds to a kernel with none, and what a kernel with all saves without it,
+// since techniques share much. Compiles the kernel twice for each, which takes minutes.
 import { gzipSync } from 'node:zlib';
 import { compile, only, techniqueNames } from './compile.mjs';
 
 const names = techniqueNames().filter((name) => name !== 'auto');
-/** Without that one it cannot be built: it is weighed on top of it, and left out with it. */
+/** It cannot be built without that one, so it is measured on top of it, and left out with it. */
 const base = { incremental: 'strip-sweep' };
 const weigh = async (techniques) =>
   gzipSync(await compile('kernel/abi.cpp', [only(techniques), '-DTWINS']), { level: 9 }).length;

@@ -48,7 +48,7 @@ export default defineConfig({
         article: path('article/index.html'),
         lab: path('lab/index.html'),
         bench: path('bench/index.html'),
-        questions: path('questions/index.html'),
+        queries: path('queries/index.html'),
         showcases: path('showcases/index.html'),
         'narrow-phase': path('narrow-phase/index.html'),
       },

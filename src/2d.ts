@@ -1,6 +1,6 @@
 /**
- * The types of `broadphase/2d`: those of `broadphase` for two dimensions. What runs is the same source with a kernel that
- * has no others, so nothing here does.
+ * The types of `broadphase/2d`: those of `broadphase` for two dimensions. The code that runs is index.ts with a kernel
+ * for two dimensions only; this file has no code.
  *
  * @module broadphase/2d
  */

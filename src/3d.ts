@@ -1,6 +1,6 @@
 /**
- * The types of `broadphase/3d`: those of `broadphase` for three dimensions, which are the default. What runs is the same
- * source with a kernel that has no others, so nothing here does.
+ * The types of `broadphase/3d`: those of `broadphase` for three dimensions, which are the default. The code that runs
+ * is index.ts with a kernel for three dimensions only; this file has no code.
  *
  * @module broadphase/3d
  */

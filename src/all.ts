@@ -1,6 +1,6 @@
 /**
- * The types of `broadphase/all`: those of `broadphase`, and the names of all techniques. What runs is the same source
- * with another kernel, so nothing here does.
+ * The types of `broadphase/all`: those of `broadphase`, and the names of all techniques. The code that runs is index.ts
+ * with another kernel; this file has no code.
  *
  * @module broadphase/all
  */

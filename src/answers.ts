@@ -1,8 +1,8 @@
-// How a space queries its kernel and reads the answers: the code that all queries share. The kernel answers
-// (kernel/questions/queries.hpp); the files of the queries check them and write them into its array of numbers; here
-// the answers are copied to where they are wanted. A visitor gets them in parts, so that the search ends where it says
-// so, and may make queries itself.
-import { badQuestion, badValue, checkOptions, checkOut, maxId } from './errors.ts';
+// How a space queries its kernel and reads the answers: the code that all queries share. The files of the queries check
+// their arguments and write them to the kernel's io array; the kernel answers (kernel/questions/queries.hpp); the code
+// here copies the answers to where the caller wants them. A visitor gets them in parts, so that it can end the search,
+// and may make queries itself.
+import { badQuery, badValue, checkOptions, checkOut, maxId } from './errors.ts';
 import { afterAt, ioLength, orderNear, orderRay, orderWay, touchingAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import {
@@ -19,32 +19,32 @@ import {
   type QueryOptions,
 } from './query-options.ts';
 
-/** In place of a number of planes: the box or circle that stands in the array. */
+/** Instead of a number of planes: the query is for the box or circle in the array. */
 const shape = -1;
 
-/** How many answers a visitor's search goes ahead, and a search for the first that is accepted at first. */
+/** How many answers a search for a visitor computes ahead, and how many a search for an accepted hit begins with. */
 const part = 64;
 const firstPart = 4;
 
-/** What is met by a ray or by a moving box: one of both numbers is there. */
+/** A hit of a ray or of a moving box: it has one of the two numbers. */
 type Hit = { id: number; distance?: number; time?: number; normal: number[] };
 export type Visitor = (id: number, rank: number, hit?: Hit) => unknown;
 export type Accept = (id: number, hit: Hit) => unknown;
 
-/** The state of a query saved while its visitor is called, which may make other queries. */
+/** The state of a query, saved while its visitor is called, which may make other queries. */
 class Visit {
-  readonly question = new Float64Array(ioLength);
+  readonly query = new Float64Array(ioLength);
   readonly ids = new Uint32Array(part);
   readonly ranks = new Float64Array(part);
   readonly sides = new Int32Array(part);
   readonly hits = { [orderRay]: { id: 0, distance: 0, normal: [] }, [orderWay]: { id: 0, time: 0, normal: [] } };
 }
 
-// One for each query whose visitor is being called, of whichever space: a visitor may ask again.
+// A stack: one for each query, of any space, whose visitor is being called.
 const visits: Visit[] = [];
 let visiting = 0;
 
-/** The answer where a visitor got it. */
+/** The answer of a query whose visitor has got the results. */
 export const none: readonly unknown[] = Object.freeze([]);
 
 export const number = 'a number';
@@ -56,7 +56,7 @@ export const point3 = ['x', 'y', 'z'];
 export const isPlace = Number.isFinite as (value: unknown) => value is number;
 export const isNumber = (value: unknown): value is number => typeof value === 'number';
 
-/** Puts a point, as a box without size, where the kernel reads it; returns the options behind its numbers. */
+/** Writes a point, as a box of zero size, to the io array; returns the options, which follow the numbers. */
 export function point(
   instance: KernelInstance,
   where: string,
@@ -68,12 +68,12 @@ export function point(
   const io = instance.io();
   const good = isPlace(x) && isPlace(y);
   if (instance.width === 4) {
-    if (!good || options !== undefined) badQuestion(where, [x, y, z, options], point2, finite);
+    if (!good || options !== undefined) badQuery(where, [x, y, z, options], point2, finite);
     io[2] = x;
     io[3] = y;
     options = z;
   } else {
-    if (!(good && isPlace(z))) badQuestion(where, [x, y, z], point3, finite);
+    if (!(good && isPlace(z))) badQuery(where, [x, y, z], point3, finite);
     io[2] = z;
     io[3] = x;
     io[4] = y;
@@ -84,7 +84,7 @@ export function point(
   return options as IdsOptions | undefined;
 }
 
-/** Asks for the boxes that touch what stands in the kernel's array, or that are not behind so many planes there. */
+/** Finds the boxes that touch the box or circle in the io array, or that are not behind the `planes` planes there. */
 export function area(
   instance: KernelInstance,
   where: string,
@@ -110,16 +110,16 @@ export function area(
   }
 }
 
-/** Tells the kernel whether what only touches counts. */
+/** Tells the kernel whether touching counts. */
 export function tellTouching(instance: KernelInstance, where: string, options: AreaOptions | undefined): void {
-  // Without an object of its own: this is asked in every frame.
+  // Without an object of its own, which would be garbage in every frame.
   const given = options?.touching;
   const touching = given === undefined ? instance.touching : given;
   if (typeof touching !== 'boolean') badValue(`${where}: touching`, touching, 'true or false', true);
   instance.io()[touchingAt] = touching ? 1 : 0;
 }
 
-/** Asks for the first boxes that the box in the kernel's array meets, or for the nearest; returns how many. */
+/** Finds the first boxes that the box in the io array meets, or the nearest ones; returns how many. */
 export function order(
   instance: KernelInstance,
   where: string,
@@ -139,7 +139,7 @@ export function order(
   }
 }
 
-/** Takes boxes out of the kernel's hits; returns how many are left, at most so many. */
+/** Removes ignored boxes from the kernel's hits; returns how many are left, at most `most`. */
 function leaveOut(instance: KernelInstance, others: readonly number[], count: number, most: number): number {
   const words = instance.wordView();
   const first = instance.kernel.hits_address() >>> 2;
@@ -151,7 +151,7 @@ function leaveOut(instance: KernelInstance, others: readonly number[], count: nu
   return kept;
 }
 
-/** How many ids the kernel has found, at most so many, beginning at place `from` of its index. */
+/** The number of ids that the kernel has found, at most `most`, from place `from` of its index on. */
 function ids(
   instance: KernelInstance,
   where: string,
@@ -182,7 +182,7 @@ function visitArea(
   const visit = startVisit(instance);
   try {
     for (let from = 0; from >= 0; ) {
-      instance.io().set(visit.question);
+      instance.io().set(visit.query);
       const count = ids(instance, where, planes, mask, ignored, from, part);
       from = instance.io()[0]!;
       const first = instance.kernel.answers_address() >>> 2;
@@ -190,7 +190,7 @@ function visitArea(
       for (let k = 0; k < count; k++) visit.ids[k] = words[first + k]!;
       const updates = instance.kernel.updates();
       for (let k = 0; k < count; k++) {
-        const id = visit.ids[k]!; // of planes: above it stands whether it is in front of all
+        const id = visit.ids[k]!; // for planes, the bits above it say whether it is in front of all
         if (others?.includes(id & maxId)) continue;
         if ((planes === shape ? (visitor as (id: number) => unknown)(id) : visitor(id & maxId, id > maxId)) === false)
           return;
@@ -204,7 +204,7 @@ function visitArea(
   }
 }
 
-/** Calls a visitor for each answer, at most so many. */
+/** Calls a visitor for each answer, at most `most`. */
 export function visitOrder(
   instance: KernelInstance,
   where: string,
@@ -217,7 +217,7 @@ export function visitOrder(
   walk(instance, where, kind, options, most, part, visitor);
 }
 
-/** Writes the first hit that is accepted to `hit`, as it does with all before; false where none is. */
+/** Writes each hit to `hit`, up to the first one that is accepted; false if none is. */
 export function firstAccepted(
   instance: KernelInstance,
   where: string,
@@ -231,8 +231,8 @@ export function firstAccepted(
 }
 
 /**
- * Goes through the answers in order, beginning with so many at once. With `into`, where each hit is written, until one
- * is accepted, which it tells; else until the visitor says `false`.
+ * Goes through the answers in order, beginning with `most` at once. With `into`, writes each hit there until one is
+ * accepted, and returns whether one was; else goes on until the visitor returns `false`.
  */
 function walk(
   instance: KernelInstance,
@@ -252,7 +252,7 @@ function walk(
   try {
     for (let left = most, after = nobody; left > 0; ahead = part) {
       const wanted = Math.min(left + (others?.length ?? 0), ahead);
-      instance.io().set(visit.question);
+      instance.io().set(visit.query);
       const count = known(where, instance.kernel.ask_order(kind, mask, ignored, after, wanted));
       keepHits(instance, visit, count);
       const updates = instance.kernel.updates();
@@ -268,7 +268,7 @@ function walk(
       }
       if (count < wanted) return false;
       after = visit.ids[count - 1]!;
-      visit.question[afterAt] = visit.ranks[count - 1]!;
+      visit.query[afterAt] = visit.ranks[count - 1]!;
     }
     return false;
   } catch (error) {
@@ -297,7 +297,7 @@ function writeHit(instance: KernelInstance, visit: Visit, k: number, kind: numbe
   writeNormal(instance, visit.sides[k]!, hit.normal);
 }
 
-/** The normal of the side that was hit, by the kernel's number of it. */
+/** The normal of the side that was hit, from the kernel's number for it. */
 function writeNormal(instance: KernelInstance, side: number, normal: number[]): void {
   for (let axis = 0; axis < instance.dimensions; axis++) {
     normal[axis] = side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0;
@@ -305,7 +305,7 @@ function writeNormal(instance: KernelInstance, side: number, normal: number[]): 
   normal.length = instance.dimensions;
 }
 
-/** Remembers the query that stands in the kernel's array. */
+/** Saves the query that is in the io array. */
 function startVisit(instance: KernelInstance): Visit {
   const level = visiting++;
   let visit = visits[level];
@@ -313,7 +313,7 @@ function startVisit(instance: KernelInstance): Visit {
     visit = new Visit();
     visits.push(visit);
   }
-  visit.question.set(instance.io());
+  visit.query.set(instance.io());
   return visit;
 }
 
@@ -334,12 +334,12 @@ export function copyIds(instance: KernelInstance, count: number, out: number[], 
 export function readHit(instance: KernelInstance, k: number, hit: { id: number; normal: number[] }): number {
   const at = instance.kernel.hits_address() + 16 * k;
   const words = instance.wordView();
-  hit.id = words[(at >>> 2) + 2]! & maxId; // above it stands whether it was met at a corner
+  hit.id = words[(at >>> 2) + 2]! & maxId; // the bits above it say whether it was met at a corner
   writeNormal(instance, words[(at >>> 2) + 3]! | 0, hit.normal);
   return at >>> 3;
 }
 
-/** A number of answers, where the kernel knows them. */
+/** The number of answers; throws if the kernel has no copy of the boxes. */
 export function known(where: string, count: number): number {
   if (count !== -1) return count;
   throw new Error(
@@ -352,7 +352,7 @@ function updatedInside(where: string): never {
   throw new Error(`${where}: update was called by the visitor, expected it to wait until the search has ended`);
 }
 
-/** A way, or a distance, in a world that wraps around. */
+/** Refuses a path or a distance that is too long in a world that wraps around. */
 export function tooFar(where: string, distance: number, most: number): never {
-  badValue(where, distance, `at most ${most}, since each world on the way costs a search`);
+  badValue(where, distance, `at most ${most}, since each world on the path costs a search`);
 }

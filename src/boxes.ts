@@ -1,4 +1,4 @@
-// Boxes that come by the array: copied into the kernel's memory, or written there in place.
+// Boxes given as an array: copied into the kernel's memory, or written there in place.
 import type { Dimensions } from './dimensions.ts';
 import { badBox, badValue, checkBoxCount, checkNumberArray, isBoxCount } from './errors.ts';
 import type { KernelInstance } from './kernel/instance.ts';
@@ -14,7 +14,7 @@ export function setAll(instance: KernelInstance, boxes: Boxes, count: number | u
   checkNumberArray(where, boxes);
   if (count === undefined) count = countBoxes(where, boxes, dimensions);
   const { length } = boxes;
-  // Told apart before the text is made: a string in each call would be garbage.
+  // The text is made only after the test: a string in each call would be garbage.
   if (!isBoxCount(count)) checkBoxCount(`${where}: count`, count);
   if (count * width > length) {
     badValue(`${where}: count`, count, `at most ${Math.floor(length / width)}, as ${length} numbers were given`);
@@ -56,7 +56,7 @@ export function expose(instance: KernelInstance, count: number): Float32Array {
   }
 }
 
-/** Writes the numbers of a box to an array; false where there is none of this id. */
+/** Writes the numbers of a box to an array; false if there is no box of this id. */
 export function readBox(instance: KernelInstance, id: number, out: Float32Array | Float64Array | number[]): boolean {
   const fixed = ArrayBuffer.isView(out);
   if (!(fixed || Array.isArray(out)) || (fixed && !(out.length >= instance.width))) {
@@ -68,7 +68,7 @@ export function readBox(instance: KernelInstance, id: number, out: Float32Array 
   return true;
 }
 
-/** A box that was written in place is bad. */
+/** Reports a bad box that was written in place. */
 export function badInPlace(instance: KernelInstance, where: string, id: number): never {
   const box = new Float32Array(instance.width);
   readBox(instance, id, box);
@@ -78,14 +78,14 @@ export function badInPlace(instance: KernelInstance, where: string, id: number):
 export const hasBox = (instance: KernelInstance, id: number): boolean =>
   instance.ring.knows(id) || instance.kernel.has(id) === 1;
 
-/** The ids of all boxes there are now, but for those that have none any more when their turn comes. */
+/** The ids of all present boxes, except those that are deleted before their turn. */
 export const present = (instance: KernelInstance): IterableIterator<number> => stillThere(instance, listIds(instance));
 
 function* stillThere(instance: KernelInstance, ids: Uint32Array): IterableIterator<number> {
   for (const id of ids) if (hasBox(instance, id)) yield id;
 }
 
-/** All ids, copied, in the order in which they came. */
+/** A copy of all ids, in the order in which they were added. */
 function listIds(instance: KernelInstance): Uint32Array {
   try {
     const { kernel } = instance;
@@ -96,15 +96,15 @@ function listIds(instance: KernelInstance): Uint32Array {
   }
 }
 
-/** How many boxes an array holds, which must be a whole number of them. */
+/** The number of boxes in an array; throws if it is not a whole number. */
 export function countBoxes(where: string, boxes: Boxes, dimensions: Dimensions): number {
   const width = 2 * dimensions;
   if (boxes.length % width !== 0) {
     badValue(`${where}: length`, boxes.length, `a multiple of ${width}, the numbers of a box in ${dimensions}D`);
   }
-  return (boxes.length / width) | 0; // as an integer: a double out of a call would be garbage
+  return (boxes.length / width) | 0; // as an integer: a double returned from a call would be garbage
 }
-/** Each number of the first `count` boxes of an array really is one; what it is worth the kernel checks. */
+/** Checks that the elements of the first `count` boxes are numbers; the kernel checks their values. */
 function checkNumbers(where: string, boxes: ArrayLike<unknown>, count: number, dimensions: Dimensions): void {
   const width = 2 * dimensions;
   for (let k = 0; k < count * width; k++) {

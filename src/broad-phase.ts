@@ -1,20 +1,20 @@
 // The class BroadPhase: a Map from id to box that knows which of its boxes overlap.
-// Each method hands its arguments to the function of its topic; what it promises stands in api/, but for the few that an
-// editor would not find there. Only `set` and its kin, which are called once for each box, are written out here.
+// Each method passes its arguments to the function of its topic. Its documentation is in api/, except where an editor
+// would not find it there. Only `set` and its variants, which are called once for each box, are implemented here.
 import type { Api } from './api/index.ts';
 import { type Boxes, expose, hasBox, present, readBox, setAll } from './boxes.ts';
 import { askMany, nothing } from './bulk-queries.ts';
 import type {
   BoxOfId,
-  BoxQuestion,
+  BoxQuery,
   CentredBoxOfId,
   Dimensions,
   MovingBoxOfId,
-  NearestQuestion,
-  PointQuestion,
-  RayQuestion,
-  RoundQuestion,
-  SweepQuestion,
+  NearestQuery,
+  PointQuery,
+  RayQuery,
+  RoundQuery,
+  SweepQuery,
 } from './dimensions.ts';
 import { areNumbers, badCentred, badSet, badSwept, badValue, checkId, isId, isSize, maxId } from './errors.ts';
 import type { Technique as LeanTechnique } from './generated/kernel-lean.ts';
@@ -89,15 +89,15 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     return builtNames();
   }
 
-  /** How many axes the boxes have, as the constructor was told. */
+  /** How many axes the boxes have: an option of the constructor. */
   readonly dimensions: D;
   readonly #instance: KernelInstance;
-  /** The instance's: boxes that wait to be taken by the kernel. */
+  /** The ring of the instance: boxes that wait to be taken by the kernel. */
   readonly #ring: Ring;
   readonly #stats = noStats();
-  /** Hits left over where an answer was shorter than the one before: for a longer one. */
+  /** Spare hit objects, from answers that were shorter than the one before, to reuse in a longer one. */
   readonly #spareHits: RayHit[] = [];
-  /** The pairs with other spaces. */
+  /** Pairs with other spaces. */
   readonly #kept = new WeakMap<KernelInstance, Kept>();
   #watcher: Watcher | undefined;
 
@@ -118,7 +118,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     this.dimensions = this.#instance.dimensions as D;
   }
 
-  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  /** Frameworks that wrap objects in proxies, such as Vue, leave objects alone whose name here is not `Object`. */
   get [Symbol.toStringTag](): string {
     return 'BroadPhase';
   }
@@ -129,9 +129,9 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
 
   set(...box: BoxOfId<D>): this;
   set(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
-    // Short enough for engines to inline, since a call boxes its doubles, and boxes are garbage: V8 does it up to 460
-    // bytes of its code, those of what is inlined in here included. `arguments` itself must not leave, or it is made in
-    // every call.
+    // Short enough for engines to inline. Otherwise each call would allocate its doubles on the heap, which is garbage.
+    // V8 inlines up to 460 bytes of bytecode, including what is inlined into it. `arguments` must not be passed on, or
+    // each call would allocate it.
     const ring = this.#ring;
     const { width } = ring;
     if (
@@ -151,7 +151,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     }
     const waits = id < ring.dense || ring.mayWait(id);
     let k = ring.next;
-    if (!waits || k >= ring.numbers.length) k = ring.drain(); // one that cannot wait comes alone
+    if (!waits || k >= ring.numbers.length) k = ring.drain(); // a box that cannot wait is flushed alone
     const { numbers } = ring;
     numbers[k] = id;
     numbers[k + 1] = a;
@@ -187,7 +187,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
       !isId(id) ||
       !(areNumbers(a, b, c, d, e, f) && (flat || areNumbers(g, h, i))) ||
       !(flat ? a <= c && b <= d : a <= d && b <= e && c <= f) ||
-      // What is infinite is NaN without itself.
+      // x - x is NaN if x is infinite.
       (flat ? e - e + (f - f) : g! - g! + (h! - h!) + (i! - i!)) !== 0
     ) {
       badSwept(id, [a, b, c, d, e, f, g, h, i], this.dimensions);
@@ -295,36 +295,35 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     return this;
   }
   filterOf(id: number): rules.Filter | undefined {
-    const rule = rules.ruleOf(this.#instance, 'filterOf', id);
-    return rule && { layer: rule[0]!, mask: rule[1]! };
+    return rules.filterOf(this.#instance, id);
   }
   setStatic(id: number, isStatic = true): this {
     rules.setStatic(this.#instance, id, isStatic);
     return this;
   }
   isStatic(id: number): boolean {
-    return rules.ruleOf(this.#instance, 'isStatic', id)?.[2] === 1;
+    return rules.isStatic(this.#instance, id);
   }
   setEnabled(id: number, enabled: boolean): this {
     rules.setEnabled(this.#instance, id, enabled);
     return this;
   }
   isEnabled(id: number): boolean {
-    return rules.ruleOf(this.#instance, 'isEnabled', id)?.[3] === 1;
+    return rules.isEnabled(this.#instance, id);
   }
   setGroup(id: number, group: number): this {
     rules.setGroup(this.#instance, id, group);
     return this;
   }
   groupOf(id: number): number | undefined {
-    return rules.ruleOf(this.#instance, 'groupOf', id)?.[4];
+    return rules.groupOf(this.#instance, id);
   }
   setReach(id: number, distance: number): this {
     rules.setReach(this.#instance, id, distance);
     return this;
   }
   reachOf(id: number): number | undefined {
-    return rules.ruleOf(this.#instance, 'reachOf', id)?.[5];
+    return rules.reachOf(this.#instance, id);
   }
 
   update(): this {
@@ -358,34 +357,34 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     return pairsWith(this.#instance, other.#instance, this.#kept);
   }
 
-  queryBox(...question: BoxQuestion<D, BoxOptions>): number[];
+  queryBox(...query: BoxQuery<D, BoxOptions>): number[];
   queryBox(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: BoxOptions): number[] {
     return places.queryBox(this.#instance, a, b, c, d, e, f, options);
   }
-  queryPoint(...question: PointQuestion<D, IdsOptions>): number[];
+  queryPoint(...query: PointQuery<D, IdsOptions>): number[];
   queryPoint(x: number, y: number, z?: unknown, options?: IdsOptions): number[] {
     return places.queryPoint(this.#instance, x, y, z, options);
   }
-  queryCircle(...question: D extends 2 ? RoundQuestion<2, IdsOptions> : never): number[];
+  queryCircle(...query: D extends 2 ? RoundQuery<2, IdsOptions> : never): number[];
   queryCircle(x: number, y: number, radius: number, options?: IdsOptions): number[] {
     return places.queryCircle(this.#instance, x, y, radius, options);
   }
-  querySphere(...question: D extends 3 ? RoundQuestion<3, IdsOptions> : never): number[];
+  querySphere(...query: D extends 3 ? RoundQuery<3, IdsOptions> : never): number[];
   querySphere(x: number, y: number, z: number, radius: number, options?: IdsOptions): number[] {
     return places.querySphere(this.#instance, x, y, z, radius, options);
   }
   queryPlanes(planes: Float32Array | Float64Array | readonly number[], options?: PlanesOptions): number[] {
     return queryPlanes(this.#instance, planes, options);
   }
-  rayCast(...question: RayQuestion<D, RayOptions>): RayHit | undefined;
+  rayCast(...query: RayQuery<D, RayOptions>): RayHit | undefined;
   rayCast(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayOptions) {
     return ahead.rayCast(this.#instance, a, b, c, d, e, f, options);
   }
-  rayCastAll(...question: RayQuestion<D, RayAllOptions>): RayHit[];
+  rayCastAll(...query: RayQuery<D, RayAllOptions>): RayHit[];
   rayCastAll(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayAllOptions): RayHit[] {
     return ahead.rayCastAll(this.#instance, this.#spareHits, a, b, c, d, e, f, options);
   }
-  sweep(...question: SweepQuestion<D, SweepOptions>): SweepHit | undefined;
+  sweep(...query: SweepQuery<D, SweepOptions>): SweepHit | undefined;
   sweep(
     a: number,
     b: number,
@@ -400,7 +399,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   ) {
     return ahead.sweep(this.#instance, a, b, c, d, e, f, g, h, i, options);
   }
-  nearest(...question: NearestQuestion<D, NearestOptions>): number[];
+  nearest(...query: NearestQuery<D, NearestOptions>): number[];
   nearest(x: number, y: number, z: number, k?: unknown, options?: NearestOptions): number[] {
     return ahead.nearest(this.#instance, x, y, z, k, options);
   }

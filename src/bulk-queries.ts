@@ -4,7 +4,7 @@ import { isNumber, known, number, point2, point3, tellTouching, tooFar } from '.
 import type { Dimensions } from './dimensions.ts';
 import {
   badId,
-  badQuestion,
+  badQuery,
   badValue,
   checkNumberArray,
   checkOptions,
@@ -31,7 +31,7 @@ import {
 } from './query-options.ts';
 import { isTypedArray } from './values.ts';
 
-/** What answers have of which kind. */
+/** Which arrays each kind of answer has. */
 export type Answer = ManyIds & {
   distances?: Float64Array;
   times?: Float64Array;
@@ -54,7 +54,7 @@ const points = { 2: point2, 3: point3 };
 const circles = { 2: [...point2, 'radius'], 3: [...point3, 'radius'] };
 const rays = { 2: ray2, 3: ray3 };
 const ways = { 2: sweep2, 3: sweep3 };
-/** All boxes ask: no numbers are given. */
+/** One query for each box: no numbers are given. */
 export const nothing: readonly number[] = [];
 const nobodys = { 2: ['box'], 3: ['box'] };
 
@@ -72,13 +72,13 @@ const ofAllOptions = ['mask', 'maxDistance', 'out'];
 
 interface Question {
   kind: number;
-  /** The numbers of one, by dimensions. */
+  /** The numbers of one query, by dimensions. */
   names: Record<Dimensions, readonly string[]>;
   parts: readonly Part[];
   options: readonly string[];
 }
 
-/** By the name of the call. */
+/** The kind of query, by the name of the call. */
 const questions = {
   queryBoxes: { kind: asks.box, names: corners, parts: idParts, options: boxOptions },
   queryPoints: { kind: asks.point, names: points, parts: idParts, options: areaOptions },
@@ -107,7 +107,7 @@ export function askMany(
     if (typeof within !== 'boolean') badValue(`${where}: within`, within, 'true or false', true);
     if (within) kind = asks.within;
   }
-  // Told apart, as a large number that is returned would be garbage.
+  // Compared first, since returning a large number would be garbage.
   if (!isCount(most)) checkMost(where, most);
   checkNumberArray(where, numbers);
   const { length } = numbers;
@@ -122,7 +122,7 @@ export function askMany(
   const { ignoreEach, maxDistance = Number.POSITIVE_INFINITY, out } = options ?? {};
   const mask = maskOf(where, options);
   tellTouching(instance, where, options);
-  // Told apart before the text is made: a string in each call would be garbage.
+  // The text is made only after the test: a string in each call would be garbage.
   if (!isSize(maxDistance)) checkDistance(`${where}: maxDistance`, maxDistance);
   checkFar(instance, where, kind, numbers, maxDistance);
   if (ignoreEach !== undefined) checkIgnored(where, ignoreEach, count);
@@ -143,7 +143,7 @@ export function askMany(
   }
 }
 
-/** In a world that wraps around: rays and ways do not lead through too many. */
+/** In a world that wraps around: refuses rays and paths through too many worlds. */
 function checkFar(
   instance: KernelInstance,
   where: string,
@@ -162,7 +162,7 @@ function checkFar(
     kind === asks.way && k < numbers.length;
     k += k % each === each - 1 ? instance.width + 1 : 1
   ) {
-    if (Math.abs(numbers[k]!) > most) tooFar(`${where}: question ${Math.floor(k / each)}: the way`, numbers[k]!, most);
+    if (Math.abs(numbers[k]!) > most) tooFar(`${where}: query ${Math.floor(k / each)}: the motion`, numbers[k]!, most);
   }
 }
 
@@ -197,10 +197,10 @@ function collect(
   return answer;
 }
 
-/** Copies the hit in a place among the kernel's words. */
+/** Copies the hit at a place in the kernel's memory. */
 function copyHit(instance: KernelInstance, to: Answer, n: number, at: number): void {
   const words = instance.wordView();
-  to.ids[n] = words[at + 2]! & maxId; // above it stands whether it was met at a corner
+  to.ids[n] = words[at + 2]! & maxId; // the bits above it say whether it was met at a corner
   (to.distances ?? to.times!)[n] = instance.doubleView()[at >>> 1]!;
   if (to.normals === undefined) return;
   const side = words[at + 3]! | 0;
@@ -209,13 +209,13 @@ function copyHit(instance: KernelInstance, to: Answer, n: number, at: number): v
   }
 }
 
-/** Says what is wrong with the numbers of a query. */
+/** Reports what is wrong with the numbers of a query. */
 function badNumbers(where: string, numbers: ArrayLike<number>, k: number, names: readonly string[]): never {
   const given = Array.prototype.slice.call(numbers, k * names.length, (k + 1) * names.length);
-  const what = `${where}: question ${k}`;
+  const what = `${where}: query ${k}`;
   const round = names.at(-1) === 'radius';
   if (round && given.every(isNumber)) checkDistance(`${what}: radius`, given.at(-1)!);
-  badQuestion(what, given, round ? names.slice(0, -1) : names, number);
+  badQuery(what, given, round ? names.slice(0, -1) : names, number);
 }
 
 /** One id for each query. */

@@ -35,25 +35,25 @@ export type Ray<D extends Dimensions> = D extends 2
   : [...Point<3>, directionX: number, directionY: number, directionZ: number];
 
 /** The arguments of `queryBox`: a box, and options. */
-export type BoxQuestion<D extends Dimensions, Options> = D extends 2
+export type BoxQuery<D extends Dimensions, Options> = D extends 2
   ? [...Box<2>, options?: Options]
   : [...Box<3>, options?: Options];
 /** The arguments of `queryPoint`: a point, and options. */
-export type PointQuestion<D extends Dimensions, Options> = D extends 2
+export type PointQuery<D extends Dimensions, Options> = D extends 2
   ? [...Point<2>, options?: Options]
   : [...Point<3>, options?: Options];
 /** The arguments of `rayCast` and `rayCastAll`: a ray, and options. */
-export type RayQuestion<D extends Dimensions, Options> = D extends 2
+export type RayQuery<D extends Dimensions, Options> = D extends 2
   ? [...Ray<2>, options?: Options]
   : [...Ray<3>, options?: Options];
 /** The arguments of `sweep`: a moving box, and options. */
-export type SweepQuestion<D extends Dimensions, Options> = D extends 2
+export type SweepQuery<D extends Dimensions, Options> = D extends 2
   ? [...MovingBox<2>, options?: Options]
   : [...MovingBox<3>, options?: Options];
 /** The arguments of `nearest`: a point, how many boxes, and options. */
-export type NearestQuestion<D extends Dimensions, Options> = D extends 2
+export type NearestQuery<D extends Dimensions, Options> = D extends 2
   ? [...Point<2>, k: number, options?: Options]
   : [...Point<3>, k: number, options?: Options];
 
 /** The arguments of `queryCircle` and `querySphere`: a centre, a radius, and options. */
-export type RoundQuestion<D extends Dimensions, Options> = [...Point<D>, radius: number, options?: Options];
+export type RoundQuery<D extends Dimensions, Options> = [...Point<D>, radius: number, options?: Options];

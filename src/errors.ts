@@ -1,5 +1,5 @@
-// What bad input is told: what was asked, the value, what was expected. One function a kind of input; each
-// throws, and none is called before everything is still as it was.
+// Errors for bad input: they name the call, the value, and what was expected. One function per kind of input. Each
+// throws, and is called before anything has changed.
 
 import { isFloat32Array, isFloat64Array } from './values.ts';
 
@@ -49,7 +49,7 @@ export function noBox(where: string, id: number): never {
   throw new RangeError(`${where}: there is no box ${id}, expected the id of a box: call set first`);
 }
 
-/** A box that is not one: says which of its numbers is wrong. */
+/** A bad box: says which of its numbers is wrong. */
 export function badBox(where: string, id: number, box: ArrayLike<unknown>, dimensions: 2 | 3): never {
   const names = corners[dimensions];
   for (let k = 0; k < names.length; k++) {
@@ -84,7 +84,7 @@ function badCount(
   );
 }
 
-/** A box by centre and half size that is not one: says which of its numbers is wrong. */
+/** A bad box by centre and half size: says which of its numbers is wrong. */
 export function badCentred(where: string, given: ArrayLike<unknown>, dimensions: 2 | 3): never {
   const id = given[0];
   checkId(where, id);
@@ -105,12 +105,12 @@ export function badValue(where: string, value: unknown, expected: string, wrongT
   throw wrongType ? new TypeError(message) : new RangeError(message);
 }
 
-/** An argument or option that is to be a number of some kind. */
+/** An argument or option that must be a number of some kind. */
 export function badNumber(where: string, value: unknown, expected: string): never {
   badValue(where, value, expected, typeof value !== 'number');
 }
 
-/** Whether it is a number above 0, or 0 where that is the least, and not infinite. */
+/** Whether a value is a finite number above 0, or 0 if that is allowed. */
 export const isFinitePositive = (value: unknown, least = Number.MIN_VALUE): value is number =>
   Number.isFinite(value) && Number(value) >= least;
 
@@ -121,7 +121,7 @@ export function checkBoolean(what: string, value: unknown): void {
 export const isBoxCount = (count: unknown): boolean =>
   Number.isInteger(count) && Number(count) >= 0 && Number(count) <= maxId + 1;
 
-// Made once: a text of every call would be garbage in each frame.
+// Made once: a string in each call would be garbage in each frame.
 const boxCounts = `an integer from 0 to ${maxId + 1}`;
 
 export function checkBoxCount(what: string, count: unknown): void {
@@ -134,7 +134,7 @@ export function checkNumberArray(where: string, numbers: unknown): void {
   badValue(where, numbers, 'a Float32Array, a Float64Array or an array of numbers', true);
 }
 
-/** An id and a box that are ones. */
+/** Whether the arguments are a good id and a good box. */
 export function checkBox(where: string, id: number, box: readonly number[], dimensions: 2 | 3): void {
   checkId(where, id);
   if (box.length !== 2 * dimensions) badCount(where, id, 1 + box.length, dimensions);
@@ -159,21 +159,21 @@ export function checkBits(where: string, bits: unknown): void {
   badValue(where, bits, `an integer from 0 to 4294967295${bits < 0 ? ' (of signed bits, write bits >>> 0)' : ''}`);
 }
 
-/** Where answers are written to. */
+/** Checks an array to write answers to. */
 export function checkOut(where: string, out: unknown): void {
   if (!Array.isArray(out)) badValue(`${where}: out`, out, 'an array', true);
 }
 
-/** Whether what a ray or a moving box meets can be written to it. */
+/** Whether a hit can be written to it. */
 export const isHit = (out: unknown): boolean =>
   typeof out === 'object' && out !== null && Array.isArray((out as { normal?: unknown }).normal);
 
-/** What a ray or a moving box meets cannot be written to it: `time` or `distance` says how far it is. */
+/** Reports an object that a hit cannot be written to: `time` or `distance` is its number. */
 export function badHit(where: string, out: unknown, far: 'distance' | 'time'): never {
   badValue(where, out, `an object { id: 0, ${far}: 0, normal: [] }`, true);
 }
 
-/** An object of options, all of which are known; those left undefined do not count. */
+/** Checks an object of options: all must be known, except undefined ones. */
 export function checkOptions(where: string, options: unknown, known: readonly string[]): void {
   if (options === undefined) return;
   if (typeof options !== 'object' || options === null) badValue(where, options, 'an object of options', true);
@@ -186,10 +186,10 @@ export function checkOptions(where: string, options: unknown, known: readonly st
   }
 }
 
-/** What is left out is the lesser fault. */
+/** A wrong number is reported before a missing one. */
 const leftOut = 0.4;
 
-/** How many letters have to be changed, put in or left out to make one word of another. */
+/** The edit distance of two words: letters changed, inserted or left out. */
 function edits(from: string, to: string): number {
   let row = Array.from({ length: to.length + 1 }, (_, k) => k * leftOut);
   for (let k = 0; k < from.length; k++) {
@@ -204,7 +204,7 @@ function edits(from: string, to: string): number {
 }
 
 /** Reports wrong numbers of a query: `names` are their names, `expected` what each must be. */
-export function badQuestion(
+export function badQuery(
   where: string,
   given: readonly unknown[],
   names: readonly string[],
@@ -264,5 +264,5 @@ export function badSet(
 /** Finds what is wrong with the arguments of `setSwept`. */
 export function badSwept(id: unknown, given: readonly unknown[], dimensions: 2 | 3): never {
   if (!isId(id)) badId('setSwept', id);
-  badQuestion('setSwept', given, dimensions === 2 ? sweep2 : sweep3, 'a number');
+  badQuery('setSwept', given, dimensions === 2 ? sweep2 : sweep3, 'a number');
 }

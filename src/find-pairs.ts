@@ -1,6 +1,7 @@
 // One-shot search: pairs of an array of boxes, or between two, without keeping anything.
-// A call that asks for nothing but dimensions takes a spare space, since making one costs many times as much as the
-// search among a few boxes. A spare space is as new, so that the order of pairs does not depend on the calls before.
+// A call with no options but `dimensions` reuses a spare space, since creating one costs many times as much as a search
+// among a few boxes. A spare space is reset to its initial state, so that the order of pairs does not depend on earlier
+// calls.
 import { type Boxes, countBoxes, setAll } from './boxes.ts';
 import type { Dimensions } from './dimensions.ts';
 import { checkNumberArray } from './errors.ts';
@@ -11,13 +12,13 @@ import { pairsIn, update } from './pairs.ts';
 import { noStats } from './stats.ts';
 import { isFloat32Array } from './values.ts';
 
-/** By dimensions. A space is not here while it is in use: a getter in the caller's array may call again. */
+/** Spare spaces by dimensions. A space in use is not in here, since a getter in the caller's array may call again. */
 const spares: (KernelInstance | undefined)[] = [];
 
-/** A spare space may have used this many bytes of memory, but no more: what has been touched stays taken. */
+/** A space that has used more bytes of memory than this is not kept, since touched memory is not returned. */
 const mostBytes = 64 * 2 ** 20;
 
-/** Of the last search: nobody reads them. */
+/** The counters of the last search, which are not used. */
 const stats = noStats();
 
 /** The space for a call with these options. */
@@ -30,7 +31,7 @@ function borrow(where: string, options?: BroadPhaseOptions<Dimensions>): KernelI
   return spare;
 }
 
-/** Keeps the space of a call that went well for the next. Where a call throws, its space goes with it. */
+/** Keeps the space for the next call. If a call throws, its space is dropped. */
 function giveBack(space: KernelInstance, options?: BroadPhaseOptions<Dimensions>): void {
   const dimensions = plain(options);
   if (dimensions === 0) return;
@@ -38,7 +39,7 @@ function giveBack(space: KernelInstance, options?: BroadPhaseOptions<Dimensions>
   if (space.kernel.begin_anew() >>> 0 <= mostBytes) spares[dimensions] = space;
 }
 
-/** The dimensions that the options ask for, where they ask for nothing else; 0 where they do. */
+/** The dimensions in the options, if there is no other option; else 0. */
 function plain(options?: BroadPhaseOptions<Dimensions>): number {
   if (options === undefined) return builtDimensions[0]!;
   for (const name in options) if (name !== 'dimensions') return 0;
@@ -94,7 +95,7 @@ export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOp
   return pairs;
 }
 
-/** The pairs of what stands in a space, as an array of their own. */
+/** The pairs of the boxes in a space, as an independent array. */
 function search(space: KernelInstance): Uint32Array {
   update(space, stats);
   return pairsIn(space).slice();

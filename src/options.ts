@@ -1,4 +1,4 @@
-// What a space is made with: the options, their checks, and how the kernel is told.
+// The options of a space: their types, their checks, and how they reach the kernel.
 import type { Dimensions } from './dimensions.ts';
 import {
   badNumber,
@@ -79,12 +79,12 @@ export interface DimensionsSaid<D extends Dimensions> {
   dimensions: NoInfer<D>;
 }
 
-/** Refuses an option that there is not. `where` says what the options were given to. */
+/** Refuses an unknown option. `where` says what the options were given to. */
 export function checkNames(where: string, options: unknown): void {
   checkOptions(where, options, optionNames);
 }
 
-/** A kernel that is as these options say. */
+/** Creates a kernel instance with these options. */
 export function open(options: BroadPhaseOptions<Dimensions> = {}): KernelInstance {
   checkNames('new BroadPhase', options);
   const {
@@ -142,7 +142,7 @@ function checkDimensions(dimensions: Dimensions): void {
   badValue('dimensions', dimensions, `${builtDimensions.join(' or ')}${more}`);
 }
 
-/** Options that no technique of this build looks at: those who have them are in `broadphase/all`. */
+/** Options that no technique of this build uses: those that do are in `broadphase/all`. */
 function checkHeeded(options: Record<string, unknown>): void {
   if (isBuilt('spatial-grid')) return;
   for (const [name, value] of Object.entries(options)) {

@@ -3,10 +3,10 @@ import { badInPlace } from './boxes.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { readStats, type Stats } from './stats.ts';
 
-/** Brings the pairs up to date with the boxes, and counters with both. */
+/** Finds the pairs of the present boxes, and updates the counters. */
 export function update(instance: KernelInstance, stats: Stats): void {
   if (instance.exposed?.byteOffset === 0) {
-    // Only views that were cut off stand there.
+    // The offset is 0 only for detached views.
     throw new Error(
       'update: the array of boxes() was detached when memory grew, so what was written to it since is lost: ' +
         'call boxes(count) again before you write',
@@ -27,7 +27,7 @@ export function update(instance: KernelInstance, stats: Stats): void {
   readStats(instance, stats);
 }
 
-// The lists of pairs there are.
+// The three lists of pairs.
 const all = 0;
 const began = 1;
 const ended = 2;

@@ -1,13 +1,9 @@
-// The queries about places: who collides with whom, and what is in a box, at a point, or in a circle.
+// The queries about places: which boxes collide, and which are in a box, at a point, or in a circle.
 import { area, copyIds, isNumber, number, point } from './answers.ts';
-import { badQuestion, badValue, checkId, checkOut, corners } from './errors.ts';
-import { radiusAt } from './generated/abi.ts';
+import { badQuery, badValue, checkId, checkOut, corners } from './errors.ts';
+import { noCircle, radiusAt, within } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { type BoxOptions, boxOptions, checkDistance, type IdsOptions } from './query-options.ts';
-
-/** In place of a radius: see kernel/abi.cpp. */
-const noCircle = -1;
-const whole = -2;
 
 export function isColliding(instance: KernelInstance, a: number, b: number): boolean {
   checkId('isColliding', a);
@@ -42,13 +38,13 @@ export function queryBox(
   const io = instance.io();
   if (instance.width === 4) {
     if (!(isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d) || f !== undefined) {
-      badQuestion('queryBox', [a, b, c, d, e, f, options], corners[2], number);
+      badQuery('queryBox', [a, b, c, d, e, f, options], corners[2], number);
     }
     options = e as BoxOptions | undefined;
   } else {
     const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && isNumber(e) && isNumber(f);
     if (!(good && a <= d && b <= e && c <= f)) {
-      badQuestion('queryBox', [a, b, c, d, e, f], corners[3], number);
+      badQuery('queryBox', [a, b, c, d, e, f], corners[3], number);
     }
     io[4] = e;
     io[5] = f;
@@ -57,9 +53,9 @@ export function queryBox(
   io[1] = b;
   io[2] = c;
   io[3] = d;
-  const within = options?.within ?? false;
-  if (typeof within !== 'boolean') badValue('queryBox: within', within, 'true or false', true);
-  io[radiusAt] = within ? whole : noCircle;
+  const wholly = options?.within ?? false;
+  if (typeof wholly !== 'boolean') badValue('queryBox: within', wholly, 'true or false', true);
+  io[radiusAt] = wholly ? within : noCircle;
   return area(instance, 'queryBox', options, boxOptions);
 }
 

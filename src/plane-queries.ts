@@ -1,4 +1,4 @@
-// The query about planes: what a camera sees.
+// The query with planes: what a camera sees.
 import { area } from './answers.ts';
 import { badValue, checkNumberArray } from './errors.ts';
 import { planesAt } from './generated/abi.ts';

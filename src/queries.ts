@@ -1,6 +1,5 @@
-// What a space can be asked between two updates: who collides with whom, what is there, what is in view, what is
-// ahead, what is near. Everything is answered as of the last update; what the queries need is made at the first
-// after it. Here are what is ahead and what is near; the others are in plane-queries.ts and place-queries.ts.
+// Rays, sweeps and nearest boxes: the queries whose answers are in order. All queries see the boxes of the last update;
+// the index is built at the first query after it. The other queries are in place-queries.ts and plane-queries.ts.
 import {
   type Accept,
   finite,
@@ -18,7 +17,7 @@ import {
   type Visitor,
   visitOrder,
 } from './answers.ts';
-import { badHit, badQuestion, badValue, checkOptions, checkOut, isHit, isSize, sweep2, sweep3 } from './errors.ts';
+import { badHit, badQuery, badValue, checkOptions, checkOut, isHit, isSize, sweep2, sweep3 } from './errors.ts';
 import { limitAt, orderNear, orderRay, orderWay } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import {
@@ -108,14 +107,14 @@ export function sweep(
   if (instance.width === 4) {
     const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d;
     if (!(good && isPlace(e) && isPlace(f)) || h !== undefined) {
-      badQuestion('sweep', [a, b, c, d, e, f, g, h, i, options], sweep2, number);
+      badQuery('sweep', [a, b, c, d, e, f, g, h, i, options], sweep2, number);
     }
     options = g as SweepOptions | undefined;
   } else {
     const all = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && isNumber(e) && isNumber(f);
     const good = all && a <= d && b <= e && c <= f;
     if (!(good && isPlace(g) && isPlace(h) && isPlace(i))) {
-      badQuestion('sweep', [a, b, c, d, e, f, g, h, i], sweep3, number);
+      badQuery('sweep', [a, b, c, d, e, f, g, h, i], sweep3, number);
     }
     io[6] = g;
     io[7] = h;
@@ -130,7 +129,7 @@ export function sweep(
   io[limitAt] = 1;
   if (instance.wrap !== undefined) {
     for (let k = instance.width; k < instance.width + instance.dimensions; k++) {
-      if (Math.abs(io[k]!) > instance.farthest) tooFar('sweep: the way', io[k]!, instance.farthest);
+      if (Math.abs(io[k]!) > instance.farthest) tooFar('sweep: the motion', io[k]!, instance.farthest);
     }
   }
   checkOptions('sweep', options, sweepOptions);
@@ -160,7 +159,7 @@ export function nearest(
   const flat = instance.width === 4;
   const most = flat ? z : k;
   if (flat) {
-    if (options !== undefined) badQuestion('nearest', [x, y, z, k, options], [...point2, 'k'], number);
+    if (options !== undefined) badQuery('nearest', [x, y, z, k, options], [...point2, 'k'], number);
     options = k as NearestOptions | undefined;
     point(instance, 'nearest', x, y);
   } else {
@@ -192,7 +191,7 @@ export function nearest(
   return out;
 }
 
-/** Puts a ray, with its limit, where the kernel reads it; returns the options behind its numbers. */
+/** Writes a ray, with its limit, to the io array; returns the options, which follow the numbers. */
 function ray<Options extends { maxDistance?: number }>(
   instance: KernelInstance,
   where: string,
@@ -208,14 +207,14 @@ function ray<Options extends { maxDistance?: number }>(
   const io = instance.io();
   const good = isPlace(a) && isPlace(b) && isPlace(c) && isPlace(d);
   if (instance.width === 4) {
-    if (!good || f !== undefined) badQuestion(where, [a, b, c, d, e, f, options], ray2, finite);
+    if (!good || f !== undefined) badQuery(where, [a, b, c, d, e, f, options], ray2, finite);
     io[2] = a;
     io[3] = b;
     io[4] = c;
     io[5] = d;
     options = e as Options | undefined;
   } else {
-    if (!(good && isPlace(e) && isPlace(f))) badQuestion(where, [a, b, c, d, e, f], ray3, finite);
+    if (!(good && isPlace(e) && isPlace(f))) badQuery(where, [a, b, c, d, e, f], ray3, finite);
     io[2] = c;
     io[3] = a;
     io[4] = b;
@@ -228,7 +227,7 @@ function ray<Options extends { maxDistance?: number }>(
   io[1] = b;
   checkOptions(where, options, known);
   const { maxDistance = Number.POSITIVE_INFINITY } = options ?? {};
-  // Told apart before the text is made: a string in each call would be garbage.
+  // The text is made only after the test: a string in each call would be garbage.
   if (!isSize(maxDistance)) checkDistance(`${where}: maxDistance`, maxDistance);
   io[limitAt] = maxDistance;
   if (maxDistance > instance.farthest && maxDistance < Number.POSITIVE_INFINITY) {

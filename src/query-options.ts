@@ -175,9 +175,9 @@ export interface ManyFarOptions<Answer> extends ManyOptions<Answer> {
   maxDistance?: number;
 }
 
-/** As a mask: all boxes. */
+/** The mask for all boxes. */
 export const everything = 0xffffffff;
-/** In place of an id. */
+/** Instead of an id. */
 export const nobody = 0xffffffff;
 
 export function maskOf(where: string, options: QueryOptions | undefined): number {
@@ -187,7 +187,7 @@ export function maskOf(where: string, options: QueryOptions | undefined): number
   return mask;
 }
 
-/** The one box that is left out; `nobody` where none is, or several are: see `othersIgnored`. */
+/** The one box that is ignored; `nobody` if there is none, or several: see `othersIgnored`. */
 export function ignoredOf(where: string, options: QueryOptions | undefined): number {
   const ignore = options?.ignore;
   if (ignore === undefined) return nobody;
@@ -199,7 +199,7 @@ export function ignoredOf(where: string, options: QueryOptions | undefined): num
   return ignore.length === 1 ? ignore[0] : nobody;
 }
 
-/** The boxes that are left out where these are several. */
+/** The ignored boxes, if there are several. */
 export function othersIgnored(options: QueryOptions | undefined): readonly number[] | undefined {
   const ignore = options?.ignore;
   return typeof ignore === 'object' && ignore.length > 1 ? ignore : undefined;
@@ -213,11 +213,11 @@ export const nearestOptions = [...farOptions, 'distances'] as const;
 export const rayOptions = ['mask', 'ignore', 'maxDistance', 'out', 'accept'] as const;
 export const sweepOptions = ['mask', 'ignore', 'out', 'visit', 'accept'] as const;
 
-/** Whether it says how many answers are wanted. */
+/** Whether a value is a good limit for the number of answers. */
 export const isCount = (k: unknown): k is number =>
   (Number.isInteger(k) && Number(k) >= 1) || k === Number.POSITIVE_INFINITY;
 
-/** How many answers are wanted, as the kernel counts. */
+/** That limit, as the kernel counts. */
 export function checkMost(where: string, k: unknown): number {
   if (!isCount(k)) badNumber(`${where}: k`, k, 'an integer from 1 on, or Infinity');
   return Math.min(k, everything);

@@ -1,5 +1,6 @@
-// Who may be a pair with whom, and how it is read back. Rules belong to an id, and stand in the kernel beside its box.
+// Which boxes may be a pair: setting rules, and reading them back. The kernel stores the rules of a box by its id.
 import { badNumber, checkBits, checkBoolean, checkId, isFinitePositive, noBox } from './errors.ts';
+import { enabledAt, groupAt, layerAt, maskAt, reachAt, staticAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 
 /** What a box meets: see {@link BroadPhase.setFilter}. */
@@ -51,8 +52,29 @@ function tell(instance: KernelInstance, where: string, call: Call, id: number, v
   }
 }
 
-/** The kernel's numbers, which begin with the rule of this box: layer, mask, static, enabled, group, reach. */
-export function ruleOf(instance: KernelInstance, where: string, id: number): Float64Array | undefined {
+export function filterOf(instance: KernelInstance, id: number): Filter | undefined {
+  const rule = ruleOf(instance, 'filterOf', id);
+  return rule && { layer: rule[layerAt]!, mask: rule[maskAt]! };
+}
+
+export function isStatic(instance: KernelInstance, id: number): boolean {
+  return ruleOf(instance, 'isStatic', id)?.[staticAt] === 1;
+}
+
+export function isEnabled(instance: KernelInstance, id: number): boolean {
+  return ruleOf(instance, 'isEnabled', id)?.[enabledAt] === 1;
+}
+
+export function groupOf(instance: KernelInstance, id: number): number | undefined {
+  return ruleOf(instance, 'groupOf', id)?.[groupAt];
+}
+
+export function reachOf(instance: KernelInstance, id: number): number | undefined {
+  return ruleOf(instance, 'reachOf', id)?.[reachAt];
+}
+
+/** The kernel's io array, with the rule of this box in it. */
+function ruleOf(instance: KernelInstance, where: string, id: number): Float64Array | undefined {
   checkId(where, id);
   return instance.kernel.get_rule(id) === 1 ? instance.io() : undefined;
 }

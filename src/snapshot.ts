@@ -1,13 +1,13 @@
-// A space as bytes, and back. What a snapshot holds: kernel/space/snapshot.hpp. Why bytes are none is told here in words.
+// A space as bytes, and back. The format is in kernel/space/snapshot.hpp; the messages for bad bytes are here.
 import { badInPlace } from './boxes.ts';
 import type { Dimensions } from './dimensions.ts';
 import { badValue } from './errors.ts';
-import { snapshotFaults, techniques } from './generated/abi.ts';
+import { boxesAt, snapshotFaults, techniques } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { readStats, type Stats } from './stats.ts';
 import { bytesOf } from './values.ts';
 
-/** Bytes in front of what stands in the space, and the version of them that this library writes. */
+/** Bytes of the header, and the version that this library writes. */
 const headerBytes = 24;
 const newest = 2;
 
@@ -28,7 +28,7 @@ export function restore(instance: KernelInstance, bytes: Uint8Array | ArrayBuffe
   const source = snapshotBytes(bytes);
   const place = placeOf(instance);
   const io = instance.io();
-  // The header first: memory is taken only for what may be a snapshot and is as long as it says.
+  // The header first: memory is allocated only for bytes that may be a snapshot, and are as long as their header says.
   const header = new Uint8Array(io.buffer, io.byteOffset, headerBytes);
   header.fill(0);
   header.set(source.subarray(0, headerBytes));
@@ -45,7 +45,7 @@ export function restore(instance: KernelInstance, bytes: Uint8Array | ArrayBuffe
     try {
       instance.recover(error, 'restore');
     } finally {
-      if (placeOf(instance) !== place) restored(instance, source, stats); // memory ended while the pairs were found
+      if (placeOf(instance) !== place) restored(instance, source, stats); // memory ran out while finding the pairs
     }
   }
   if (fault !== 0) badSnapshot(fault, source, instance.dimensions);
@@ -53,15 +53,15 @@ export function restore(instance: KernelInstance, bytes: Uint8Array | ArrayBuffe
 }
 
 function restored(instance: KernelInstance, source: Uint8Array, stats: Stats): void {
-  instance.technique = Math.min(source[7]!, techniques.length - 1); // 255 there is `auto`, the last
+  instance.technique = Math.min(source[7]!, techniques.length - 1); // 255 stands for `auto`, the last one
   instance.exposed = undefined;
   readStats(instance, stats);
 }
 
-/** Where the boxes stand: elsewhere once others were restored. */
+/** The address of the boxes, which changes when others are restored. */
 function placeOf(instance: KernelInstance): number {
   instance.kernel.contents();
-  return instance.io()[1]!;
+  return instance.io()[boxesAt]!;
 }
 
 /** What was given to `restore`, as bytes. */

@@ -1,4 +1,4 @@
-// The counters of the last update, read out of the kernel's memory (kernel/search/stats.hpp).
+// The counters of the last update, read from the kernel's memory (kernel/search/stats.hpp).
 import {
   bytesStat,
   candidatesStat,
@@ -37,7 +37,7 @@ export interface Stats {
   bytes: number;
 }
 
-/** One object for all updates, which are to make no garbage. */
+/** One object for all updates, to make no garbage. */
 export const noStats = (): Stats => ({
   technique: 'auto',
   reason: 'asked for',
@@ -49,7 +49,7 @@ export const noStats = (): Stats => ({
   bytes: 0,
 });
 
-/** Makes the counters those of the last update. */
+/** Reads the counters of the last update. */
 export function readStats(instance: KernelInstance, stats: Stats): void {
   const from = instance.statsView();
   stats.tests = from[testsStat]!;

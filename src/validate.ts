@@ -1,4 +1,4 @@
-// A look into a space: whether its invariants hold, and the cells that it searched in.
+// Looks inside a space: whether its invariants hold, and the cells of its technique.
 import { broken } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 
@@ -7,7 +7,7 @@ export function validate(instance: KernelInstance): void {
   if (code !== 0) throw new Error(`validate: ${broken[code]} ${instance.io()[0]}`);
 }
 
-/** The boxes of what the last update has used, to be drawn. */
+/** The cells, strips or nodes of the last update as boxes, to draw. */
 export function structure(instance: KernelInstance): Float32Array {
   try {
     const { kernel } = instance;

@@ -1,5 +1,5 @@
-// What a value is, whichever realm it was made in: an iframe, a vm context or a test runner has globals of its own, so
-// `instanceof` says no to what structuredClone or a message brought from there.
+// Type tests that work for values of any realm: an iframe, a vm context or a test runner has its own globals, so
+// `instanceof` fails for values that structuredClone or a message brought from there.
 
 const typedArray = Object.getPrototypeOf(Uint8Array.prototype) as object;
 const typedArrayTag = Object.getOwnPropertyDescriptor(typedArray, Symbol.toStringTag)!.get!;

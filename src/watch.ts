@@ -1,31 +1,31 @@
-// How broadphase/trace sees what stands in a space: a method under a registered symbol, since the two entries of the
-// package are bundled apart and share nothing else.
+// How broadphase/trace reads the contents of a space: by a method under a registered symbol, since the two entry points
+// are bundled separately and share nothing else.
+import { boxesAt, doublesAt, groupsAt, idsAt, reachesAt, rulesAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 
-/** What the options of a space say about pairs. */
+/** The options of a space that affect pairs. */
 export interface World {
-  /** The size of the world along each axis, where it wraps around. */
+  /** The size of the world along each axis, if it wraps around. */
   readonly wrap?: readonly number[] | undefined;
-  /** Whether boxes that only touch are pairs. Left out: they are. */
+  /** Whether boxes that only touch are pairs. Default true. */
   readonly touching?: boolean | undefined;
 }
 
 /** The key of the method of BroadPhase that sets its watcher, and gives its world. */
 export const watch: unique symbol = Symbol.for('broadphase.watch') as never;
 
-/** What boxes have of their own beside rules, one number each in the kernel's order: nothing where no box has one. */
+/** Settings of boxes other than rules, one number for each box in the kernel's order; undefined if no box has one. */
 export interface Own {
-  /** The group of each box: two boxes of one are never a pair; 0 is none. */
+  /** The group of each box; 0: none. Two boxes of one group are never a pair. */
   readonly groups?: Uint32Array | undefined;
-  /** How far each box reaches: it is in a pair as if it were so much larger to all sides. */
+  /** The reach of each box: pairs are those of boxes enlarged by it on all sides. */
   readonly reaches?: Float64Array | undefined;
 }
 
 /**
- * Called after each update with the boxes in the kernel's order, float32 where that holds all of them exactly; the id
- * of each, or nothing where the ids are 0, 1, 2, …; layer, mask and marks of each, or
- * nothing where no box was ever given such: 2 among the marks says that it is off, any other that it is static; and what
- * else boxes have of their own. All are views, valid during the call.
+ * Called after each update with the boxes in the kernel's order, as float32 if that represents all of them exactly;
+ * their ids, or undefined if these are 0, 1, 2, …; layer, mask and marks of each, or undefined if no box has a rule
+ * (mark 2: it is off; any other: it is static); and other settings. All are views, valid during the call.
  */
 export type Watcher = (
   boxes: Float32Array | Float64Array,
@@ -34,20 +34,20 @@ export type Watcher = (
   own: Own,
 ) => void;
 
-/** Shows a watcher what stands in a space. */
+/** Calls a watcher with the contents of a space. */
 export function show(instance: KernelInstance, watcher: Watcher): void {
   instance.kernel.contents();
-  const [ids, boxes, doubles, rules, groups, reaches] = instance.io();
+  const io = instance.io();
   const { size } = instance;
   const { buffer } = instance.kernel.memory;
   const length = size * instance.width;
+  const words = (place: number, count: number) => (io[place] ? new Uint32Array(buffer, io[place], count) : undefined);
+  const doubles = (place: number, count: number) =>
+    io[place] ? new Float64Array(buffer, io[place], count) : undefined;
   watcher(
-    doubles ? new Float64Array(buffer, doubles, length) : new Float32Array(buffer, boxes, length),
-    ids ? new Uint32Array(buffer, ids, size) : undefined,
-    rules ? new Uint32Array(buffer, rules, 3 * size) : undefined,
-    {
-      groups: groups ? new Uint32Array(buffer, groups, size) : undefined,
-      reaches: reaches ? new Float64Array(buffer, reaches, size) : undefined,
-    },
+    doubles(doublesAt, length) ?? new Float32Array(buffer, io[boxesAt], length),
+    words(idsAt, size),
+    words(rulesAt, 3 * size),
+    { groups: words(groupsAt, size), reaches: doubles(reachesAt, size) },
   );
 }

@@ -1,8 +1,8 @@
-// This library: the frame is copied into the kernel's memory, an update finds the pairs too, and the first question
+// This library: the frame is copied into the kernel's memory, an update finds the pairs too, and the first query
 // makes the index. Answers go into arrays that are kept. Where boxes move, all pairs are found anew: they move by so little
 // that nothing else is like a game.
 import { BroadPhase } from '../../build/bench/library.mjs';
-import { most, reach } from '../harness/questions.mjs';
+import { most, reach } from '../harness/queries.mjs';
 
 export const npm = null;
 export const dimensions = [2, 3];

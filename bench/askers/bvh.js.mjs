@@ -1,7 +1,7 @@
 // bvh.js: built anew with every frame, or kept, with every leaf moved. It gives all that a ray may meet, of which the
 // first is kept. In 2D the third axis is 0.
 import { BVH, HybridBuilder } from 'bvh.js';
-import { lengthOf, rayEntry, reach } from '../harness/questions.mjs';
+import { lengthOf, rayEntry, reach } from '../harness/queries.mjs';
 
 export const dimensions = [2, 3];
 export const answers = ['queryBox', 'rayCast'];
@@ -33,7 +33,7 @@ export function create({ dimensions, count, boxes: first, variant }) {
   const box = new Float32Array(6);
   const origin = new Float32Array(3);
   const direction = new Float64Array(3);
-  let question;
+  let query;
   let place;
   let length;
   let found;
@@ -43,7 +43,7 @@ export function create({ dimensions, count, boxes: first, variant }) {
     return false;
   };
   const meet = (id) => {
-    const distance = rayEntry(boxes, stride * id, question, place, dimensions) * length;
+    const distance = rayEntry(boxes, stride * id, query, place, dimensions) * length;
     if (!(distance <= limit)) return;
     limit = distance;
     found[0] = id;
@@ -64,7 +64,7 @@ export function create({ dimensions, count, boxes: first, variant }) {
       return found;
     },
     rayCast(q, at) {
-      question = q;
+      query = q;
       place = at;
       found = [];
       limit = reach;

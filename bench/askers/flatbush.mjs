@@ -1,6 +1,6 @@
 // flatbush: built anew with every frame. It has no rays.
 import Flatbush from 'flatbush';
-import { most } from '../harness/questions.mjs';
+import { most } from '../harness/queries.mjs';
 
 export const dimensions = [2];
 export const answers = ['queryBox', 'nearest'];

@@ -1,7 +1,7 @@
-// kdbush holds points: here the centres of the boxes. What lies within half of the largest box of the question is found,
+// kdbush holds points: here the centres of the boxes. What lies within half of the largest box of the query is found,
 // and tested. It has no nearest neighbours in the plane: circles that double until they hold enough are looked through.
 import KDBush from 'kdbush';
-import { most, overlap, squaredDistance } from '../harness/questions.mjs';
+import { most, overlap, squaredDistance } from '../harness/queries.mjs';
 
 export const dimensions = [2];
 export const answers = ['queryBox', 'nearest'];

@@ -1,6 +1,6 @@
 // planck: its dynamic tree of fat boxes, with what is found tested; the tree that its worlds cast rays with.
 import { AABB, internal, Vec2 } from 'planck';
-import { lengthOf, overlap, rayEntry, reach } from '../harness/questions.mjs';
+import { lengthOf, overlap, rayEntry, reach } from '../harness/queries.mjs';
 
 export const dimensions = [2];
 export const answers = ['queryBox', 'rayCast'];
@@ -16,19 +16,19 @@ export function create({ count, boxes: first }) {
     return box;
   };
   const proxies = Array.from({ length: count }, (_, id) => tree.createProxy(at(boxes, 4 * id), id));
-  let question;
+  let query;
   let place;
   let ids;
   const collect = (proxy) => {
     const id = tree.getUserData(proxy);
-    if (overlap(boxes, 4 * id, question, place, 2)) ids.push(id);
+    if (overlap(boxes, 4 * id, query, place, 2)) ids.push(id);
     return true;
   };
   const ray = { p1: new Vec2(), p2: new Vec2(), maxFraction: 1 };
   let length;
   const meet = (input, proxy) => {
     const id = tree.getUserData(proxy);
-    const fraction = (rayEntry(boxes, 4 * id, question, place, 2) * length) / reach;
+    const fraction = (rayEntry(boxes, 4 * id, query, place, 2) * length) / reach;
     if (!(fraction <= input.maxFraction)) return input.maxFraction;
     ids[0] = id;
     return fraction;
@@ -39,14 +39,14 @@ export function create({ count, boxes: first }) {
       for (let id = 0; id < count; id++) tree.moveProxy(proxies[id], at(boxes, 4 * id), still);
     },
     queryBox(q, k) {
-      question = q;
+      query = q;
       place = k;
       ids = [];
       tree.query(at(q, k), collect);
       return ids;
     },
     rayCast(q, k) {
-      question = q;
+      query = q;
       place = k;
       ids = [];
       length = lengthOf(q, k + 2, 2);

@@ -1,7 +1,7 @@
 // rbush, loaded anew with every frame, as its authors advise when all moves; and rbush-knn on it.
 import RBush from 'rbush';
 import knn from 'rbush-knn';
-import { most } from '../harness/questions.mjs';
+import { most } from '../harness/queries.mjs';
 import { fill, objects } from '../peers/kit/tutorial.mjs';
 
 export const dimensions = [2];

@@ -1,7 +1,6 @@
 // The cases: one JSON file each under cases/, and the recordings of a folder that is given. A case names a scene of
-// src/scenes and how many boxes it is run with, or a recording and which part
-// of it: the first frame, and that before which to stop. `engineMs` and `bestNativeMs` are what its own engine and
-// the fastest native library took for it.
+// src/scenes and its number of boxes, or a recording and a part of it: the first frame, and the frame before which to
+// stop. `engineMs` and `bestNativeMs` are the times of its own engine and of the fastest native library.
 import { readdirSync, readFileSync } from 'node:fs';
 import { basename, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -9,7 +8,7 @@ import { fileURLToPath } from 'node:url';
 const folder = fileURLToPath(new URL('./', import.meta.url));
 const recordings = /\.(bin|trace)(\.gz)?$/;
 
-/** All cases, by name. What everybody asks for first comes first. */
+/** All cases, by name. The most asked for come first. */
 export function loadCases(traces) {
   const cases = readdirSync(folder)
     .filter((file) => file.endsWith('.json'))

@@ -1,6 +1,5 @@
-// This library. How boxes are given is the row's `by`: each by `set`, only who moved, all in place by `boxes()`, or all by
-// `setAll`.
-// Boxes that the scene knows to rest are told to be static.
+// This library. The row's `by` says how boxes are given: each by `set`, only those that moved, all in place by
+// `boxes()`, or all by `setAll`. Boxes that rest in the scene are set to static.
 import { BroadPhase } from '../../build/bench/library.mjs';
 
 export function create({ dimensions, count, boxes: first, fixed = 0, variant, row, scene }) {

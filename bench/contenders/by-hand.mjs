@@ -1,10 +1,10 @@
-// Three ways to find pairs that people write themselves, in plain JavaScript, as good as they usually are. Each looks at
-// both objects of a pair where it is found; `collect` takes the pairs where they are compared with those of others.
+// Three ways to find pairs that people write themselves, in plain JavaScript of the usual quality. Each reads both
+// objects of a pair when it is found; `collect` gathers the pairs when results are compared.
 
 const overlap = (a, b) =>
   a.x <= b.x + b.width && b.x <= a.x + a.width && a.y <= b.y + b.height && b.y <= a.y + a.height;
 
-/** Each against all after it. */
+/** Tests each against all after it. */
 export function everyPair(things, collect) {
   let sum = 0;
   for (let i = 0; i < things.length; i++) {
@@ -19,7 +19,7 @@ export function everyPair(things, collect) {
   return sum;
 }
 
-/** Sorted along x by insertion: the order of the last frame is kept, so that little is to be sorted. */
+/** Insertion sort along x: the order of the last frame is kept, so little is left to sort. */
 export class SortAndSweep {
   #order;
 
@@ -47,7 +47,7 @@ export class SortAndSweep {
   }
 }
 
-/** Cells twice as wide as a thing, in a Map that is made anew each frame. */
+/** Cells twice as wide as a thing, in a new Map each frame. */
 export class Grid {
   #side;
 
@@ -69,7 +69,7 @@ export class Grid {
           }
           for (const b of cell) {
             if (!overlap(a, b)) continue;
-            // Two things may share several cells: that of the larger of their corners counts.
+            // Two things may share several cells: the one with the larger of their corners counts.
             if (Math.floor(Math.max(a.x, b.x) / side) !== x || Math.floor(Math.max(a.y, b.y) / side) !== y) continue;
             sum += a.id ^ b.id;
             collect?.add(a.id, b.id);

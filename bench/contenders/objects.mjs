@@ -1,5 +1,5 @@
-// A frame as a game has it: objects with x, y, width and height in doubles. This library, given the boxes in three ways, and
-// what one writes oneself. All find every pair and look at both of its objects.
+// A frame as a game has it: objects with x, y, width and height in doubles. This library, given the boxes in three
+// ways, and hand-written code. All find every pair and read both of its objects.
 import { BroadPhase } from '../../build/bench/library.mjs';
 import { PairList } from '../peers/kit/pair-list.mjs';
 import { everyPair, Grid, SortAndSweep } from './by-hand.mjs';
@@ -73,7 +73,7 @@ function hand(things, variant) {
   }
 }
 
-/** What a game does with the pairs: it looks at both objects. */
+/** What a game does with the pairs: it reads both objects. */
 export function lookAt(things, pairs) {
   let sum = 0;
   for (let k = 0; k < pairs.length; k += 2) sum += things[pairs[k]].id ^ things[pairs[k + 1]].id;

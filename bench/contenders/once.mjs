@@ -1,5 +1,5 @@
-// Who finds all pairs of boxes in one call. In two colours, the first half are red, and pairs of both colours count; their
-// numbers are those of all boxes, so that they can be compared.
+// Contenders that find all pairs of boxes in one call. In two colours, the first half of the boxes are red, and only
+// pairs of both colours count. Boxes are numbered across both colours, so that results can be compared.
 import { findPairs, findPairsBetween } from '../../build/bench/library.mjs';
 import { PairList } from '../peers/kit/pair-list.mjs';
 

@@ -1,11 +1,11 @@
-// How long something took. Where others use the machine too, the clock runs on while they have the processor; the time
-// that a process had it is told in microseconds, too coarse for what is short. So the lesser of the two counts, and the
-// clock alone for what is short.
+// How long something took. On a shared machine, the clock also runs while others have the processor. The processor time
+// of a process is in whole microseconds, too coarse for short times. So the smaller of the two counts, and for short
+// times the clock alone.
 
-/** Fewer milliseconds are taken from the clock: nobody is likely to have come between. */
+/** Below this many milliseconds the clock is used: an interruption is unlikely. */
 const short = 0.05;
 
-/** A page has the clock alone. */
+/** A page has only the clock. */
 const cpuUsage = globalThis.process?.cpuUsage;
 
 /** @returns milliseconds */

@@ -1,5 +1,5 @@
 // Two sets of pairs are the same when their fingerprints are: the count, and two sums of well mixed 32-bit hashes,
-// which neither the order of the pairs nor that within a pair changes, and which a pair found twice does change.
+// which do not depend on the order of the pairs or within a pair, but change if a pair is found twice.
 
 export function fingerprint(pairs) {
   let first = 0;
@@ -23,7 +23,7 @@ function mix(value) {
 const bits = new Uint32Array(1);
 const asFloat = new Float32Array(bits.buffer);
 
-/** Of the boxes of a frame, to float32: two frames with the same are the same frame. */
+/** The fingerprint of the boxes of a frame, as float32: equal for equal frames. */
 export function fingerprintOfBoxes(boxes) {
   let hash = boxes.length;
   for (let k = 0; k < boxes.length; k++) {

@@ -1,9 +1,9 @@
-// The figures of a race out of what was noted of each contender, and whether all saw and found the same.
+// The figures of a race from the notes on each contender, and whether all saw the same boxes and found the same pairs.
 import { leastOfEach, mean, spread } from './statistics.mjs';
 
 const parts = ['give', 'update', 'walk'];
 
-/** The figures of a row out of what was noted. Pairs are those of the frames that the first contender was timed in. */
+/** The figures of a row from the notes. Pairs are those of the frames that the first contender was timed in. */
 export function judge(row, entrants) {
   const [first] = entrants;
   if (first.error || first.slow)
@@ -20,7 +20,7 @@ export function judge(row, entrants) {
   };
 }
 
-/** What is written down of a row beside its figures. */
+/** What is saved of a row besides its figures. */
 const facts = ({ plan, recording: _, part: __, budget: ___, ...row }) => ({
   ...row,
   frames: plan.timed,

@@ -1,4 +1,4 @@
-// What the figures were taken on, and the name of the file they go to: processor and platform, never the host's name.
+// The machine of the figures, and the name of their file: processor and platform, never the host's name.
 import os from 'node:os';
 
 export const machine = {

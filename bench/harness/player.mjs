@@ -1,10 +1,10 @@
-// One contender playing one scene, frame after frame. The scene's own motion is never timed, nor is what is noted of a frame.
+// One contender playing one scene, frame after frame. Neither the motion of the scene nor the taking of notes is timed.
 import { clocked } from './clock.mjs';
 import { fingerprint, fingerprintOfBoxes } from './fingerprint.mjs';
 import { partOf } from './frames.mjs';
 
 /**
- * What is noted of the frames that were timed: their numbers, the milliseconds of each part (`give` the boxes, `update`,
+ * The notes on the frames that were timed: their numbers, the milliseconds of each part (`give` the boxes, `update`,
  * `walk` over the pairs), how many pairs were found, and fingerprints of the pairs and of the boxes.
  */
 const nothing = () => ({
@@ -19,7 +19,7 @@ const nothing = () => ({
   bytes: 0,
 });
 
-/** A contender is tried in so many frames at least, unless they take so many times what they may. */
+/** A contender is tried in at least this many frames, unless they exceed its budget this many times. */
 const [fewest, mostOfFirst] = [5, 6];
 
 export class Player {
@@ -29,7 +29,7 @@ export class Player {
   #stride;
   #frame = 0;
   #notes = nothing();
-  /** Milliseconds of the updates that warm up, for who is asked how it starts. */
+  /** Milliseconds of the warm-up updates, for contenders whose start is measured. */
   #start = [];
   #sink = 0;
 
@@ -49,7 +49,7 @@ export class Player {
     return { ...this.#notes, start: this.#start, sink: this.#sink };
   }
 
-  /** Plays the next frames, as many as are asked for or are left. */
+  /** Plays the next frames: as many as requested, or as are left. */
   play(frames) {
     const end = Math.min(this.#frame + frames, this.#plan.warmUp + this.#plan.timed);
     for (; this.#frame < end; this.#frame++) {
@@ -64,8 +64,9 @@ export class Player {
   }
 
   /**
-   * Plays first frames, by which the engine compiles what runs, until so many milliseconds are over, and tells how many
-   * a frame takes then. Afterwards all begins anew: this only tells how many frames a contender can be timed in.
+   * Plays the first frames for a number of milliseconds, so that the engine compiles the code, and returns how many
+   * milliseconds a frame takes then. Afterwards everything starts again: this only determines how many frames a
+   * contender can be timed in.
    */
   probe(frames, milliseconds) {
     const times = [];

@@ -7,7 +7,7 @@
 import { Player } from './player.mjs';
 import { openScene } from './scene.mjs';
 
-/** At most so many of the first frames tell how slow a contender is. */
+/** The most first frames used to find out how slow a contender is. */
 const probed = 100;
 
 let player;

@@ -1,23 +1,23 @@
-// A race: several contenders on one scene, each in a process of its own, one at a time and in turns of a few frames. All
-// begin at the scene's first frame. At the end it is checked that all saw the same boxes and found the same pairs in the
-// frames that they were timed in; who saw others has no figures, and who found others is shown as wrong.
+// A race: several contenders on one scene, each in its own process, one at a time and in turns of a few frames. All
+// begin at the scene's first frame. At the end, the boxes they saw and the pairs they found in timed frames are
+// compared. A contender that saw other boxes has no figures; one that found other pairs is shown as wrong.
 import { fork } from 'node:child_process';
 import { fileURLToPath } from 'node:url';
 import { strideFor } from './frames.mjs';
 import { judge } from './judge.mjs';
 
 const script = fileURLToPath(new URL('./process.mjs', import.meta.url));
-/** Frames that a contender plays before it is another's turn: the caches are then its own, as in a game. */
+/** Frames that a contender plays per turn: enough for the caches to hold its own data, as in a game. */
 const turn = 20;
-/** A contender that has said nothing for so long is given up, in milliseconds. */
+/** A contender that has not answered for this many milliseconds is abandoned, */
 const patience = 60_000;
-/** ... and sooner, where it is only to show how slow it is. */
+/** and sooner while it only shows how slow it is. */
 const patienceAtFirst = 10_000;
 
-/** Our techniques may take so many times what others may: in a game the slowest of them is not slow. */
+/** Our techniques may take this many times as long as others: in a game the slowest of them is not slow. */
 const oursMay = 4;
 
-/** A process that does one thing at a time: `ask` gives its answer, or { error }. */
+/** A process that does one thing at a time: `ask` returns its answer, or { error }. */
 export function start() {
   const child = fork(script, { stdio: ['ignore', 'ignore', 'pipe', 'ipc'] });
   let complaint = '';
@@ -71,7 +71,7 @@ export async function race({ contenders, ...row }) {
   }
   const running = () => entrants.filter(({ runner, error }) => runner && !error);
   for (let playing = 0; playing < playings; playing++) {
-    // Who begins is another in each playing: the first finds the caches as the last left them.
+    // A different contender begins in each playing, since the first finds the caches as the last left them.
     const order = running();
     order.push(...order.splice(0, playing % Math.max(1, order.length)));
     await all(order, 'open', (entrant) => entrant.order);
@@ -82,7 +82,7 @@ export async function race({ contenders, ...row }) {
   return judge(row, entrants);
 }
 
-/** Asks one after another, and notes who gave no answer. */
+/** Asks one after another, and records which gave no answer. */
 async function all(entrants, action, value) {
   const answers = [];
   for (const entrant of entrants) {

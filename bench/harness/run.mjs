@@ -1,4 +1,4 @@
-// Runs rows, one after another, and writes down what is known after each: a run that is cut off leaves its rows behind.
+// Runs rows, one after another, and saves the results after each, so that an interrupted run keeps its rows.
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
 import { dirname } from 'node:path';
@@ -11,7 +11,7 @@ import { race } from './race.mjs';
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
 const resultsFile = path(`../results/${machineName}.json`);
 const read = (file) => JSON.parse(readFileSync(file, 'utf8'));
-/** A run of everything begins no row after so many minutes. */
+/** A run of everything begins no row after this many minutes. */
 const mostMinutes = 29;
 
 /**
@@ -49,12 +49,12 @@ export async function run({ kinds, everything, json, selection }) {
   if (output === resultsFile) writeDocuments();
 }
 
-/** Native libraries are raced apart, where they are at hand, and join the results that are there. */
+/** Native libraries are raced separately, if they are installed; their rows are added to existing results. */
 const isWhole = (kinds, { names, counts, frames }) => kinds.join() === 'native' && !(names ?? counts ?? frames);
 
 const withoutKinds = (record, kinds) => ({ ...record, rows: record.rows.filter(({ kind }) => !kinds.includes(kind)) });
 
-/** A row that fails is written down with its error, and the others go on. */
+/** A row that fails is saved with its error, and the others go on. */
 async function played(play, row) {
   try {
     return await play(row);
@@ -64,13 +64,13 @@ async function played(play, row) {
   }
 }
 
-/** For a look at whether all runs: so few frames say nothing of speed. */
+/** To check that everything runs: so few frames do not show speed. */
 const shortened = (rows, frames) =>
   frames === undefined
     ? rows
     : rows.map((row) => ({ ...row, plan: { warmUp: Math.min(frames, row.plan?.warmUp ?? 0), timed: frames } }));
 
-/** Either the whole file is there or the one before: a reader never meets half of it. */
+/** Replaces the file in one step, so that a reader never sees half of it. */
 function save(output, record) {
   mkdirSync(dirname(output), { recursive: true });
   writeFileSync(`${output}.part`, `${JSON.stringify(record, rounded, 1)}\n`);
@@ -81,7 +81,7 @@ function save(output, record) {
 const rounded = (_key, value) =>
   typeof value === 'number' && !Number.isInteger(value) ? Number(value.toPrecision(5)) : value;
 
-/** docs/figures.md and the tables of README.md and of worth-it.md, out of the results of this machine. */
+/** Writes docs/figures.md and the tables of README.md and worth-it.md from the results of this machine. */
 export function writeDocuments() {
   const record = read(resultsFile);
   writeFileSync(path('../../docs/figures.md'), `${figuresPage(record)}\n`);
@@ -100,7 +100,7 @@ function commit() {
   }
 }
 
-/** Of the packages, as they are installed. */
+/** The versions of the installed packages. */
 function versions() {
   const { dependencies } = read(path('../package.json'));
   return { broadphase: read(path('../../package.json')).version, ...dependencies };

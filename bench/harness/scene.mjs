@@ -1,5 +1,5 @@
-// The scene of a row, opened at its first frame: a seeded one of src/scenes, a motion of bench/motions, or a recording that
-// is played forth and back. A row says { scene | motion | recording, dimensions, count, numbers, seed }.
+// The scene of a row, opened at its first frame: a seeded one of src/scenes, a motion of bench/motions, or a recording
+// that is played forward and back. A row has { scene | motion | recording, dimensions, count, numbers, seed }.
 import { readFileSync } from 'node:fs';
 import { gunzipSync } from 'node:zlib';
 import { createJitter, createMotion, createScene, framesOf, openPlain } from '../../build/bench/library.mjs';
@@ -19,7 +19,7 @@ function open({ scene, motion, recording, part, dimensions, count, seed, speed, 
   return { dimensions: made.dimensions, count, boxes, fixed, world, step };
 }
 
-/** `part`: the first frame, and that before which to stop. */
+/** `part`: the first frame, and the frame before which to stop. */
 function play(path, part = []) {
   const bytes = readFileSync(path);
   const { dimensions, count, frames, frame } = framesOf(
@@ -39,7 +39,7 @@ function play(path, part = []) {
   };
 }
 
-/** A scene whose boxes a game holds as objects: `moved` says which did in this frame. */
+/** A scene whose boxes are objects, as in a game: `moved` has those that moved in this frame. */
 function withThings(scene) {
   const { boxes, count } = scene;
   const things = Array.from({ length: count }, (_, id) => ({ id, x: 0, y: 0, width: 0, height: 0, moved: true }));

@@ -1,10 +1,10 @@
-// Figures out of the times of frames. The headline is the median frame; the mean has the spikes in it.
+// Figures from the times of frames. The headline is the median frame; the mean includes the spikes.
 
 const sum = (values) => values.reduce((total, value) => total + value, 0);
 
 export const mean = (values) => sum(values) / values.length;
 
-/** The value below which that share of the values lies. */
+/** The value below which this share of the values lies. */
 export function quantile(values, share) {
   const sorted = Float64Array.from(values).sort();
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
@@ -16,11 +16,12 @@ export function median(values) {
   return sorted.length % 2 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
 }
 
-/** Frames in how many groups tell the noise. */
+/** The number of groups of frames for estimating the noise. */
 const groups = 5;
 
 /**
- * `range`: the least and the highest median of five groups of neighbouring frames. What lies between them is noise.
+ * `range`: the least and the highest median of five groups of neighbouring frames. Differences within this range are
+ * noise.
  */
 export function spread(times) {
   const size = Math.ceil(times.length / groups);
@@ -35,6 +36,6 @@ export function spread(times) {
   };
 }
 
-/** Of frames that were played several times, each time the same ones: the least that each took. */
+/** The shortest time of each frame, if the same frames were played several times. */
 export const leastOfEach = (playings) =>
   playings[0].map((first, frame) => playings.reduce((least, times) => Math.min(least, times[frame]), first));

@@ -11,7 +11,7 @@ export const title = 'Cold';
 
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
 const times = 9;
-/** What each does first, with what it brings in: two boxes, one pair. */
+/** The first use of each library, with its imports: two boxes, one pair. */
 const first = {
   'no library': '',
   broadphase: `import { BroadPhase } from 'broadphase';

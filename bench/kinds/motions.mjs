@@ -1,12 +1,12 @@
-// Motions: `auto` against `strip-sweep`, which finds all anew, in the same frames. Positions are held in doubles; boxes are
-// given by `set`, or in place, which makes them float32.
+// Motions: `auto` against `strip-sweep`, which does a full rebuild, in the same frames. Positions are doubles; boxes
+// are given by `set`, or in place, which makes them float32.
 import { motionNames } from '../../build/bench/library.mjs';
 import { techniques } from '../contenders/techniques.mjs';
 import { framesFor } from '../harness/frames.mjs';
 
 export const title = 'Motions';
 
-/** Each time another seed than the tests have. */
+/** A different seed than in the tests. */
 const seed = 20;
 
 /** @param wanted `{ names, set, counts, dimensions, by }`, each optional */

@@ -1,5 +1,5 @@
-// Few movers: what an update costs against how many boxes jitter, by up to half their side, while all others rest. Only who
-// moved is set.
+// Few movers: the cost of an update by the number of boxes that jitter, by up to half their side, while all others
+// rest. Only moved boxes are set.
 import { techniques } from '../contenders/techniques.mjs';
 import { framesFor } from '../harness/frames.mjs';
 

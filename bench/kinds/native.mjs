@@ -1,5 +1,5 @@
-// Native libraries side by side: programs in C++ and Rust read the frames of a scene from a file and play them in turns with
-// ours. What is not at hand, a compiler or a library, is said and left out.
+// Native libraries side by side: programs in C++ and Rust read the frames of a scene from a file and play them in turns
+// with ours. A missing compiler or library is named and skipped.
 import { execFileSync, spawn } from 'node:child_process';
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
@@ -17,7 +17,7 @@ const path = (file) => fileURLToPath(new URL(file, import.meta.url));
 const sources = path('../native');
 const built = path('../../build/bench/native');
 const plan = { warmUp: 20, timed: 40 };
-/** Packages of Debian, and what they need to be linked. */
+/** Packages of Debian, and their linker options. */
 const inDebian = {
   cgal: { package: 'libcgal-dev', link: ['-lgmp', '-lmpfr'], perDimension: true },
   boost: { package: 'libboost-dev', link: [], perDimension: true },
@@ -29,7 +29,7 @@ const inRust = ['broccoli', 'parry2d', 'parry3d'];
 const programs = [];
 const versions = [];
 
-/** Builds all there is; says why there is nothing. */
+/** Builds all programs that can be built; reports why the others cannot. */
 export async function prepare() {
   mkdirSync(built, { recursive: true });
   const problems = [...buildRust(), ...buildDebian()];
@@ -58,7 +58,7 @@ function buildRust() {
   return [];
 }
 
-/** By the lock file, and the commit that the crate says it is of. */
+/** From the lock file, and the commit named by the crate. */
 function versionOfCrate(crate) {
   const lock = readFileSync(join(sources, 'Cargo.lock'), 'utf8');
   const [, version] = new RegExp(`name = "${crate}"\\nversion = "([^"]+)"`).exec(lock) ?? [];
@@ -162,7 +162,7 @@ function writeFrames(row) {
   writeFileSync(framesFile, bytes);
 }
 
-/** A program that is asked as a process of the harness is: it begins anew each time it is opened. */
+/** A program with the interface of the harness's processes: it starts again each time it is opened. */
 function startNative(program, variant) {
   let [child, lines, row, played, notes] = [];
   const stop = () => child?.kill('SIGKILL');
@@ -188,7 +188,7 @@ function startNative(program, variant) {
     const { value } = await lines.next();
     if (value !== 'ready') return { error: `${program} does not begin` };
     if (order.stride !== undefined) return { ms: 0, count: row.count };
-    // The first frames tell how slow it is.
+    // The first frames show how slow it is.
     await next(3);
     return { ms: Math.min(...notes.start), count: row.count };
   }

@@ -1,4 +1,4 @@
-// What a game sees: a whole frame from objects in doubles. Boxes are given, pairs found, and both objects of each looked at.
+// A whole frame of a game, from objects in doubles: boxes are given, pairs found, and both objects of each pair read.
 import { readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { byHand, ours } from '../contenders/objects.mjs';
@@ -11,7 +11,7 @@ const scenes = { 'all move': 'uniform2d', '5 % move': 'static2d' };
 
 export const title = 'A whole frame, from objects';
 
-/** In a run of everything where few move: with so many. */
+/** Counts for few moving boxes, in a run of everything. */
 const someCounts = [100, 1000, 10_000, 100_000];
 
 export async function rows({ names, counts: wanted = counts, full }) {
@@ -28,7 +28,7 @@ export async function rows({ names, counts: wanted = counts, full }) {
       .filter(([name]) => full !== false || name === 'all move' || someCounts.includes(count))
       .map(([name, scene]) => {
         const row = { kind: 'objects', name, scene, dimensions: 2, count, numbers: 'double', objects: true, seed: 1 };
-        // What all move is set in one way only.
+        // If all move, boxes are set in one way only.
         const contenders = [
           ...own.filter(({ name }) => name !== 'set movers' || scene === 'static2d'),
           ...packages.map((each) => ({
@@ -42,7 +42,7 @@ export async function rows({ names, counts: wanted = counts, full }) {
   );
 }
 
-/** The packages that find pairs in so many dimensions, each way to use one by itself. */
+/** The packages that find pairs in these dimensions; each way to use one is a contender. */
 export async function packagesOf(dimensions) {
   const found = [];
   for (const file of readdirSync(path('../peers'))

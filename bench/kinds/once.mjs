@@ -1,5 +1,5 @@
-// One-shot: all pairs of boxes that are asked for once, by `findPairs` and `findPairsBetween`. Each contender begins in a
-// fresh process: its first call, and its tenth, when the engine has compiled what runs. Frames are the same for all.
+// One-shot: all pairs of an array of boxes, by `findPairs` and `findPairsBetween`. Each contender begins in a fresh
+// process: its first call, and its tenth, when the engine has compiled the code. Frames are the same for all.
 import { fileURLToPath } from 'node:url';
 import { difference } from '../harness/judge.mjs';
 import { start } from '../harness/race.mjs';
@@ -14,7 +14,10 @@ const contenders = {
   findPairsBetween: ['broadphase', 'flatbush', 'box-intersect', 'rbush'],
 };
 const [calls, processes] = [10, 5];
-/** Milliseconds of a call from which on two processes of four calls are enough; and which make more boxes too many. */
+/**
+ * From this many milliseconds per call on, two processes of four calls are enough; and from these on, more boxes are
+ * too many.
+ */
 const [long, tooLong] = [300, 1500];
 
 export const rows = ({ names, counts: wanted = counts }) =>
@@ -55,7 +58,7 @@ async function called(name, row) {
     const runner = start();
     const order = { module, variant: name, row: { ...row, plan }, stride: 1 };
     const opened = await runner.ask('open', order);
-    // The first call tells how many more there are to be.
+    // The first call determines how many more there will be.
     const first = opened.error ? opened : await runner.ask('play', 1);
     const noted = first.error || first.slow ? first : await runner.ask('notes', 0);
     const time = noted.update?.[0];

@@ -8,10 +8,10 @@ import { packagesOf } from './objects.mjs';
 
 export const title = 'Scenes';
 
-/** With so many boxes every technique takes part, and in these scenes, and in recordings, every package. */
+/** Up to this many boxes every technique takes part. In these scenes, and in recordings, every package does. */
 const fewer = 10_000;
 const everyPackage = ['uniform2d', 'mixed2d', 'clustered2d', 'uniform3d', 'clustered3d'];
-/** In all others, and with more boxes, those packages that were ahead somewhere. With so many boxes, none. */
+/** In all others, and with more boxes, only packages that were fastest somewhere. From this many boxes on, none. */
 const ahead = ['flatbush', 'rbush (load)', 'box-intersect', 'rapier3d', 'jolt-physics'];
 const tooMany = 500_000;
 

@@ -1,7 +1,7 @@
-// What every motion moves: places in doubles, as games hold them, and the boxes made of them.
+// The bodies of every motion: positions in doubles, as in games, and their boxes.
 import { createRandom, type Random } from '../../src/scenes/random.ts';
 
-/** The side of a box, unless a motion has it otherwise. */
+/** The side of a box, unless a motion changes it. */
 const side = 10;
 
 export class Bodies {
@@ -12,7 +12,7 @@ export class Bodies {
   readonly world: number;
   /** The minimum of each box, axis by axis. */
   readonly at: Float64Array;
-  /** What a motion moves them by in a frame: 0 until it says otherwise. */
+  /** The velocity per frame: 0 until a motion sets it. */
   readonly velocity: Float64Array;
   /** The side of each box. */
   readonly sides: Float64Array;
@@ -37,18 +37,18 @@ export class Bodies {
     for (let k = 0; k < this.velocity.length; k++) this.velocity[k] = this.symmetric(speed);
   }
 
-  /** Anything from -size to size. */
+  /** A uniform random number from -size to size. */
   symmetric(size: number): number {
     return (2 * this.random() - 1) * size;
   }
 
-  /** Bell-shaped, of mean 0: the sum of four draws, which is soon made. */
+  /** Approximately normal, of mean 0: the sum of four draws, which is cheap. */
   bell(deviation: number): number {
     const { random } = this;
     return (random() + random() + random() + random() - 2) * Math.sqrt(3) * deviation;
   }
 
-  /** Moves one number of a place by its velocity; at a wall it turns round. */
+  /** Moves one coordinate by its velocity; at a wall it turns around. */
   bounce(k: number): void {
     this.at[k] += this.velocity[k];
     if ((this.at[k] < 0 && this.velocity[k] < 0) || (this.at[k] > this.world && this.velocity[k] > 0)) {
@@ -56,14 +56,14 @@ export class Bodies {
     }
   }
 
-  /** Moves one number of a place; who leaves the world comes in on the other side. */
+  /** Moves one coordinate; a body that leaves the world enters on the other side. */
   shift(k: number, by: number): void {
     this.at[k] += by;
     if (this.at[k] < 0) this.at[k] += this.world;
     else if (this.at[k] > this.world) this.at[k] -= this.world;
   }
 
-  /** Makes the boxes of the places, of all or of those from `first` to before `end`. */
+  /** Computes the boxes, of all positions or of those from `first` to before `end`. */
   put(first = 0, end = this.count): void {
     const { dimensions, at, boxes, sides } = this;
     for (let id = first, from = dimensions * first, k = 2 * from; id < end; id++, k += dimensions) {
@@ -75,5 +75,5 @@ export class Bodies {
   }
 }
 
-/** Gets bodies ready, and gives what moves them by one frame. Frames count from 1; frame 0 is where they begin. */
+/** Sets up bodies, and returns a function that moves them by one frame. Frames count from 1; frame 0 is the start. */
 export type Motion = (bodies: Bodies) => (frame: number) => void;

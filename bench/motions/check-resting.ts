@@ -1,7 +1,7 @@
-// The rest of the motions to judge by: in these most boxes rest, or rest for a while.
+// More motions for checking: in these, most boxes are at rest, or rest for a while.
 import type { Motion } from './bodies.ts';
 
-/** Guards go to and fro between two places, and pause at both; one box in five is one, the others are tiles. */
+/** One box in five is a guard that walks between two places, and pauses at both; the others are tiles. */
 const patrols: Motion = (bodies) => {
   const { count, dimensions, random, at } = bodies;
   const homes = at.slice();
@@ -35,7 +35,7 @@ const selection: Motion = (bodies) => {
   };
 };
 
-/** All rest, but for those that a blast has thrown about: one every twenty frames. */
+/** All rest, except boxes thrown by a blast, one every twenty frames. */
 const blasts: Motion = (bodies) => {
   const { count, dimensions, random, world, at, velocity } = bodies;
   const reach = world / 8;

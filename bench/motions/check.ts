@@ -1,11 +1,13 @@
-// Other motions than those of tune.ts, to judge by: nothing is to be tuned on them. Those of which all move are here;
-// those of which most rest in check-resting.ts.
+// Motions other than those of tune.ts, for checking: nothing may be tuned on them. In these all boxes move; those in
+// which most rest are in check-resting.ts.
 import type { Bodies, Motion } from './bodies.ts';
 
-/** Those of a flock that are so near one another look where the others fly. */
+/** Birds within this distance of each other see each other. */
 const neighbourhood = 40;
 
-/** Steering: each turns to where its neighbours fly, on average, and to their middle, or away from it in a throng. */
+/**
+ * Steering: each bird turns to the mean direction of its neighbours, and to their centre, or away from it in a crowd.
+ */
 const flock: Motion = (bodies) => {
   const { count, dimensions, world, at, velocity } = bodies;
   const speed = 0.8;
@@ -78,7 +80,7 @@ const breathing: Motion = (bodies) => {
   };
 };
 
-/** Each goes round in a circle of its own. */
+/** Each moves in its own circle. */
 const circles: Motion = (bodies) => {
   const { count, dimensions, at, random } = bodies;
   const homes = at.slice();
@@ -93,7 +95,7 @@ const circles: Motion = (bodies) => {
   };
 };
 
-/** Fifty each turn about a common middle, which drifts. */
+/** Groups of fifty turn around a common centre, which drifts. */
 const groups: Motion = (bodies) => {
   const { count, dimensions, world, random, at } = bodies;
   const members = 50;
@@ -141,7 +143,7 @@ const zoom: Motion = (bodies) => {
   };
 };
 
-/** Straight on for seven frames, and then the way back. */
+/** Straight ahead for seven frames, and then back. */
 const reversing: Motion = (bodies) => {
   const { at, velocity } = bodies;
   bodies.push(0.5);
@@ -151,7 +153,7 @@ const reversing: Motion = (bodies) => {
   };
 };
 
-/** All fall fast, and begin anew above, anywhere. */
+/** All fall fast, and start again at the top, anywhere. */
 const hail: Motion = (bodies) => {
   const { count, dimensions, random, world, at } = bodies;
   const speeds = Float64Array.from({ length: count }, () => 5 + 5 * random());

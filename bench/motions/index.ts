@@ -1,4 +1,4 @@
-// Motions as games have them, in 2D and 3D, in doubles: a set to tune on, and a set of other kinds to judge by.
+// Motions as in games, in 2D and 3D, in doubles: a set to tune on, and a set of different ones to check on.
 import { Bodies, type Motion } from './bodies.ts';
 import { checkMoving } from './check.ts';
 import { checkResting } from './check-resting.ts';
@@ -10,7 +10,7 @@ const all: Record<string, Motion> = { ...tune, ...check };
 /** The names of both sets. */
 export const motionNames = { tune: Object.keys(tune), check: Object.keys(check) };
 
-/** Motions in a world less wide than four times what its boxes cover. */
+/** Motions in a dense world: smaller than four times the volume of its boxes. */
 const rooms: Record<string, number> = { pile: 3 };
 
 export interface MotionScene {

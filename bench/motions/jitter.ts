@@ -1,4 +1,4 @@
-// So many boxes jitter by up to half their side about their places, in every frame, while all others rest.
+// A given number of boxes jitter by up to half their side around their places, in every frame, while all others rest.
 import { Bodies } from './bodies.ts';
 import type { MotionScene } from './index.ts';
 
@@ -6,7 +6,7 @@ export function createJitter(count: number, movers: number, seed: number): Motio
   const bodies = new Bodies(2, count, seed);
   const { at, boxes, world, sides } = bodies;
   const homes = at.slice();
-  // Anywhere among all: ids say nothing of places.
+  // Picked at random: ids are unrelated to positions.
   const ids = Uint32Array.from({ length: movers }, (_, k) => Math.floor((k * count) / movers));
   return {
     dimensions: 2,

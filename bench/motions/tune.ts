@@ -1,4 +1,4 @@
-// Motions as games have them, to tune on. What is tuned on these is judged by those of check.ts.
+// Motions as in games, to tune on. The result of tuning is checked on those of check.ts.
 import type { Motion } from './bodies.ts';
 
 /** All fly straight, by up to a fiftieth of their side a frame. */
@@ -81,7 +81,7 @@ const units: Motion = (bodies) => {
   };
 };
 
-/** Small and fast, fired anew from forty guns when their time is over. */
+/** Small and fast bullets, fired again from forty guns when their time is over. */
 const bullets: Motion = (bodies) => {
   const { count, dimensions, random, world, at, velocity, sides } = bodies;
   const [guns, speed, longest] = [40, 3, 300];
@@ -113,7 +113,7 @@ const bullets: Motion = (bodies) => {
   };
 };
 
-/** The camera moves on: all shift alike, and one in twenty bobs as well. */
+/** The camera moves: all shift by the same amount, and one in twenty bobs as well. */
 const scroll: Motion = (bodies) => {
   const { count, dimensions, at } = bodies;
   return () => {
@@ -124,7 +124,7 @@ const scroll: Motion = (bodies) => {
   };
 };
 
-/** A heap at rest, as an engine has it: all tremble by next to nothing, and one in fifty moves. */
+/** A heap at rest, as in a physics engine: all tremble slightly, and one in fifty moves. */
 const pile: Motion = (bodies) => {
   const { count, dimensions, at } = bodies;
   return () => {

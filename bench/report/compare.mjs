@@ -1,13 +1,13 @@
 // Two files of results against each other: what changed by more than the noise.
 import { markdownTable, short, times, whole } from './words.mjs';
 
-/** A change below this share is never worth a line, however quiet the machine. */
+/** Smaller changes are never reported, however quiet the machine. */
 const leastChange = 0.05;
 
 const keyOf = ({ kind, name, dimensions, count, numbers, by }) =>
   [kind, name, `${dimensions}D`, count, numbers, by].join(' ');
 
-/** How many times the time of `before` that of `after` is, and whether no group of frames of one lies among the other's. */
+/** The time of `after` divided by that of `before`, and whether their ranges of noise do not overlap. */
 export function change(before, after) {
   const ratio = after.median / before.median;
   const apart = after.range[0] > before.range[1] || before.range[0] > after.range[1];
@@ -43,5 +43,5 @@ export function compare(before, after) {
       short(is),
       times(ratio),
     ]);
-  return `${head}${others}\n\n${markdownTable(['row', 'boxes', 'contender', 'before, ms', 'after, ms', 'that is'], cells)}`;
+  return `${head}${others}\n\n${markdownTable(['row', 'boxes', 'contender', 'before, ms', 'after, ms', 'ratio'], cells)}`;
 }

@@ -1,4 +1,4 @@
-// Documents out of a record of results: docs/figures.md, and the tables of README.md and of docs/guides/worth-it.md.
+// Documents made from a record of results: docs/figures.md, and the tables of README.md and of docs/guides/worth-it.md.
 import { goals } from './goals.mjs';
 import { fastest, isPackage, named, ofKind } from './rows.mjs';
 import {
@@ -8,7 +8,7 @@ import {
   objectsOthers,
   objectsTable,
   onceTable,
-  questionsTable,
+  queriesTable,
   scenesTable,
   techniquesTable,
 } from './tables.mjs';
@@ -20,7 +20,7 @@ const joined = (...parts) => parts.filter(Boolean).join('\n\n');
 const originOf = ({ machine, date, commit, cut }) =>
   `Milliseconds, medians, one thread, on ${machine.cpu} (${machine.system}, Node ${machine.node}), ${date.slice(0, 10)}, of commit ${commit}.${cut ? ` ${cut}` : ''}`;
 
-/** The page, of those kinds that there are rows of. */
+/** The page, with the kinds that have rows. */
 export function figuresPage(record) {
   const has = (kind) => record.rows.some((row) => row.kind === kind);
   const part = (kind, ...text) => has(kind) && joined(...text);
@@ -71,7 +71,7 @@ export function figuresPage(record) {
       '`update` alone; the fastest is in bold.',
       techniquesTable(record),
     ),
-    part('questions', '## Questions', '1,000 queries per frame.', questionsTable(record)),
+    part('queries', '## Queries', '1,000 queries per frame.', queriesTable(record)),
     part('native', '## Native libraries, side by side', versionsOf(record), nativeTable(record)),
   );
 }
@@ -118,7 +118,7 @@ export function headlineOf(record) {
     'A whole frame of a game: its things are objects, their boxes are given, all pairs found, and both things of each pair read.',
     worthTable(record, headlineThings),
     'The kernel alone, with boxes written in place as float32. `uniform`: all move; `mixed`: sizes from 2 to 2,000; `static`: 5 % move; `rain`: a recorded Box2D game.',
-    markdownTable(['scene', 'boxes', 'pairs', '`auto`', 'the fastest npm package', 'that is'], cells),
+    markdownTable(['scene', 'boxes', 'pairs', '`auto`', 'the fastest npm package', 'ratio'], cells),
   );
 }
 
@@ -133,7 +133,7 @@ export const worthOf = (record) =>
 
 const [begin, end] = ['<!-- figures: written by npm run bench -->', '<!-- end of figures -->'];
 
-/** A document with what stands between its two marks replaced. */
+/** Replaces the text between the two marks of a document. */
 export function putFigures(text, figures) {
   const [from, to] = [text.indexOf(begin), text.indexOf(end)];
   if (from < 0 || to < from) throw new Error('The document has no marks for the figures.');

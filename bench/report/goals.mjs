@@ -1,4 +1,4 @@
-// What the library must reach: each goal with its figure out of a record of results, and whether it is met.
+// The goals of the library: each with its figure from a record of results, and whether it is met.
 import { ratiosOf } from './motions.mjs';
 import { autoAgainstBest, fastest, isPackage, named, ofKind } from './rows.mjs';
 import { short, times, whole } from './words.mjs';
@@ -28,13 +28,13 @@ const limits = {
   hail: 1.03,
   blasts: 1.03,
 };
-/** In 3D a limit below 1 may be exceeded by so much. */
+/** In 3D a limit below 1 may be exceeded by this much. */
 const moreIn3d = 1.5;
 
 const limitOf = ({ motion, dimensions }) =>
   dimensions === 3 && limits[motion] < 1 ? Math.min(1, moreIn3d * limits[motion]) : limits[motion];
 
-/** How many of the rows have a value of at most, or at least, the limit, and which is the worst. */
+/** How many of the rows have a value of at most, or at least, the limit, and the worst value. */
 function inAll(goal, rows, figureOf, limit, show, least = false) {
   const found = rows.map((row) => ({
     row,
@@ -62,9 +62,7 @@ function atMost(goal, value, limit, unit) {
 
 export function goals(record) {
   const [objects, scenes, motions] = ['objects', 'scenes', 'motions'].map((kind) => ofKind(record, kind));
-  const [movers, once, questions, native] = ['movers', 'once', 'questions', 'native'].map((kind) =>
-    ofKind(record, kind),
-  );
+  const [movers, once, queries, native] = ['movers', 'once', 'queries', 'native'].map((kind) => ofKind(record, kind));
   const held = motions.filter(({ count }) => count >= 10_000);
   const large = scenes.filter(({ count, numbers }) => count === 100_000 && numbers === 'float32');
   const totalOf = (row, name) => named(row, name)?.total.median;
@@ -176,7 +174,7 @@ export function goals(record) {
     ),
     inAll(
       'every query: ahead of every npm package',
-      questions,
+      queries,
       (row) => over(fastest(row, isPackage)?.total.median, totalOf(row, 'broadphase')),
       1,
       times,

@@ -20,8 +20,10 @@ export const motionTitles = [
   'bytes per box',
 ];
 
-/** How many times the time of `strip-sweep` that of `auto` is, by the medians, means and p95s of `update`. A slow one was
- * not asked how it starts: NaN. */
+/**
+ * The time of `auto` divided by that of `strip-sweep`, by the medians, means and p95s of `update`. NaN for the start of
+ * a slow one, which was not measured.
+ */
 export function ratiosOf({ contenders: [sweep, auto] }) {
   const of = (figure) => auto.update[figure] / sweep.update[figure];
   return {

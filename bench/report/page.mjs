@@ -1,4 +1,4 @@
-// What the page of the benchmark shows as tables, as rows of text.
+// The tables of the benchmark's page, as rows of text.
 import { goals } from './goals.mjs';
 import { motionCells, motionTitles } from './motions.mjs';
 

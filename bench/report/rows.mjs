@@ -1,6 +1,6 @@
-// What can be read out of rows of results.
+// Reads rows of results.
 
-/** Packages of npm are neither ours nor what one writes oneself. */
+/** npm packages: contenders that are neither ours nor written by hand. */
 const own = ['broadphase', 'by hand', 'tutorial-brute-force', 'tutorial-grid', 'no library'];
 
 export const isPackage = ({ peer }) => !own.includes(peer);
@@ -11,16 +11,16 @@ export const timed = ({ contenders }) => contenders.filter(({ total }) => total)
 
 export const named = (row, name) => timed(row).find((each) => each.name === name);
 
-/** The least median of those that are let through and find the right pairs. */
+/** The smallest median of the contenders that pass the filter and find the right pairs. */
 export const fastest = (row, which) =>
   timed(row)
     .filter((each) => which(each) && !each.wrong)
     .sort((a, b) => a.total.median - b.total.median)[0];
 
-/** What `auto` may take longer than the best technique: a share of it, and in milliseconds the call itself. */
+/** How much longer `auto` may take than the best technique: a share of it, and milliseconds for the call itself. */
 const allowed = { share: 0.1, ms: 0.02 };
 
-/** The best technique that could have been asked for instead of `auto`, and how long `auto` took against it. */
+/** The best technique that could have been used instead of `auto`, and the ratio of `auto` to it. */
 export function autoAgainstBest(row) {
   const auto = named(row, 'auto');
   const best = fastest(row, ({ peer, name }) => peer === 'broadphase' && name !== 'auto');

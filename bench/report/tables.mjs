@@ -7,7 +7,7 @@ const cell = (found) => (found ? short(found.total.median) : '');
 const withName = (found) => (found ? `${short(found.total.median)} ${found.name}` : '');
 const pairsOf = ({ pairs }) => `${whole(pairs.mean)} (${whole(pairs.least)}–${whole(pairs.most)})`;
 
-/** Whole frames from objects. `counts`: only so many things. */
+/** Whole frames from objects. `counts`: only these numbers of things. */
 export function objectsTable(record, counts) {
   const rows = ofKind(record, 'objects').filter(({ count }) => !counts || counts.includes(count));
   const titles = [
@@ -32,7 +32,7 @@ export function objectsTable(record, counts) {
   return markdownTable(titles, cells);
 }
 
-/** How many times the time of `set` each contender takes. */
+/** The time of each contender divided by that of `set`. */
 export function objectsOthers(record) {
   const rows = ofKind(record, 'objects').filter(({ name }) => name === 'all move');
   const names = [...new Set(rows.flatMap(({ contenders }) => contenders.filter(isPackage).map(({ name }) => name)))];
@@ -63,7 +63,7 @@ export function scenesTable(record) {
     '`auto`',
     'in doubles',
     'the fastest npm package',
-    'that is',
+    'ratio',
     'in frames',
   ];
   const cells = rows.map((row) => {
@@ -116,9 +116,9 @@ export const motionsTable = (record, kind) => {
     .join('\n\n');
 };
 
-export function questionsTable(record) {
-  const titles = ['query', 'boxes', '`broadphase`', 'the fastest npm package', 'that is', 'answers'];
-  const cells = ofKind(record, 'questions').map((row) => {
+export function queriesTable(record) {
+  const titles = ['query', 'boxes', '`broadphase`', 'the fastest npm package', 'ratio', 'answers'];
+  const cells = ofKind(record, 'queries').map((row) => {
     const [ours, peer] = [named(row, 'broadphase'), fastest(row, isPackage)];
     const when = row.still ? '' : ' after an update of all';
     const name = `\`${row.name.replace('-moved', '')}\`${when}`;

@@ -1,8 +1,8 @@
-// A row as text, while a run goes on.
+// A row as text, during a run.
 import { motionCells, motionTitles } from './motions.mjs';
 import { short, textLine, times, whole } from './words.mjs';
 
-/** Rows of which each is a line of a table, under its titles. */
+/** Kinds of rows that are printed as lines of a table, under its titles. */
 const lined = ['motions', 'movers'];
 
 export const headOf = (kind) => (lined.includes(kind) ? textLine(motionTitles, motionTitles) : '');
@@ -44,7 +44,7 @@ function lineOf(contender, { contenders, frames }) {
   return `  ${name.padEnd(24)}${[total.median, total.mean, total.p95, total.worst].map(short).map(cell).join('')}${cell(ratio)}  ${noteOf(contender, frames)}`;
 }
 
-/** What is to be said beside the figures of a contender: fewer frames, other pairs. */
+/** Remarks beside the figures of a contender: fewer frames, other pairs. */
 function noteOf(contender, frames) {
   const fewer = contender.timed < frames ? `${contender.timed} of ${frames} frames` : '';
   return [fewer, contender.wrong ? wrongOf(contender) : ''].filter(Boolean).join('; ');

@@ -8,7 +8,7 @@ export const times = (ratio) => (Number.isNaN(ratio) ? '–' : `${ratio.toFixed(
 
 export const percent = (share) => `${Math.round(100 * share)} %`;
 
-/** A table in Markdown; columns that begin with a number stand to the right. */
+/** A table in Markdown; columns that begin with a number are aligned right. */
 export function markdownTable(titles, rows) {
   const right = titles.map((_, column) => column > 0 && rows.every((cells) => !/^[^\d–-]/.test(cells[column] ?? '')));
   const line = (cells) => `| ${cells.join(' | ')} |`;

@@ -1,30 +1,30 @@
-// Is it worth it? By number of things: what one would write oneself, the packages, this, and which of them is enough.
+// Is it worth it? By number of things: hand-written code, packages, this library, and which of them is fast enough.
 import { fastest, isPackage, named, ofKind } from './rows.mjs';
 import { markdownTable, short, whole } from './words.mjs';
 
-/** A frame at 60 Hz in milliseconds, and the share of it that nobody misses. */
+/** A frame at 60 Hz in milliseconds, and the share of it that is negligible. */
 const frame = 1000 / 60;
 const missed = 0.01;
 
-/** The least of what does for these things: what takes less than a hundredth of a frame is as good as what takes nothing. */
+/** The simplest contender that is fast enough: below a hundredth of a frame, time does not matter. */
 export function adviceOf(row) {
   const isEnough = (name) => named(row, name)?.total.median < missed * frame;
   if (isEnough('brute force')) return 'fifteen lines';
   const byHand = ['sort and sweep', 'grid in a Map'].find(isEnough);
-  return byHand ?? 'this';
+  return byHand ?? '`broadphase`';
 }
 
-/** Whole frames from objects, and what is enough. `counts`: only so many things. */
+/** Whole frames from objects, and what is fast enough. `counts`: only these numbers of things. */
 export function worthTable(record, counts) {
   const rows = ofKind(record, 'objects').filter(({ count }) => !counts || counts.includes(count));
   const titles = [
     'things',
-    'enough is',
+    'fast enough',
     'brute force',
     'sort and sweep',
     'grid in a Map',
     'the fastest npm package',
-    'this, by `set`',
+    '`broadphase`, by `set`',
     'by `boxes()`',
   ];
   const cells = rows.map((row) => {

@@ -17,7 +17,10 @@ function random() {
   return state / 2 ** 32;
 }
 
-/** Ragdolls of boxes of side 1 in a heap, each in a ball around its middle: a box meets about as many of its own as of others. */
+/**
+ * Ragdolls of boxes of side 1 in a heap, each in a ball around its middle: a box meets about as many of its own as of
+ * others.
+ */
 function pile(dimensions) {
   const boxes = new Float32Array(count * 2 * dimensions);
   const side = (ragdolls * 12) ** (1 / dimensions);
@@ -36,7 +39,7 @@ function pile(dimensions) {
 
 const motions = { 'at rest': 0, trembling: 0.01, 'all jump': 3 };
 
-/** Moves every box by up to so much, along all axes. */
+/** Moves every box by up to this much, along all axes. */
 function move(boxes, by, to) {
   for (let k = 0; k < boxes.length; k++) to[k] = boxes[k];
   if (by === 0) return;
@@ -52,7 +55,7 @@ function move(boxes, by, to) {
 
 const groupOf = (id) => 1 + Math.floor(id / parts);
 
-/** How many pairs are not of one ragdoll. */
+/** The number of pairs of different ragdolls. */
 function betweenRagdolls(pairs) {
   let between = 0;
   for (let k = 0; k < pairs.length; k += 2) {
@@ -61,7 +64,7 @@ function betweenRagdolls(pairs) {
   return between;
 }
 
-/** An update, and all that is needed until the pairs are those wanted. */
+/** An update, and everything else until the pairs are the wanted ones. */
 const contenders = {
   groups: (space) => space.update().pairCount,
   'no groups, pairs looked through': (space) => betweenRagdolls(space.update().pairs),

@@ -1,4 +1,4 @@
-// Questions asked many at a time, and the pairs of two spaces, in turns and in one run: many in a call against one by one,
+// Queries asked many at a time, and the pairs of two spaces, in turns and in one run: many in a call against one by one,
 // `nearests` against kdbush and flatbush, `pairsWith` against one space with a level that is static.
 //   node bench/single/many.mjs [--count 100000]
 // Milliseconds are medians; read the ratios. What a camera sees is in examples/culling-three/bench.mjs.
@@ -18,7 +18,7 @@ const timed = 15;
 const asked = 10_000;
 const median = (times) => times.sort((a, b) => a - b)[times.length >> 1];
 
-/** Times contenders in turns; returns the median of each. Each returns a number, by which those that differ are found. */
+/** Times contenders in turns; returns the median of each. Each returns a number, to detect differences. */
 function race(contenders, prepare = () => {}) {
   const times = contenders.map(() => []);
   for (let turn = 0; turn < warmUp + timed; turn++) {
@@ -37,26 +37,26 @@ function race(contenders, prepare = () => {}) {
 const cells = (times) => times.map((time) => `${time.toPrecision(3)} (${(times[0] / time).toFixed(2)}x)`).join(' | ');
 const spaceOf = (scene) => new BroadPhase({ dimensions: scene.dimensions }).setAll(scene.boxes).update();
 
-/** Seeded numbers of so many questions; `make` gives those of one. */
-function questions(scene, seed, make) {
+/** Seeded numbers of many queries; `make` gives those of one. */
+function queries(scene, seed, make) {
   const random = createRandom(seed);
   return Float64Array.from(Array.from({ length: asked }, () => make(() => scene.world * random(), random)).flat());
 }
 
 function bulk(count) {
-  console.log(`\n## ${asked} questions in a call against one by one, ${count} boxes at rest`);
-  console.log('| question | one by one | in a call |\n| --- | --- | --- |');
+  console.log(`\n## ${asked} queries in a call against one by one, ${count} boxes at rest`);
+  console.log('| query | one by one | in a call |\n| --- | --- | --- |');
   for (const dimensions of [2, 3]) {
     const scene = createScene(`uniform${dimensions}d`, count);
     const space = spaceOf(scene);
     const axes = Array.from({ length: dimensions });
     const side = dimensions === 2 ? 80 : 34;
-    const boxes = questions(scene, 1, (place) => {
+    const boxes = queries(scene, 1, (place) => {
       const at = axes.map(place);
       return [...at, ...at.map((x) => x + side)];
     });
-    const rays = questions(scene, 2, (place, random) => [...axes.map(place), ...axes.map(() => random() - 0.5)]);
-    const points = questions(scene, 3, (place) => axes.map(place));
+    const rays = queries(scene, 2, (place, random) => [...axes.map(place), ...axes.map(() => random() - 0.5)]);
+    const points = queries(scene, 3, (place) => axes.map(place));
     const ids = { out: [] };
     const ray = { maxDistance: 200, out: { id: 0, distance: 0, normal: [] } };
     const many = { boxes: {}, rays: { maxDistance: 200 }, near: {} };
@@ -109,7 +109,7 @@ function bulk(count) {
   }
 }
 
-/** Points, as kdbush holds them: circles that double until they hold enough, and what is in them sorted. */
+/** Points in kdbush: circles that double until they contain enough points, which are then sorted. */
 function nearestByKdbush(index, xs, ys, x, y, k, first) {
   for (let radius = first; ; radius *= 2) {
     const found = index.within(x, y, radius);

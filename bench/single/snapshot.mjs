@@ -1,5 +1,5 @@
-// What a snapshot costs: its bytes, and the time to take one and to restore one. The boxes move in between, so that
-// nothing is the same bytes twice.
+// The cost of a snapshot: its bytes, and the time to take and to restore one. The boxes move in between, so that no two
+// snapshots are equal.
 //   npm run bench:snapshot
 import { bundle } from '../../scripts/bundle.mjs';
 import { median } from '../harness/statistics.mjs';

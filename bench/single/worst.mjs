@@ -16,7 +16,7 @@ function random() {
   return state / 2 ** 32;
 }
 
-/** Boxes whose lower corners and sizes are given per box and axis. */
+/** Boxes with given lower corners and sizes, per box and axis. */
 function make(dimensions, corner, extent = () => size) {
   const boxes = new Float32Array(count * 2 * dimensions);
   for (let k = 0; k < count; k++) {

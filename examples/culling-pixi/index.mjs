@@ -36,7 +36,7 @@ const sprites = Array.from({ length: count }, (_, id) => {
   space.set(id, x - width / 2, y - height / 2, x + width / 2, y + height / 2);
   return sprite;
 });
-space.update(); // questions are answered as of the last update
+space.update(); // queries see the boxes of the last update
 for (const sprite of sprites) world.addChild(sprite);
 world.addChild(marker);
 

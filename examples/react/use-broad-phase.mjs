@@ -29,7 +29,7 @@ class Following {
 /**
  * boxes: [minX, minY, maxX, maxY] of each id, undefined where there is none; a new array when one has moved.
  * options: those of a space, read once.
- * Gives pairs, [a, b, a, b, …], and space(), for questions in handlers and effects: it has the boxes on screen.
+ * Gives pairs, [a, b, a, b, …], and space(), for queries in handlers and effects: it has the boxes on screen.
  */
 export function useBroadPhase(boxes, options) {
   // Nothing is disposed of: strict mode takes a component away and back with what it holds. What nobody holds any more

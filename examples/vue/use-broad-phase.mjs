@@ -6,7 +6,7 @@ import { computed, onScopeDispose, toValue } from 'vue';
 /**
  * boxes: an array, or a ref or getter of one: [minX, minY, maxX, maxY] of each id, undefined where there is none.
  * options: those of a space.
- * Gives pairs, [a, b, a, b, …], and space(), for questions: it has the boxes as they are now.
+ * Gives pairs, [a, b, a, b, …], and space(), for queries: it has the boxes as they are now.
  */
 export function useBroadPhase(boxes, options) {
   const held = new BroadPhase(options);

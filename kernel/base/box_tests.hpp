@@ -2,7 +2,7 @@
 #pragma once
 #include "base/simd.hpp"
 
-/// Of a box in 2D with the signs of its maxima turned round: then tests of two boxes are four comparisons of one kind.
+/// A 2D box with the signs of its maxima flipped: the test of two boxes is then four comparisons of the same kind.
 inline f32x4 turned(i32x4 box) { return bits<f32x4>(box ^ i32x4{0, 0, i32(1u << 31), i32(1u << 31)}); }
 
 template <int D> bool boxes_touch(const f32* one, const f32* other) {
@@ -27,13 +27,13 @@ template <int D> f32x4 maxima(f32x4 first, f32x4 last) {
   else return __builtin_shufflevector(last, last, 1, 2, 3, 3);
 }
 
-/// In which numbers two boxes are the same; in all lanes: they are.
+/// The numbers in which two boxes agree: all lanes are set if the boxes are equal.
 template <int D> i32x4 alike(const f32* one, const f32* other) {
   i32x4 same = load<f32x4>(one) == load<f32x4>(other);
   return D == 2 ? same : same & (load<f32x4>(one + 2) == load<f32x4>(other + 2));
 }
 
-/// In which lanes a bound of the one is equal to one of the other that faces it.
+/// The axes along which a bound of one box equals the facing bound of the other.
 template <int D> i32x4 equal_bounds(const f32* one, const f32* other) {
   i32x4 equal = (load<f32x4>(one) == load<f32x4>(other + D)) | (load<f32x4>(other) == load<f32x4>(one + D));
   return equal & (D == 2 ? i32x4{-1, -1, 0, 0} : i32x4{-1, -1, -1, 0});

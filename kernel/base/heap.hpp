@@ -1,20 +1,19 @@
 // Memory: growable arrays over one heap that never asks twice for the same bytes.
 // Idea: sizes are rounded up to quarter octaves (waste at most 25 %); a block given back waits in the list of its size
 // class; the last block grows in place, so the pair list, the one array of unpredictable size, costs no copy. Natively
-// the same arrays use malloc, where AddressSanitizer sees them. Running out of memory: nothing has been changed yet
-// when `fail` is called; it does not return (wasm: a trap that the JavaScript side turns into an error; natively: an
-// exception).
+// the same arrays use malloc, where AddressSanitizer sees them. When memory runs out, `fail` is called before anything
+// has changed. It does not return: in wasm it traps, which the JavaScript side turns into an error; natively it throws.
 #pragma once
 #include "base/simd.hpp"
 
-// Code that runs once in a while: small rather than fast, and out of the way of the code that runs often.
+// Code that runs rarely: optimized for size, and kept out of line from the code that runs often.
 #if defined(__clang__)
 #define SMALL __attribute__((noinline, minsize))
-// Before a loop of known length that is long enough without being unrolled.
+// Before a loop that is not worth unrolling.
 #define ROLLED _Pragma("clang loop unroll(disable)")
 #else
 #define SMALL __attribute__((noinline, cold))
-#define ROLLED  // g++ builds the tests only, and warns where its own pragma comes to nothing
+#define ROLLED  // g++ builds only the tests, and warns if its own pragma has no effect
 #endif
 // One copy for all callers: code that runs long each time it is called.
 #define SHARED __attribute__((noinline))
@@ -41,10 +40,10 @@ struct Failure {
 [[noreturn]] inline void fail(Fault what, f64 bytes) { throw Failure{what, bytes}; }
 #endif
 
-/// Where what is only read goes, to have it near: nobody needs it, but no compiler knows that.
+/// A sink for values that are read only to prefetch them: it keeps the compiler from removing the reads.
 inline volatile u32 unneeded;
 
-/// Reads from each line of the cache, of 64 bytes, that so many bytes stand in, so that they are on their way all at once.
+/// Prefetches `bytes` bytes: reads one value from each cache line of 64 bytes, so that all lines are fetched at once.
 NOINLINE inline void read_lines(const void* from, u32 bytes) {
   const u8* at = static_cast<const u8*>(from);
   u32 read = 0;
@@ -52,7 +51,7 @@ NOINLINE inline void read_lines(const void* from, u32 bytes) {
   unneeded = read;
 }
 
-/// Likewise from each of these rows of so many bytes, whose numbers stand `step` apart.
+/// Prefetches rows of `bytes` bytes each. The numbers of the rows are `step` apart.
 NOINLINE inline void read_rows(const void* rows, u32 bytes, const u32* numbers, u32 count, u32 step) {
   const u8* from = static_cast<const u8*>(rows);
   u32 read = 0;
@@ -87,8 +86,8 @@ inline u8* top = nullptr;  // first byte never handed out
 inline u8* highest = nullptr;  // where `top` stood before it last went down, at most
 inline u8* waiting[112] = {};  // per size class, the given-back blocks, each holding the address of the next
 
-/// Makes the memory reach to `bytes` behind `top`; false where it cannot. Growing cuts off every view that
-/// JavaScript holds, so it takes a quarter more than it needs, and 1 MiB: pages not touched cost nothing.
+/// Makes the memory extend `bytes` beyond `top`; false if it cannot. Growing detaches every view that JavaScript holds,
+/// so it takes a quarter more than needed, and 1 MiB: untouched pages cost nothing.
 inline bool reach(u64 bytes) {
   if (!top) top = reinterpret_cast<u8*>((reinterpret_cast<size_t>(&__heap_base) + least - 1) / least * least);
   u64 end = u64(reinterpret_cast<size_t>(top)) + bytes;
@@ -100,7 +99,7 @@ inline bool reach(u64 bytes) {
          __builtin_wasm_memory_grow(0, size_t(pages)) != size_t(-1);
 }
 
-/// Nothing is handed out any more, as in a new memory. Returns how many bytes have been in use at most.
+/// Frees everything at once, as in a new memory. Returns the largest number of bytes that were ever in use.
 inline size_t forget_all() {
   size_t most = size_t(larger(highest, top) - &__heap_base);
   top = highest = nullptr;
@@ -133,7 +132,7 @@ SMALL inline void give(void* block, u32 c) {
   waiting[c] = static_cast<u8*>(block);
 }
 
-/// The last block can become larger where it stands.
+/// Grows a block in place, which works only for the last one.
 inline bool extend(void* block, u32 from, u32 to) {
   if (static_cast<u8*>(block) + class_bytes(from) != top) return false;
   u64 more = class_bytes(to) - class_bytes(from);
@@ -155,7 +154,7 @@ inline void give(void* block, u32 c) {
 }
 inline bool extend(void*, u32, u32) { return false; }
 inline bool reach(u64 bytes) { return used + bytes <= limit; }
-inline u64 copied = 0;  // bytes of arrays that outgrew their blocks: tests see what an update paid for that
+inline u64 copied = 0;  // bytes copied because arrays outgrew their blocks: tests read it
 #endif
 
 }  // namespace heap
@@ -177,7 +176,7 @@ class Block {
     return at_ = heap::take(to);
   }
 
-  /// At least that many bytes, and half as many again as before; the first `keep` stay what they are.
+  /// At least that many bytes, and at least half as many again as before; the first `keep` are preserved.
   NOINLINE void* grow_bytes(u64 wanted, u64 keep) {
     if (wanted <= bytes() && at_) return at_;
     u32 to = heap::checked_class(larger(wanted, bytes() + bytes() / 2));
@@ -200,7 +199,7 @@ class Block {
   Block(const Block&) = delete;
   Block& operator=(const Block&) = delete;
 #if !defined(__wasm__)
-  ~Block() { release(); }  // the wasm's arrays are all global: they go with its memory
+  ~Block() { release(); }  // in wasm all arrays are global and live as long as the memory
 #endif
 
   SMALL void release() {
@@ -228,6 +227,6 @@ template <class T> class Buffer : public Block {
   /// Room for n values; what was inside is lost when it has to grow.
   T* reserve(u64 n) { return static_cast<T*>(reserve_bytes(n * sizeof(T))); }
 
-  /// Room for n values, of which the first `keep` stay what they are.
+  /// Room for n values; the first `keep` are preserved.
   T* grow(u64 n, u64 keep) { return static_cast<T*>(grow_bytes(n * sizeof(T), keep * sizeof(T))); }
 };

@@ -7,7 +7,7 @@ inline f32 next_toward(f32 x, bool up) {
   i32 b = bits<i32>(x == 0 ? (up ? 0.0f : -0.0f) : x);
   return bits<f32>((b >= 0) == up ? b + 1 : b - 1);
 }
-// Without a branch: whether the nearest lies above nobody can guess. Where it is 0 it has the sign of x.
+// Without a branch, since it would be unpredictable. If the nearest float is 0, it has the sign of x.
 inline f32 round_down(f64 x) {
   f32 near = f32(x);
   i32 b = bits<i32>(near);

@@ -1,5 +1,5 @@
 // Four lanes at a time: the few vector operations the kernel needs, the same for WebAssembly simd128 and
-// native SSE4.1, so that sanitizers and fuzzers watch the very code that ships.
+// native SSE4.1, so that sanitizers and fuzzers test the code that ships.
 #pragma once
 #include <stddef.h>
 #include <stdint.h>
@@ -56,7 +56,7 @@ inline u32 bitmask(i32x4 v) { return wasm_i32x4_bitmask(bits<v128_t>(v)); }
 inline u32 bitmask(i16x8 a, i16x8 b) {
   return wasm_i8x16_bitmask(wasm_i8x16_narrow_i16x8(bits<v128_t>(a), bits<v128_t>(b)));
 }
-/// In each lane, whether a condition holds in all lanes of the vector of that number.
+/// Lane k says whether the condition holds in all lanes of the k-th vector.
 inline i32x4 all_lanes(i32x4 a, i32x4 b, i32x4 c, i32x4 d) {
   v128_t first = wasm_i16x8_narrow_i32x4(bits<v128_t>(a), bits<v128_t>(b));
   return bits<i32x4>(wasm_i8x16_narrow_i16x8(first, wasm_i16x8_narrow_i32x4(bits<v128_t>(c), bits<v128_t>(d)))) == -1;
@@ -69,7 +69,7 @@ inline bool any(i32x4 v) { return wasm_v128_any_true(bits<v128_t>(v)); }
 /// Two doubles as float32 in the lower lanes, and back.
 inline f32x4 narrow(f64x2 v) {
   v128_t low = wasm_f32x4_demote_f64x2_zero(bits<v128_t>(v));
-  __asm__("" : "+r"(low));  // or the compiler converts one number after the other where a shuffle follows
+  __asm__("" : "+r"(low));  // otherwise the compiler converts the numbers one by one if a shuffle follows
   return bits<f32x4>(low);
 }
 inline f64x2 widen(f32x4 v) { return bits<f64x2>(wasm_f64x2_promote_low_f32x4(bits<v128_t>(v))); }
@@ -110,7 +110,7 @@ inline u8x16 swizzle(u8x16 v, u8x16 index) {
 
 template <class T> inline T smaller(T a, T b) { return b < a ? b : a; }
 template <class T> inline T larger(T a, T b) { return a < b ? b : a; }
-// Of floats as vectors: engines turn a choice between two floats into a branch, and which is larger nobody can guess.
+// Floats as vectors: engines compile a choice between two scalars to a branch, which would be unpredictable.
 inline f32 smaller(f32 a, f32 b) { return min(splat(b), splat(a))[0]; }
 inline f32 larger(f32 a, f32 b) { return max(splat(b), splat(a))[0]; }
 inline f64 smaller(f64 a, f64 b) { return min(splat(b), splat(a))[0]; }

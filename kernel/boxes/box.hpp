@@ -24,11 +24,11 @@ inline bool one_group(u32 a, u32 b) { return (a == b) & (a != 0); }
 template <int D> struct Scene {
   const f32* boxes;  // D minima, then D maxima, per slot
   u32 count;
-  const u32* excluded;  // exclusion bits per slot, or null where no slot has any
-  const Changes* changes = nullptr;  // what may differ from the last update; null: all
-  bool ordered = false;  // no update before this one may show in the order of the pairs
-  bool filtered = false;  // who is excluded, or the groups, may have changed since the last update
-  const u32* groups = nullptr;  // per slot, or null where no slot has one: pairs within one are not reported
+  const u32* excluded;  // exclusion bits per slot; null if no slot has any
+  const Changes* changes = nullptr;  // what may have changed since the last update; null: anything
+  bool ordered = false;  // earlier updates must not affect the order of pairs
+  bool filtered = false;  // exclusion bits or groups may have changed since the last update
+  const u32* groups = nullptr;  // per slot, null if no slot has one: pairs within a group are not reported
 
   const f32* box(u32 slot) const { return boxes + u64(slot) * 2 * D; }
   u32 excluded_of(u32 slot) const { return excluded ? excluded[slot] : 0; }
@@ -37,7 +37,7 @@ template <int D> struct Scene {
   bool listed() const { return changes && !changes->all(); }
 };
 
-/// Which axis stands where in an item: axis[0] is swept, the others are binned.
+/// The order of the axes in an item: axis[0] is swept, the others are binned.
 template <int D> struct AxisOrder {
   int axis[D];
   u8x16 pick;  // byte swizzle that puts the minima (3D) or the whole box (2D) in that order
@@ -72,7 +72,7 @@ template <> struct Item<3> {
   f32x4 low;   // min sweep, min binned 1, min binned 2, the tag's bits
   f32x4 high;  // max sweep, max binned 1, max binned 2, unused
 
-  /// The minima without the tag, which as a number is denormal: many processors calculate with those ten times as slowly.
+  /// The minima without the tag: read as a number it is denormal, which slows many processors down tenfold.
   f32x4 first() const { return bits<f32x4>(bits<u32x4>(low) & u32x4{~0u, ~0u, ~0u, 0}); }
   f32x4 size() const { return high - first(); }
   f32 lo(int axis) const { return low[axis]; }
@@ -111,7 +111,7 @@ template <int D> struct SceneItems {
   }
 };
 
-/// Items of the scene in another order: slots, with marks of their own.
+/// Items of the scene in another order, given as slots, which may carry marks.
 template <int D> struct PickedItems {
   SceneItems<D> items;
   const u32* slots;
@@ -119,7 +119,7 @@ template <int D> struct PickedItems {
   Item<D> operator[](size_t k) const { return with_tag(items[slots[k] & slot_mask], slots[k] & ~slot_mask); }
 };
 
-/// Items stored one after the other, in the order a technique has put them.
+/// Items stored contiguously, in the order chosen by a technique.
 template <int D> struct Items {
   Buffer<f32x4> boxes;
   Buffer<u32> tags;  // 2D; in 3D the tag travels in the box's spare lane
@@ -157,7 +157,7 @@ template <int D> struct ItemsAt {
   }
 };
 
-/// Where `Lanes` stand, for the inner loop: pointers that no store can change.
+/// Pointers into `Lanes` for the inner loop: local copies, so that the compiler knows that stores do not change them.
 template <int D> struct LaneView {
   const f32* lo[D];
   const f32* hi[D];
@@ -219,7 +219,7 @@ template <int D> class Lanes {
     }
     for (; k < n + spare_lanes; k += 4) {
       Item<D> four[4];
-      ROLLED  // once or twice in a list
+      ROLLED  // runs once or twice per list
           for (u32 lane = 0; lane < 4; lane++) four[lane] = k + lane < n ? items[k + lane] : nothing();
       put4(k, four);
     }

@@ -3,9 +3,9 @@
 #include "base/heap.hpp"
 
 /// A monotone map from a coordinate to a cell index in [0, cells): the distance from `low`, scaled and clamped.
-/// Adding 2^23 leaves the nearest integer in the low bits of the float, which costs one addition where a
-/// conversion that must not trap costs many instructions. `shrink` is a power of two that brings the extent near
-/// 1, so that neither denormal nor huge extents overflow.
+/// Adding 2^23 leaves the nearest integer in the low bits of the float. That is one addition; a conversion that must
+/// not trap takes many instructions. `shrink` is a power of two that brings the extent near 1, so that neither denormal
+/// nor huge extents overflow.
 struct Axis {
   static constexpr f32 whole = 8388608;  // 2^23
   f32 low = 0, shrink = 0, scale = 0, last = 0;
@@ -23,7 +23,7 @@ struct Axis {
   }
 };
 
-/// The cells of four coordinates at once, each lane along an axis of its own.
+/// The cells of four coordinates at once; each lane has its own axis.
 struct Axes {
   f32x4 low, shrink, scale, last;
 

@@ -1,14 +1,14 @@
-// Which ids the updates have changed, for readers that look now and then.
-// Idea: a list of them, update after update, with the slots of their boxes since then. If all may have changed, or the
-// list is as long as there are boxes, a new epoch begins. Each reader remembers the epoch and how much of the list it
-// has read.
+// The ids changed by recent updates, for readers that poll.
+// Idea: each update appends the ids it changed, with the slots of their boxes. If all may have changed, or the list
+// gets longer than the number of boxes, a new epoch begins with an empty list. Each reader remembers the epoch and how
+// much of the list it has read.
 // Cost: about 1 ns for each box that an update has changed, once there is a reader.
 #pragma once
 #include "base/heap.hpp"
 
 class ChangedIds {
-  Buffer<u32> list_;  // of each its id, and its slot, or `gone`
-  Buffer<u32> gone_;  // since the last update
+  Buffer<u32> list_;  // per change the id, and its slot, or `gone`
+  Buffer<u32> gone_;  // deleted since the last update
   u32 count_ = 0, gone_count_ = 0, epoch_ = 1;
   bool kept_ = false;
 
@@ -21,7 +21,7 @@ class ChangedIds {
  public:
   static constexpr u32 gone = 0xffffffff;
 
-  /// From now on there is a list. Returns the epoch.
+  /// Starts to keep a list. Returns the epoch.
   u32 keep() {
     kept_ = true;
     return epoch_;
@@ -29,14 +29,14 @@ class ChangedIds {
   u32 count() const { return count_; }
   const u32* list() const { return list_.data(); }
 
-  /// A box is deleted.
+  /// Records a deleted box.
   SMALL void remove(u32 id) {
     if (!kept_) return;
     gone_.grow(u64(gone_count_) + 1, gone_count_);
     gone_[gone_count_++] = id;
   }
 
-  /// After an update of so many boxes, which has seen these slots change.
+  /// Records the slots that an update of `boxes` boxes has seen change.
   template <class IdOf> SMALL void note(bool all, const u32* slots, u32 many, u32 boxes, IdOf id_of) {
     if (!kept_) return;
     if (all || count_ + gone_count_ + many > boxes) return note_all();

@@ -6,7 +6,7 @@
 #pragma once
 #include "base/heap.hpp"
 
-/// Whether so many bytes differ, at least 16.
+/// Whether two blocks of `bytes` bytes (at least 16) differ.
 template <u32 bytes> bool differ(const void* one, const void* other) {
   const u8* a = static_cast<const u8*>(one);
   const u8* b = static_cast<const u8*>(other);
@@ -25,7 +25,7 @@ class Changes {
   bool some_ = false;  // false: all may have changed
 
  public:
-  /// For many notes in a row: what they need, in registers. `end` takes it back.
+  /// For many notes in a row: keeps the state in registers. `end` writes it back.
   struct Notes {
     u32* list;
     u8* marks;
@@ -40,10 +40,10 @@ class Changes {
   Notes begin() const { return {list_.data(), marks_.data(), count_}; }
   void end(const Notes& notes) { count_ = notes.count; }
 
-  /// Room for that many slots; nothing is lost where memory ends.
+  /// Room for that many slots; nothing is lost if memory runs out.
   void make_room(u64 slots) {
     if (slots <= room_) return;
-    list_.grow(slots + 1, count_);  // one more: a slot that is known already is written and not counted
+    list_.grow(slots + 1, count_);  // one more: a slot that is already listed is written, but not counted
     marks_.grow(slots, room_);
     __builtin_memset(marks_.data() + room_, 0, slots - room_);
     room_ = u32(slots);
@@ -59,7 +59,7 @@ class Changes {
 
   void note_all() { some_ = false; }
 
-  /// From now on nothing has changed.
+  /// Empties the list: nothing has changed.
   void clear(u32 slots) {
     make_room(slots);
     if (count_ > room_ / 16) __builtin_memset(marks_.data(), 0, room_);
@@ -70,7 +70,7 @@ class Changes {
   }
 
   bool all() const { return !some_; }
-  /// Whether more than half of so many have: then a list of them is of no use.
+  /// Whether more than half of `slots` slots have changed: then the list is not worth its cost.
   bool most(u32 slots) const { return !some_ || count_ > slots / 2; }
   bool none() const { return some_ && count_ == 0; }
   u32 count() const { return count_; }

@@ -14,19 +14,20 @@
 template <int D> class GapMap {
   static constexpr u32 width = 2 * D, most_cuts = 7;
   static constexpr u32 regular = 64, most_others = 512;
-  // Float32's steps have to get so many times as fine for another map, or another gap, to be worth it.
+  // Another map, or another gap, must make float32's steps this many times as fine to be worth it.
   static constexpr f64 worth = 16;
-  // A gap that is taken out stays as wide as so many boxes of ordinary size, or a share of what is left.
+  // A gap that is removed keeps the width of this many boxes of ordinary size, or this share of what is left.
   static constexpr f64 gap_boxes = 4, gap_share = 4;
   static constexpr f32 largest = 3.40282347e38f;
 
-  // Piece p of an axis begins at from[p]; less[p] is subtracted in it, and what comes out ends where the next begins.
+  // Piece p of an axis begins at from[p]; less[p] is subtracted in it; its results are clamped to where the next one
+  // begins.
   struct Axes {
     f64 from[most_cuts + 1][D], less[most_cuts + 1][D], until[most_cuts + 1][D];
   };
   Axes axes_ = {};
-  u32 pieces_ = 1;  // of the axis that has most
-  bool plain_ = true;  // nothing is subtracted, and there is one piece
+  u32 pieces_ = 1;  // largest number on any axis
+  bool plain_ = true;  // one piece, and nothing is subtracted
 
  public:
   bool plain() const { return plain_; }
@@ -35,14 +36,14 @@ template <int D> class GapMap {
     plain_ = true;
   }
 
-  /// A box of which float32 holds all numbers: its first and its last four of them.
+  /// A box whose numbers are all exact in float32: its first and its last four numbers.
   static void narrowed(const f64* box, f32x4& first, f32x4& last) {
     f32x4 pairs[D];
     for (u32 k = 0; k < D; k++) pairs[k] = narrow(load<f64x2>(box + 2 * k));
     join(pairs, first, last);
   }
 
-  /// Which numbers of a box float32 does not hold.
+  /// Which numbers of a box are not exact in float32.
   static i32x4 rounded(const f64* box) {
     i32x4 which = {};
     for (u32 k = 0; k < D; k++) {
@@ -52,7 +53,7 @@ template <int D> class GapMap {
     return which;
   }
 
-  /// Writes a box as float32, to the nearest, in the numbers that are searched; gives whether it collapses.
+  /// Maps a box and writes it as float32, rounded to the nearest; returns whether it collapses.
   NOINLINE bool round(const f64* box, f32* to) const {
     f32x4 pairs[D], first, last;
     for (u32 k = 0; k < D; k++) {
@@ -65,24 +66,24 @@ template <int D> class GapMap {
     return collapses(box, to);
   }
 
-  /// The same, for many boxes. `plain`: of this map, in a register of the caller.
+  /// The same, for many boxes. `plain`: that of this map, which the caller keeps in a register.
   bool round(bool plain, const f64* box, f32* to) const {
     f32x4 first, last;
     narrowed(box, first, last);
-    // What has a size in float32, and an end, needs no second look.
+    // A finite box with a size in float32 needs no further test.
     if (!plain || !is_sized(first, last)) return round(box, to);
     store_box<D>(to, first, last);
     return false;
   }
 
-  /// What came of rounding many boxes.
+  /// The result of rounding many boxes.
   struct Rounded {
-    i32 bad = -1;  // the first that is none: what follows it is not rounded
-    bool inexact = false;  // float32 does not hold all numbers
-    u32 collapsed = 0;  // boxes that are points then, along an axis, but were none
+    i32 bad = -1;  // the first bad box; those after it are not rounded
+    bool inexact = false;  // some numbers are not exact in float32
+    u32 collapsed = 0;  // boxes that rounding collapsed along an axis
   };
 
-  /// Boxes as float32, one after the other: as they are if float32 holds all of them, otherwise as `round` has them.
+  /// Many boxes as float32: unchanged if all their numbers are exact in float32, otherwise as `round` gives them.
   NOINLINE Rounded round_all(const f64* from, u32 count, f32* to) const {
     const bool plain = plain_;
     bool mapped = !plain, inexact = false;
@@ -91,7 +92,7 @@ template <int D> class GapMap {
       f32x4 first, last;
       narrowed(from, first, last);
       inexact = inexact || any(rounded(from));
-      // What has a size in float32, and an end, is a box, and needs no second look.
+      // A finite box with a size in float32 is good, and needs no further test.
       if (plain && is_sized(first, last)) {
         store_box<D>(to, first, last);
         continue;
@@ -105,14 +106,14 @@ template <int D> class GapMap {
     return {};
   }
 
-  /// Whether rounding has made a point of a box along an axis.
+  /// Whether rounding has collapsed a box along an axis.
   static bool collapses(const f64* box, const f32* rounded) {
     bool is = false;
     for (u32 a = 0; a < D; a++) is |= rounded[a] == rounded[D + a] && box[a] < box[D + a];
     return is;
   }
 
-  /// The number that is searched where this one was given, before it is rounded.
+  /// Maps a number that was given to the one that is searched, not yet rounded.
   f64 map(f64 x, u32 axis) const {
     if (plain_) return x;
     u32 p = 0;
@@ -120,7 +121,7 @@ template <int D> class GapMap {
     return smaller(axes_.until[p][axis], x - axes_.less[p][axis]);
   }
 
-  /// The number given where this one is searched.
+  /// The inverse: from a number that is searched to the one that was given.
   f64 unmap(f64 x, u32 axis) const {
     if (plain_) return x;
     u32 p = 0;
@@ -128,7 +129,7 @@ template <int D> class GapMap {
     return x + axes_.less[p][axis];
   }
 
-  /// Chooses a map for these boxes, of which those in `more` are to be looked at too; false where this one will do.
+  /// Chooses a map for these boxes, from a sample that includes those in `more`; false if the present one will do.
   SMALL bool choose(const f64* boxes, u32 count, const u32* more, u32 more_count) {
     GapMap other;
     bool better = false;
@@ -165,7 +166,7 @@ template <int D> class GapMap {
     last = __builtin_shufflevector(pairs[D - 2], pairs[D - 1], 0, 1, 4, 5);
   }
 
-  /// Whether the box has a size along each axis that is neither 0 nor endless.
+  /// Whether the box has a size along each axis that is neither 0 nor infinite.
   static bool is_sized(f32x4 first, f32x4 last) {
     constexpr u32 axes = (1 << D) - 1;
     f32x4 size = maxima<D>(first, last) - first;
@@ -194,8 +195,8 @@ template <int D> class GapMap {
     return bits<i32x4>((bits<u32x4>(x) & splat(0x7fffffffu)) == splat(0x7f800000u));
   }
 
-  /// What is beyond float32 becomes its largest number, so that it is equal to others, and in doubt; only what has no end
-  /// stays so, on the side where it has none: then differences of bounds are numbers.
+  /// Finite numbers beyond float32 become its largest number. They are then equal to others, so their pairs are in
+  /// doubt. Only infinite ones stay infinite, so differences of bounds are numbers.
   SMALL void bound(const f64* box, f32* to) const {
     for (u32 n = 0; n < width; n++) {
       bool is_low = n < D;
@@ -206,7 +207,7 @@ template <int D> class GapMap {
     }
   }
 
-  /// Takes over an axis of another map.
+  /// Copies an axis from another map.
   SMALL void take(const GapMap& other, u32 axis) {
     for (u32 p = 0; p <= most_cuts; p++) {
       bool is = !other.plain_ && p < other.pieces_;
@@ -218,10 +219,10 @@ template <int D> class GapMap {
     plain_ = false;
   }
 
-  /// Takes the wide gaps between these ascending numbers out of an axis; gives how far from 0 what is left reaches.
+  /// Removes the wide gaps between these ascending numbers from an axis; returns how far from 0 the rest extends.
   SMALL f64 cut(const f64* low, u32 n, f64 size, u32 axis) {
-    u32 cuts[most_cuts], best = 0;  // places in front of which there is a gap, the widest first
-    f64 left[most_cuts + 1];  // what is left without so many gaps
+    u32 cuts[most_cuts], best = 0;  // indices of numbers with a gap before them, the widest first
+    f64 left[most_cuts + 1];  // the extent left after removing that many gaps
     left[0] = low[n - 1] - low[0];
     u32 found = 0;
     for (; found < smaller(most_cuts, n - 1); found++) {
@@ -244,9 +245,9 @@ template <int D> class GapMap {
       }
     }
     f64 gap = larger(left[best] / gap_share, room), all = left[best] + 2 * f64(best) * gap, half = all / 2;
-    // A multiple of a power of two: what stands on a grid stays on it.
+    // A multiple of a power of two: coordinates on a grid stay on it.
     f64 grid = bits<f64>(bits<u64>(larger(half, 1e-290)) >> 52 << 52) / 16;
-    f64 at = -half;  // where the piece begins that comes next
+    f64 at = -half;  // where the next piece begins
     for (u32 p = 0; p <= most_cuts; p++) {
       bool is = p <= best;
       f64 from = p == 0 ? low[0] : is ? low[cuts[p - 1]] - gap : __builtin_nan("");
@@ -257,7 +258,7 @@ template <int D> class GapMap {
       axes_.less[p][axis] = less;
       axes_.until[p][axis] = __builtin_inf();
       if (is && p > 0) axes_.until[p - 1][axis] = from - less;
-      if (is && p > 1 && !(axes_.until[p - 2][axis] <= from - less)) return __builtin_inf();  // it would not keep order
+      if (is && p > 1 && !(axes_.until[p - 2][axis] <= from - less)) return __builtin_inf();  // not monotone
       if (is && p < best) at = low[cuts[p] - 1] - less + gap;
     }
     pieces_ = larger(pieces_, best + 1);
@@ -265,7 +266,7 @@ template <int D> class GapMap {
     return half;
   }
 
-  /// Shell's, which is short.
+  /// Shell sort: short code, few numbers.
   SMALL static void sort(f64* x, u32 n) {
     for (u32 gap = 301; gap > 0; gap = gap / 9 * 4 + gap % 9 / 3) {
       for (u32 k = gap; k < n; k++) {

@@ -9,13 +9,13 @@
 
 class Ids {
   static constexpr u32 page_size = 4096, page_count = 4096;
-  bool named_ = false;  // ids are kept; else slot == id for all (all zero, so that it takes no room in the wasm)
+  bool named_ = false;  // ids are stored; else slot == id for all (all zero, so that it takes no room in the wasm)
   u32 count_ = 0;
   Buffer<u32> id_of_;              // per slot
-  Buffer<u32> next_;               // what `replace` puts in its place
+  Buffer<u32> next_;               // what `replace` puts in place of it
   Buffer<u32> pages_[page_count];  // per 4,096 ids: slot + 1 of each, 0 where the id is free
-  u32 clock_ = 0;                  // the next number; 0: slots are in order
-  Buffer<u32> since_;              // per slot, where they are not: a larger number came later
+  u32 clock_ = 0;                  // the next sequence number; 0: slots are in order
+  Buffer<u32> since_;              // per slot, if they are not: its sequence number
   RadixSort sort_;
 
   u32* page(u32 id) {
@@ -27,7 +27,7 @@ class Ids {
     return found.data();
   }
 
-  /// Writes down what was implied so far. Allocates first: when that fails, nothing has changed.
+  /// Stores the ids that were implicit so far. Allocates first: if that fails, nothing has changed.
   void spell_out() {
     id_of_.grow(larger(count_, 1u), 0);
     for (u32 id = 0; id < count_; id += page_size) page(id);
@@ -38,7 +38,7 @@ class Ids {
     named_ = true;
   }
 
-  /// Numbers the slots, which have been in order so far, or are to get small numbers again.
+  /// Gives the slots sequence numbers, for the first time, or again from 0 before they overflow.
   SMALL void number_slots() {
     if (clock_ == 0) {
       since_.reserve(larger(count_, 1u));
@@ -57,7 +57,7 @@ class Ids {
     sort_.sort(count_);
   }
 
-  /// Writes to the pages, which are there, in which slots these ids stand, or that they are free.
+  /// Writes the slots of these ids to their pages, which exist, or marks the ids as free.
   SMALL void mark(const u32* ids, u32 count, bool on) {
     for (u32 s = 0; s < count; s++) page(ids[s])[ids[s] % page_size] = on ? s + 1 : 0;
   }
@@ -70,7 +70,7 @@ class Ids {
   bool same() const { return !named_; }
   /// The id of each slot, or null where slot and id are the same.
   const u32* names() const { return named_ ? id_of_.data() : nullptr; }
-  /// Of each 4,096 ids: where the slots + 1 of these stand, 0 where none of them was ever used.
+  /// Per 4,096 ids: the address of their page, which holds slots + 1; 0 if none of these ids was ever used.
   const Buffer<u32>* pages() const { return pages_; }
   u32 id(u32 slot) const { return !named_ ? slot : id_of_[slot]; }
 
@@ -80,7 +80,7 @@ class Ids {
     return page ? page[id % page_size] - 1 : none;
   }
 
-  /// Gives an id that is not there yet the next slot.
+  /// Adds an id that is not in use; it gets the next slot.
   u32 insert(u32 id) {
     if (!named_ && id != count_) spell_out();
     if (named_) {
@@ -97,7 +97,7 @@ class Ids {
     return count_++;
   }
 
-  /// Takes an id away. Its slot goes to the id of the last slot, whose content the caller moves.
+  /// Removes an id. Its slot goes to the id of the last slot, whose contents the caller moves.
   void erase(u32 id) {
     if (!named_ && id != count_ - 1) spell_out();
     if (!clock_ && slot(id) != count_ - 1) number_slots();
@@ -111,7 +111,7 @@ class Ids {
     gap = 0;
   }
 
-  /// From now on the ids are 0 … count - 1, in this order.
+  /// Makes the ids 0 … count - 1, in this order.
   void reset(u32 count) {
     if (named_) {
       for (auto& page : pages_) page.release();
@@ -124,11 +124,11 @@ class Ids {
     count_ = count;
   }
 
-  /// When the box of each slot came, and the next number; null where slots are in order.
+  /// The sequence number of each slot, and the next one; null if slots are in order.
   const u32* since() const { return clock_ ? since_.data() : nullptr; }
   u32 clock() const { return clock_; }
 
-  /// The ids in the order in which they came.
+  /// The ids in the order in which they were added.
   SMALL void in_order(Buffer<u32>& to) {
     to.reserve(larger(count_, 1u));
     if (clock_ && count_) sort_slots();
@@ -136,8 +136,8 @@ class Ids {
     sort_.release();
   }
 
-  /// From now on the ids are these, in this order, or came as `since` says; false, and nothing has changed, where they are
-  /// not ids or one of them comes twice.
+  /// Replaces the ids by these, added in this order, or as the sequence numbers in `since` say. False, and nothing has
+  /// changed, if some are not ids or are there twice.
   SMALL bool replace(const u32* ids, u32 count, const u32* since, u32 clock) {
     for (u32 s = 0; s < count; s++) {
       if (ids[s] >= page_size * page_count) return false;
@@ -164,7 +164,7 @@ class Ids {
     return true;
   }
 
-  /// Whether slots and ids name each other.
+  /// Whether slots and ids refer to each other.
   bool valid() const {
     for (u32 s = 0; s < count_; s++) {
       if (slot(id(s)) != s) return false;

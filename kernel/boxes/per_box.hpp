@@ -1,26 +1,26 @@
-// A number per box that most spaces never use: 0 by default, and it belongs to the id.
-// Idea: nothing is stored, at no cost, until the first box has one; then one is stored for each slot.
-// Cost: its size, for the capacity in boxes.
+// A number per box that most spaces never use. It belongs to the id, and is 0 by default.
+// Idea: nothing is stored until the first box has one; then one is stored for each slot.
+// Cost: one number for each box that there is room for.
 #pragma once
 #include "boxes/ids.hpp"
 
 template <class T> class PerBox {
-  bool some_ = false;     // some box may have one
+  bool some_ = false;     // some box may have a number
   bool changed_ = false;  // since the last update
   Buffer<T> values_;      // per slot
-  Buffer<T> staged_;      // what `replace` puts in their place
+  Buffer<T> staged_;      // what `replace` puts in place of them
 
  public:
   bool some() const { return some_; }
   bool changed() const { return some_ && changed_; }
   void updated() { changed_ = false; }
-  /// Per slot; null where no box has one.
+  /// Per slot; null if no box has one.
   const T* data() const { return some_ ? values_.data() : nullptr; }
   T of(u32 slot) const { return some_ ? values_[slot] : T(0); }
 
   SMALL void clear() { some_ = false; }
 
-  /// Gives a slot one, with room for `capacity` of them.
+  /// Gives a slot a number, with room for `capacity` of them.
   SMALL void set(u32 slot, T value, u64 capacity) {
     if (!some_) values_.reserve(capacity);
     for (u64 s = 0; !some_ && s < capacity; s++) values_[s] = 0;
@@ -28,14 +28,14 @@ template <class T> class PerBox {
     values_[slot] = value;
   }
 
-  /// Room for the numbers that `replace` will put in the place of all.
+  /// Room for the numbers that `replace` will put in place of all.
   SMALL T* stage(u32 count) { return staged_.reserve(larger(count, 1u)); }
   SMALL void replace() {
     values_.swap(staged_);
     some_ = changed_ = true;
   }
 
-  // The slots' doings, as in Store.
+  // What happens to slots, as in Store.
   SMALL void make_room(u64 count, u32 keep) {
     if (some_) values_.grow(count, keep);
   }

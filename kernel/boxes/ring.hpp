@@ -9,13 +9,16 @@
 
 template <int D> struct Ring {
   static constexpr u32 most_entries = 512, batch = 64;  // entries
-  static constexpr u32 step = 2 * D + 1;        // numbers in one: the id, then the box
+  static constexpr u32 step = 2 * D + 1;  // numbers per entry: the id, then the box
+  static constexpr u32 head = 3;          // numbers before the entries
 
   f64 dense;  // the ids 0 … dense - 1 are in the space
-  f64 room;   // so many more may be added behind them
-  f64 pages;  // where ids have gaps: a table of the ids that may be set, see Ids::pages; else 0
+  f64 room;   // how many more may be added after them
+  f64 pages;  // if ids have gaps: the table of ids that may be set, see Ids::pages; else 0
   f64 entries[most_entries * step];
 
-  /// The id of an entry. It is in the low bits of a number whose last bit is worth 1; a conversion would look for more.
+  /// The id of an entry. Adding 2^52 leaves the integer in the low bits: cheaper than a conversion, which would check
+  /// its range.
   static u32 id(const f64* entry) { return u32(bits<u64>(*entry + 0x1p52)); }
 };
+static_assert(offsetof(Ring<2>, entries) == Ring<2>::head * sizeof(f64));

@@ -33,7 +33,7 @@ template <int D> struct SceneSample {
     return best;
   }
 
-  /// The same with the axes in another order.
+  /// The same sample with the axes in another order.
   SceneSample in(const AxisOrder<D>& order) const {
     SceneSample turned = *this;
     for (int a = 0; a < D; a++) {
@@ -51,8 +51,8 @@ inline constexpr u32 most_samples = 1024;
 inline f32 sample[6][most_samples];  // per axis the minima, then per axis the maxima
 inline f32 sorted[most_samples];
 
-/// The k-th smallest of n values, which are reordered (quickselect with the median of three).
-/// Where they are points of `width` coordinates: of those along one axis.
+/// The k-th smallest of n values, which are reordered (quickselect with the median of three). Values may be `width`
+/// apart, as one coordinate of points is.
 template <int width = 1> SMALL f32 select(f32* points, i32 n, i32 k, int axis = 0) {
   f32* v = points + axis;
   i32 from = 0, to = n - 1;
@@ -80,7 +80,7 @@ template <int width = 1> SMALL f32 select(f32* points, i32 n, i32 k, int axis = 
   return v[k * width];
 }
 
-/// Takes n of `count`, each from a share of its own, at places that follow no pattern of theirs.
+/// Stratified sampling: picks n of `count`, one at a pseudorandom place in each of n equal ranges.
 class Sampling {
   u32 stride_, at_ = 0, jitter_ = 0x9e3779b9;
 
@@ -94,14 +94,14 @@ class Sampling {
   }
 };
 
-/// How many of so many boxes are looked at.
+/// How many of `count` boxes are sampled.
 inline u32 samples_of(u32 count) { return smaller(count, smaller(larger(count / 64, 256u), most_samples)); }
 
 inline bool is_finite(f32 x) { return x - x == 0; }
 
-/// Extents of the finite ones among n values, without outliers.
+/// The extent of the finite ones of n values, without outliers.
 SMALL inline void extents(const f32* v, u32 n, f64& low, f64& high) {
-  // Finite values near the largest float would overflow in float32; none does in double.
+  // In float32, values near the largest float would overflow; in double none do.
   f64 least = __builtin_inf(), most = -__builtin_inf(), sum = 0, squares = 0;
   for (u32 k = 0; k < n; k++) {
     f64 x = v[k];
@@ -115,7 +115,7 @@ SMALL inline void extents(const f32* v, u32 n, f64& low, f64& high) {
   low = least;
   high = most;
   // For even or bell-shaped spreads the range is below 8 standard deviations at these sample sizes. The second
-  // test catches cancellation: then the deviation is not to be trusted.
+  // test catches cancellation: then the deviation is unreliable.
   f64 range = most - least;
   bool tame = range * range <= 64 * variance && variance > 1e-9 * mean * mean;
   if (tame) return;
@@ -127,8 +127,8 @@ SMALL inline void extents(const f32* v, u32 n, f64& low, f64& high) {
     low = high = 0;
     return;
   }
-  // Cut off a tail of 2 % on each side, and one of 12 % where that makes the extent much smaller still: what
-  // lies outside stands in the border cells.
+  // Cut off a tail of 2 % on each side, and one of 12 % where that makes the extent much smaller still: values outside
+  // go to the border cells.
   for (i32 share = 50; share > 0; share = share == 50 ? 8 : 0) {
     i32 tail = kept / share;
     f64 from = select(sorted, kept, tail), to = select(sorted, kept, kept - 1 - tail);
@@ -139,7 +139,7 @@ SMALL inline void extents(const f32* v, u32 n, f64& low, f64& high) {
   }
 }
 
-/// After `measure` of `count` items: the size along an axis that this share of the sample does not exceed.
+/// After `measure` of `count` items: the size along an axis that this share of the sample does not exceed (a quantile).
 SMALL inline f64 common_size(int axis, int dimensions, u32 count, f64 share) {
   i32 n = i32(samples_of(count)), kept = 0;
   for (i32 k = 0; k < n; k++) {
@@ -160,7 +160,7 @@ template <int D> SHARED SceneSample<D> judge(u32 n) {
     f64 sum = 0;
     for (u32 k = 0; k < n; k++) {
       f64 size = f64(sample[D + a][k]) - f64(sample[a][k]);
-      if (size > 0) sum += smaller(size, extent);  // not where both are the same infinity: NaN
+      if (size > 0) sum += smaller(size, extent);  // false for NaN, when both bounds are the same infinity
     }
     found.size[a] = sum / n;
     f64 scale = extent > 0 ? side / extent : 0;
@@ -197,7 +197,7 @@ template <int D, class Source> SHARED SceneSample<D> measure(const Source& items
   return detail::judge<D>(n);
 }
 
-/// The same for a few items, in one pass: extents with their outliers, and no crowding.
+/// The same for a few items, in one pass: extents with outliers, and no crowding.
 template <int D, class Source> SceneSample<D> glance(const Source& items, u32 count) {
   f32x4 least = items[0].first(), most = least, sizes = {};
   for (u32 k = 0; k < count; k++) {

@@ -7,23 +7,23 @@
 #pragma once
 #include "pairs/pair_table.hpp"
 
-/// In the pairs of a snapshot: the box of the smaller or of the larger id was deleted since they were found.
+/// Flags in the pairs of a snapshot: the box of the smaller or larger id was deleted after the pair was found.
 inline constexpr u64 smaller_gone = u64(1) << 31, larger_gone = u64(1) << 63;
-/// That it began with that update; or that it ended with it, and is no pair any more: those come behind the others.
+/// The pair began with that update; or it ended with it, and is no longer a pair: ended ones come after the others.
 inline constexpr u64 has_begun = u64(1) << 30, has_ended = u64(1) << 62;
 inline constexpr u64 pair_marks = smaller_gone | larger_gone | has_begun | has_ended;
 
 class Events {
   Pairs before_;  // of the last update
-  Buffer<u8> met_;  // per pair of those, whether it is among the pairs now
-  Buffer<u32> gone_;  // a bit an id: deleted since the last update
+  Buffer<u8> met_;  // per pair of those, whether it is still a pair
+  Buffer<u32> gone_;  // a bit per id: deleted since the last update
   u32 gone_words_ = 0;
   bool any_gone_ = false;
 
  public:
-  Pairs began, ended;  // in the order of the pairs now, and of the pairs before
+  Pairs began, ended;  // in the order of the new list, and of the old list
 
-  /// Room for ids up to this one to be deleted.
+  /// Room to record the deletion of ids up to this one.
   SMALL void make_room(u32 id) {
     u32 words = id / 32 + 1;
     if (words <= gone_words_) return;
@@ -33,7 +33,7 @@ class Events {
     gone_words_ = words;
   }
 
-  /// An id was deleted, for which there is room.
+  /// Records that an id was deleted; there is room for it.
   void forget(u32 id) {
     gone_[id / 32] |= 1u << id % 32;
     any_gone_ = true;
@@ -42,7 +42,7 @@ class Events {
   /// The pairs of the last update, and which of their boxes were deleted since, for a snapshot.
   u64 count() const { return before_.count + ended.count; }
   SMALL void save(u64* to) const {
-    u64 next = 0;  // of those that began, which are in the same order
+    u64 next = 0;  // index in `began`, which is in the same order
     for (u64 p = 0; p < ended.count; p++) to[before_.count + p] = ended.list[p] | has_ended;
     for (u64 p = 0; p < before_.count; p++) {
       u64 pair = before_.list[p];
@@ -53,7 +53,7 @@ class Events {
     }
   }
 
-  /// Room to restore so many pairs, whose ids are all below this one.
+  /// Room to restore this many pairs, whose ids are all below `ids`.
   SMALL void stage(u64 pairs, u32 ids) {
     before_.list.grow(larger(pairs, u64(1)), before_.count);
     began.list.grow(larger(pairs, u64(1)), began.count);
@@ -77,8 +77,8 @@ class Events {
     }
   }
 
-  /// These are the pairs now. `table` is for the pairs before, once it is made. Where memory ends it is as if this
-  /// had not been called.
+  /// Compares the new list with the old one. `table` finds pairs of the old list, once it is built. If memory runs out,
+  /// nothing has changed.
   __attribute__((noinline)) void follow(const Pairs& now, PairTable& table) {
     u64 old_count = before_.count;
     before_.list.grow(larger(now.count, u64(1)), old_count);
@@ -95,7 +95,7 @@ class Events {
       if (any_gone_ && is_gone(pair)) {
         at = PairTable::none;
       } else if (at + 1 < old_count && old[at + 1] == pair) {
-        at++;  // often the next but one, which is looked at before the table
+        at++;  // often it is the next but one: tried before the table
       } else if (at >= old_count || old[at] != pair) {
         if (!table.made) table.make(before_);
         at = table.find(before_, pair);

@@ -11,7 +11,7 @@ class Lookups {
  public:
   PairTable table;
 
-  /// The pairs are others now.
+  /// The pairs have changed.
   void forget() { table.made = partners_made_ = false; }
 
   SMALL bool is_pair(const Pairs& pairs, u32 a, u32 b) {
@@ -20,7 +20,7 @@ class Lookups {
     return table.find(pairs, pair_of(a, b)) != PairTable::none;
   }
 
-  /// Writes the ids that are in a pair with this one to `answers`; returns how many.
+  /// Writes the partners of an id to `answers`; returns how many.
   SMALL u32 partners(const Pairs& pairs, u32 id, Buffer<u32>& answers) {
     if (!partners_made_) partners_.build(pairs);
     partners_made_ = true;

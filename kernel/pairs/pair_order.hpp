@@ -8,8 +8,8 @@
 #include "pairs/pairs.hpp"
 
 class PairOrder {
-  static constexpr u32 few = 24;  // pairs, up to which they are inserted
-  static constexpr u32 shortest = 8, longest = 14;  // bits of a digit, at most: few pairs are not worth many counts
+  static constexpr u32 few = 24;  // up to this many pairs are sorted by insertion
+  static constexpr u32 shortest = 8, longest = 14;  // bits of a digit: few pairs are not worth many counters
   static constexpr u32 most_passes = 2 * ((24 + shortest - 1) / shortest);
   Buffer<u64> spare_;
   Buffer<u32> counts_;
@@ -31,7 +31,7 @@ class PairOrder {
     u64* from = list;
     u64* to = spare_.reserve(count);
     u32* counts = counts_.reserve(values);
-    for (u32 p = 0; p < passes; p++) {  // an even number: the last one ends in the list
+    for (u32 p = 0; p < passes; p++) {  // an even number of passes, so that the result is in `list`
       __builtin_memset(counts, 0, values * sizeof(u32));
       for (u64 k = 0; k < count; k++) counts[from[k] >> shifts[p] & (values - 1)]++;
       u32 at = 0;

@@ -10,22 +10,22 @@ inline u64 pair_of(u32 a, u32 b) { return u64(smaller(a, b)) | u64(larger(a, b))
 struct Pairs {
   Buffer<u64> list;  // in memory: slot a, slot b, slot a, …
   u64 count = 0;
-  u64 stable = 0;     // nobody has touched the first so many since a technique reported them
-  bool same = false;  // a technique says that they are the pairs of the update before
+  u64 stable = 0;     // length of the prefix unchanged since a technique reported it
+  bool same = false;  // set by a technique: the pairs are those of the last update
 
-  // Pairs are in doubt of which two bounds are equal in float32: in the numbers given these may be apart.
-  bool watch = false;   // whether they are to be noted
-  Buffer<u64> doubts;   // ranges of pairs with some in doubt: where each begins, where it ends
+  // A pair is in doubt if two of its bounds are equal in float32: in the numbers given they may be apart.
+  bool watch = false;   // whether to record them
+  Buffer<u64> doubts;   // ranges that contain pairs in doubt: begin and end of each
   u32 doubt_count = 0;  // ranges
 
   static constexpr u64 slack = 4;  // the compress-store writes up to four pairs past the end
 
-  /// How many pairs stand between two places. The difference of pointers is signed: in 32 bits it ends at 2 GiB.
+  /// The number of pairs between two pointers. A pointer difference is signed, and in 32 bits overflows at 2 GiB.
   static u64 between(const u64* from, const u64* to) {
     return (reinterpret_cast<size_t>(to) - reinterpret_cast<size_t>(from)) / sizeof(u64);
   }
 
-  /// Makes room for `more` pairs behind `out` and gives the place to go on writing.
+  /// Makes room for `more` pairs after `out`; returns where to continue writing.
   u64* room(u64* out, u64 more) {
     u64 have = between(list.data(), out);
     if (have + more + slack > list.capacity()) return list.grow(have + more + slack, have) + have;
@@ -66,7 +66,7 @@ alignas(16) inline constexpr Swizzles swizzles;
 alignas(16) inline constexpr u8 bits_set[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 }  // namespace detail
 
-/// Appends the pairs of four slots with one of four others each, where their bit is set in `mask`.
+/// Appends the pairs of four slots with four others, lane by lane, if the lane's bit is set in `mask`.
 inline u64* append_each(u64* out, u32x4 some, u32x4 others, u32 mask) {
   u8x16 front = load<u8x16>(detail::swizzles.of[mask]);
   u32x4 a = bits<u32x4>(swizzle(bits<u8x16>(min(some, others)), front));

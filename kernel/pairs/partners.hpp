@@ -7,10 +7,10 @@
 
 class Partners {
   Buffer<u32> ends_;   // per bucket
-  Buffer<u64> pairs_;  // by bucket: an id, and in the high half the other
+  Buffer<u64> pairs_;  // by bucket: an id, and in the high half its partner
   u32 log_ = 0;
 
-  /// Ids below the number of buckets have one each.
+  /// Ids below the number of buckets each have their own bucket.
   u32 bucket(u32 id) const { return (id ^ (id >> log_) * 0x9e3779b1u) & ((1u << log_) - 1); }
 
  public:
@@ -25,7 +25,7 @@ class Partners {
       ends[bucket(u32(pairs.list[p])) + 1]++;
       ends[bucket(u32(pairs.list[p] >> 32)) + 1]++;
     }
-    // ends[b] becomes where bucket b begins, and, as it is filled, where it ends.
+    // ends[b] is first where bucket b begins; filling the bucket moves it to the end.
     for (u32 b = 0; b < buckets; b++) ends[b + 1] += ends[b];
     for (u64 p = 0; p < pairs.count; p++) {
       u64 pair = pairs.list[p], turned = pair >> 32 | pair << 32;
@@ -34,7 +34,7 @@ class Partners {
     }
   }
 
-  /// Writes the ids that are in a pair with this one, in the order of the pairs; returns how many.
+  /// Writes the partners of an id, in the order of the pairs; returns how many.
   SMALL u32 of(u32 id, Buffer<u32>& answers) const {
     u32 b = bucket(id), count = 0;
     u32 from = b ? ends_[b - 1] : 0, to = ends_[b];

@@ -2,7 +2,7 @@
 // Idea: the queries are stored one after the other, as doubles, and answered in that order. All answers go into one
 // list, with the end of each query's answers beside it. Boxes and points go down the index together: see together.hpp.
 // Cost: half of that of single queries, or less, for boxes and points; for others that of the single queries, less the
-// calls. Running them in Hilbert order was slower in all but a few cases: see docs/decisions/0011-many-questions.md.
+// calls. Running them in Hilbert order was slower in all but a few cases: see docs/decisions/0011-many-queries.md.
 #pragma once
 #include "questions/queries.hpp"
 #include "questions/together.hpp"

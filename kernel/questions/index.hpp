@@ -19,25 +19,25 @@ template <int D> class Index {
   static constexpr u32 width = 2 * D;
   static constexpr u32 most_levels = 9;  // 8^8 boxes, and spare places
   static constexpr f32 nothing = __builtin_nanf("");
-  static constexpr u32 sampled = 256;  // groups of eight, by which an order is judged
-  static constexpr f32 most_wider = 2;  // they may become before boxes are sorted anew
+  static constexpr u32 sampled = 256;  // groups of eight, sampled to judge an order
+  static constexpr f32 most_wider = 2;  // how many times as wide they may become before boxes are sorted again
 
-  SeenBoxes<D> seen_;  // its float32, while `built_`: outward
+  SeenBoxes<D> seen_;  // its float32 bounds are rounded outward while `built_`
   bool built_ = false;
   Buffer<u32> slots_;  // per place in the order
-  Buffer<u32> placed_ids_;  // the same, while `seen_.named`
+  Buffer<u32> placed_ids_;  // the same as ids, while `seen_.named`
   Buffer<u32> places_;  // per slot, its place
-  u32 sorted_ = 0, used_ = 0, room_ = 0;  // places of boxes in order; and with those behind; and with those to come
+  u32 sorted_ = 0, used_ = 0, room_ = 0;  // ends of places: of sorted boxes, of those added after them, of spare ones
   bool holes_ = false;
   u32 known_ = 0;  // slots that have an entry in `places_`
-  u64 looks_ = 0;  // at blocks, by questions, since boxes were sorted: each costs about as much as to sort a box
-  f32 width_ = 0;  // of groups, when they were
+  u64 looks_ = 0;  // blocks that queries visited since boxes were sorted: a visit costs about as much as sorting a box
+  f32 width_ = 0;  // mean width of groups when boxes were sorted
   RadixSort sort_;
 
  public:
-  /// In place of a place, of a box that is off.
+  /// The place of a box that is off.
   static constexpr u32 nowhere = 0xffffffff;
-  /// Eight boxes; NaN where there is none.
+  /// Eight boxes; NaN for unused lanes.
   struct Block {
     f32 lo[D][8], hi[D][8];
   };
@@ -49,30 +49,30 @@ template <int D> class Index {
 
  public:
   u32 count() const { return seen_.count; }
-  /// Places that may hold boxes, and whether some hold none.
+  /// The number of places that may hold boxes, and whether some of them are empty.
   u32 places() const { return used_; }
   bool holes() const { return holes_; }
-  /// The level of the root, which is one block; level 0 are the boxes.
+  /// The level of the root, which is one block; level 0 has the boxes.
   u32 top() const { return levels_ - 1; }
   const Block& block(u32 level, u32 number) const { return blocks_[first_[level] + number]; }
 
-  /// The size of the world, where it wraps around.
+  /// The size of the world if it wraps around; else null.
   const f64* world() const { return seen_.world; }
-  /// Whether float32 does not hold all boxes.
+  /// Whether some numbers are not exact in float32.
   bool rounded() const { return seen_.rounded; }
   u32 id(u32 place) const { return ids()[place]; }
   u32 place(u32 slot) const { return places_[slot]; }
   u32 id_of_slot(u32 slot) const { return seen_.named ? seen_.ids[slot] : slot; }
   /// Of all places.
   const u32* ids() const { return seen_.named ? placed_ids_.data() : slots_.data(); }
-  /// The rule of a box by its slot, and the numbers it was given with.
+  /// By slot: the rule of a box, and the numbers it was given with.
   Rule rule(u32 slot) const { return seen_.filtered ? seen_.rules[slot] : Rule{0xffffffff, 0xffffffff, 0}; }
   void box_of_slot(u32 slot, f64* to) const {
     for (u32 k = 0; k < width; k++)
       to[k] = seen_.rounded ? seen_.exact[u64(slot) * width + k] : f64(seen_.boxes[u64(slot) * width + k]);
   }
   bool filtered() const { return seen_.filtered; }
-  /// How far a box reaches, by its slot, and no less than any does.
+  /// By slot: how far a box reaches; and an upper bound for all boxes.
   f64 reach(u32 slot) const { return seen_.reached ? seen_.reaches[slot] : 0; }
   f64 most_reach() const { return seen_.most_reach; }
   u32 slot(u32 place) const { return slots_[place]; }
@@ -100,7 +100,7 @@ template <int D> class Index {
     seen_.see(boxes, exact, ids, rules, reaches, world);
   }
 
-  /// Takes over the slots that have changed, of which new ones are some: false where all has to be seen anew.
+  /// Copies the slots that have changed, new ones included; false if everything has to be copied again.
   SMALL bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
                     const u32* slots, u32 many, const f64* world) {
     if (!seen_.is_like(exact, ids, rules, reaches, world)) return false;
@@ -130,10 +130,10 @@ template <int D> class Index {
     return true;
   }
 
-  /// Notes that a question has looked at so many blocks.
+  /// Records that a query has visited this many blocks.
   void looked_at(u64 blocks) { looks_ += blocks; }
 
-  /// Makes the index, if it is not. It stays as it is until the next update, since answers may be read in parts.
+  /// Builds the index, if necessary. It stays the same until the next update, since answers may be read in parts.
   SHARED void build() {
     if (built_) return;
     seen_.round_all();
@@ -160,7 +160,7 @@ template <int D> class Index {
     built_ = true;
   }
 
-  /// After memory has run out: what was seen stays, what was made of it goes.
+  /// After memory has run out: keeps the copy of the boxes, and drops the index built over it.
   SMALL void forget() {
     slots_.release();
     placed_ids_.release();
@@ -183,14 +183,14 @@ template <int D> class Index {
   }
 
  private:
-  /// Bounds of the k-th block of the level below, where it stands in its own. Of nothing they are nothing.
+  /// Writes the bounds of block k of the level below into its lane of its parent. Empty blocks have NaN bounds.
   void bound(u32 level, u32 k) {
     const Block& from = block(level - 1, k);
     Block& to = blocks_[first_[level] + k / 8];
     for (int a = 0; a < D; a++) {
       f32x4 lo = splat(__builtin_inff()), hi = -lo;
       for (u32 half = 0; half < 8; half += 4) {
-        lo = min(load<f32x4>(from.lo[a] + half), lo);  // what is not a number does not count
+        lo = min(load<f32x4>(from.lo[a] + half), lo);  // NaN is ignored
         hi = max(load<f32x4>(from.hi[a] + half), hi);
       }
       f32 least = smaller(smaller(lo[0], lo[1]), smaller(lo[2], lo[3]));
@@ -224,7 +224,7 @@ template <int D> class Index {
     places_[slot] = place;
   }
 
-  /// Whether a box is within the bounds of the block in which this place is.
+  /// Whether a box is within the bounds of the block of this place.
   bool within_block(u32 slot, u32 place) const {
     const Block& above = block(1, place >> 6);
     u32 lane = place >> 3 & 7;
@@ -236,7 +236,7 @@ template <int D> class Index {
     return within;
   }
 
-  /// Puts a box where it is found: in its place, or behind the others.
+  /// Puts a box into its place, or into a spare one.
   SMALL void move(u32 slot) {
     u32 place = places_[slot];
     if (place != nowhere && (place >= sorted_ || within_block(slot, place))) {
@@ -257,7 +257,7 @@ template <int D> class Index {
   SHARED void fill() {
     const f32* boxes = seen_.boxes.data();
     for (u32 k = 0; k < sorted_; k += 4) {
-      // Boxes as rows; the second half of 3D's begins with the last minimum.
+      // Boxes as rows; in 3D the second half begins with the last minimum.
       f32x4 rows[D - 1][4];
       ROLLED for (u32 lane = 0; lane < 4; lane++) {
         bool is_box = k + lane < sorted_;
@@ -278,7 +278,7 @@ template <int D> class Index {
     }
   }
 
-  /// Fills slots_ anew, with those that are not off.
+  /// Fills slots_ with the boxes that are not off.
   SHARED void put_in_order() {
     u32 n = seen_.count, some = 0;
     looks_ = sorted_ = 0;
@@ -301,7 +301,7 @@ template <int D> class Index {
     width_ = group_width();
   }
 
-  /// Notes the places of the first n of slots_; no other slot has one.
+  /// Records the places of the first n of slots_; no other slot has one.
   void find_places(u32 n) {
     sorted_ = n;
     known_ = seen_.count;
@@ -309,8 +309,8 @@ template <int D> class Index {
     for (u32 place = 0; place < n; place++) places_[slots_[place]] = place;
   }
 
-  /// Fills slots_ with those that are in the order, as they stand there, and then with the others. False where boxes
-  /// that stand together there no longer do in space.
+  /// Fills slots_ in the previous order, new boxes last. False if boxes that are neighbours in that order no longer are
+  /// in space.
   SMALL bool keep_order() {
     make_room(used_);
     bool same = known_ == seen_.count && used_ == seen_.count && !holes_ && !seen_.filtered;
@@ -331,7 +331,7 @@ template <int D> class Index {
     find_places(kept);
   }
 
-  /// How wide groups of eight are in the order, on average of a sample. What is infinite does not count.
+  /// The mean width of groups of eight in the order, of a sample, without infinite ones.
   SMALL f32 group_width() const {
     u32 groups = sorted_ / 8, step = groups / sampled + 1, seen = 0;
     f32 sum = 0;
@@ -349,7 +349,7 @@ template <int D> class Index {
     return seen ? sum / f32(seen) : 0;
   }
 
-  /// Room for all places, of which some are kept.
+  /// Room for all places; the contents of some are kept.
   void make_room(u32 keep) {
     slots_.grow(larger(room_, keep), keep);
     places_.grow(larger(room_, keep), known_);

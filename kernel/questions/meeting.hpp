@@ -11,20 +11,20 @@
 #include "base/rounding.hpp"
 
 struct Meeting {
-  f64 time;  // share of the way
-  i32 side;  // axis + 1 of the face, negative where its normal is; 0: inside
+  f64 time;  // as a share of the path
+  i32 side;  // axis + 1 of the face, negative if its normal is; 0: inside
   bool corner;  // more than one face is met at that time
 };
 
 namespace detail {
 
-inline constexpr f64 touch = 0x1p-48;  // of the coordinates: what still counts as touching
-inline constexpr f64 roundings = 0x1p-51;  // of all numbers on the way: what they may add up to
+inline constexpr f64 touch = 0x1p-48;  // relative to the coordinates: the overlap that still counts as touching
+inline constexpr f64 roundings = 0x1p-51;  // relative to the numbers involved: bounds the sum of rounding errors
 
 inline f64 size_of(f64 x) { return __builtin_isinf(x) ? 0 : __builtin_fabs(x); }
 inline bool is_single(f64 x) { return f64(f32(x)) == x; }
 
-/// The share of the way along one axis until a box that moves from lo … hi touches a face.
+/// Along one axis: the share of the path after which a box that starts at lo … hi touches a face.
 inline f64 time_to(f64 lo, f64 hi, f64 face, f64 along, bool stops) {
   bool forth = along > 0;
   f64 near = forth ? hi : lo, speed = __builtin_fabs(along);
@@ -44,8 +44,8 @@ inline f64 time_to(f64 lo, f64 hi, f64 face, f64 along, bool stops) {
 
 }  // namespace detail
 
-/// Whether a box that moves by `along` meets another, and how. `stops`: the time is to be stopped at; else it is the
-/// nearest to the true one.
+/// Whether a box that moves by `along` meets another, and how. `stops`: the caller stops the box at that time; else it
+/// is the double nearest to the true time.
 template <int D> bool meets(const f64* lo, const f64* hi, const f64* along, const f64* box, bool stops, Meeting& met) {
   using namespace detail;
   bool edge = false;
@@ -66,7 +66,7 @@ template <int D> bool meets(const f64* lo, const f64* hi, const f64* along, cons
     bool forth = along[a] > 0;
     if (forth ? past : before) return false;
     f64 last = (forth ? to - lo[a] : from - hi[a]) / along[a];
-    if (last == last) leave[a] = last;  // the same infinity on both sides is never left
+    if (last == last) leave[a] = last;  // NaN, when both sides are the same infinity: never left
     if (!before && !past) continue;
     f64 time = time_to(lo[a], hi[a], forth ? from : to, along[a], stops);
     if (met.side == 0 || time > met.time) met = {time, forth ? -(a + 1) : a + 1, false};

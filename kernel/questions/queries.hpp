@@ -14,25 +14,25 @@ template <int D> class Queries {
   using Block = typename Index<D>::Block;
   static constexpr u32 lane_bits = 7;
   static constexpr u32x4 lanes = {0, 1, 2, 3};
-  // Between these bounds float32 neither overflows nor loses digits when times are estimated.
+  // Up to this magnitude, estimating times in float32 neither overflows nor loses digits.
   static constexpr f64 tame = 1e30;
 
   const Index<D>& index_;
   const Question<D>& asked_;
-  const f64* const world_;  // where it wraps around
-  Copies copies_;  // only there
-  f64 reach_[D];  // how far what moves may come
-  Hits* hits_ = nullptr;  // of what moves
-  f32x4 lo_[D], hi_[D];  // what is to be looked at
-  f32x4 above_[D], below_[D];  // the point, or what moves, rounded outward or further
-  f32x4 slowness_[D];  // time for a unit of way
-  f64 squared_;  // the circle's radius
-  f64 scale_ = 1;  // of what is estimated in place of ranks
-  bool is_tame_ = true, all_move_ = true;  // whether times may be estimated; and do for all axes
-  const u32* const names_;  // of answers: ids; slots, where another space asks
+  const f64* const world_;  // its size if it wraps around, else null
+  Copies copies_;  // used only then
+  f64 reach_[D];  // how far the moving box may get
+  Hits* hits_ = nullptr;  // for moving boxes
+  f32x4 lo_[D], hi_[D];  // the region searched
+  f32x4 above_[D], below_[D];  // the point or moving box, rounded outward at least
+  f32x4 slowness_[D];  // time per unit of distance
+  f64 squared_;  // the circle's radius, squared
+  f64 scale_ = 1;  // from ranks to estimated times
+  bool is_tame_ = true, all_move_ = true;  // whether times may be estimated, and suffice for all axes
+  const u32* const names_;  // what answers consist of: ids, or slots if another space asks
   const Wanted<D> wanted_;
   const bool all_wanted_;
-  f32 most_rank_ = 0;  // that is wanted, in the terms of what is estimated
+  f32 most_rank_ = 0;  // the limit, in the unit of the lower bounds
   u32 from_ = 0, most_ = 0, found_ = 0, looks_ = 0;
 
  public:
@@ -47,16 +47,16 @@ template <int D> class Queries {
     if (world_) copies_.begin(world_, D, asked.lo, asked.hi);
   }
 
-  /// How many blocks have been looked at.
+  /// The number of blocks visited.
   u32 looks() const { return looks_; }
 
   /// Writes the ids of the boxes that touch the box or the circle, in the order of the index from place `from` on, at
-  /// most so many, behind those found before. Returns how many; `from` becomes the place to go on from, or the number of
+  /// most `most`, after those already found. Returns how many; sets `from` to where to resume, or to the number of
   /// boxes.
   SMALL u32 area(u32& from, u32 most, Buffer<u32>& answers, u32 found = 0) {
     most_ = most;
     found_ = found;
-    // In a world that wraps around the places of each turn come behind those of the turn before.
+    // In a world that wraps around, each turn counts its places on from those of the turn before.
     u32 places = index_.places(), turn = world_ ? from / places : 0;
     for (from_ = from - turn * places; turn < turns(); turn++, from_ = 0) {
       if (world_ && !copies_.take(turn)) continue;
@@ -69,13 +69,13 @@ template <int D> class Queries {
     return found_;
   }
 
-  /// The first boxes that the moving box meets, by how far it has moved then.
+  /// The first boxes that the moving box meets, ranked by how far it has moved by then.
   SMALL void cast(Hits& hits) {
     scale_ = (1 + 1e-6) / asked_.length;
     for (int a = 0; a < D; a++) {
-      // The way to the limit, and some more for the roundings.
+      // The path up to the limit, and a little more for rounding errors.
       f64 reach = asked_.along[a] * (asked_.limit / asked_.length) * (1 + 1e-9);
-      reach_[a] = reach == reach ? reach : 0;  // no way at all, however long it takes
+      reach_[a] = reach == reach ? reach : 0;  // NaN: it does not move along this axis
     }
     hits_ = &hits;
     auto one = [](void* self) { static_cast<Queries*>(self)->cast_once(); };
@@ -83,7 +83,7 @@ template <int D> class Queries {
     else cast_once();
   }
 
-  /// The nearest boxes to the box, most often a point.
+  /// The boxes nearest to a box, which usually is a point.
   SMALL void near(Hits& hits) {
     for (u32 turn = 0; turn < turns(); turn++) {
       if (world_ && !copies_.take(turn)) continue;
@@ -97,7 +97,7 @@ template <int D> class Queries {
   }
 
  private:
-  /// Where the question is looked for.
+  /// The bounds of the query, as searched in this turn.
   f64 low(int a) const { return world_ ? copies_.end(a, false) : asked_.lo[a]; }
   f64 high(int a) const { return world_ ? copies_.end(a, true) : asked_.hi[a]; }
 
@@ -117,6 +117,7 @@ template <int D> class Queries {
         lo -= asked_.radius + (asked_.radius + __builtin_fabs(lo)) * 1e-15 + 1e-160;
         hi += asked_.radius + (asked_.radius + __builtin_fabs(hi)) * 1e-15 + 1e-160;
       }
+      // Rounding inward is exact: these bounds are compared with float32 numbers.
       f32 least, most;
       round_inward(lo, hi, asked_.touching || is_circle(), least, most);
       lo_[a] = splat(least);
@@ -139,7 +140,7 @@ template <int D> class Queries {
     }
   }
 
-  /// Whether the area touches a box here, in a world that wraps around, and not elsewhere before.
+  /// In a world that wraps around: whether the area touches a box in this turn, and in no earlier one.
   SMALL bool touches_around(const f64* box) const {
     if (!is_circle()) return copies_.touches(box, asked_.radius == Question<D>::within, asked_.touching);
     f64 away[D], squared = 0;
@@ -148,7 +149,7 @@ template <int D> class Queries {
     return is_in(squared_ < 1e300 ? squared : length_of(away));
   }
 
-  /// Whether what is as far away, as a square unless that overflows, is in the circle.
+  /// Whether a box at this distance is in the circle; compares squares unless they overflow.
   bool is_in(f64 away) const {
     f64 most = squared_ < 1e300 ? squared_ : asked_.radius;
     return asked_.touching ? away <= most : away < most;
@@ -167,12 +168,12 @@ template <int D> class Queries {
     return most * __builtin_sqrt(sum);
   }
 
-  /// One without size touches what it is at the side of, and so is a point where that does not count.
+  /// A circle of radius 0 at the side of a box touches it. If touching does not count, it is treated as a point.
   bool is_circle() const { return asked_.radius > 0 || (asked_.radius == 0 && asked_.touching); }
 
   bool wanted(u32 place) const { return all_wanted_ || wanted_(place); }
 
-  /// One bit for each of the eight that touch what is to be looked at.
+  /// One bit for each of eight boxes that touch the region searched.
   SHARED u32 touched(const Block& block) const {
     u32 found = 0;
     ROLLED for (u32 half = 0; half < 8; half += 4) {
@@ -186,7 +187,7 @@ template <int D> class Queries {
     return found;
   }
 
-  /// One bit for each of the eight that lie within what is to be looked at.
+  /// One bit for each of eight boxes that lie within the region searched.
   u32 within(const Block& block) const {
     u32 found = 0;
     ROLLED for (u32 half = 0; half < 8; half += 4) {
@@ -200,7 +201,7 @@ template <int D> class Queries {
     return found;
   }
 
-  /// Of eight boxes that touch in float32, those that touch.
+  /// Of eight boxes that touch in float32, those that touch in the numbers given.
   SMALL u32 touching(u32 number, u32 left) const {
     f64 ranks[8];
     if (world_) {
@@ -228,7 +229,7 @@ template <int D> class Queries {
     return left;
   }
 
-  /// Adds the answers from place `from_` on; false where there are more than are wanted: `from_` is then the next.
+  /// Adds the answers from place `from_` on; false if there are more than `most_`: `from_` is then where to resume.
   bool walk(u32 level, u32 number, Buffer<u32>& answers) {
     const Block& block = index_.block(level, number);
     looks_++;
@@ -269,9 +270,9 @@ template <int D> class Queries {
     return true;
   }
 
-  /// Writes no more than the squared distances of the point to eight boxes: what roundings may add is taken off, and
-  /// in place of the last three bits stands the lane, so that what is written can be sorted as integers. Returns one
-  /// bit for each box that is not surely beyond the limit.
+  /// Writes lower bounds for the squared distances of the point to eight boxes, reduced by the possible rounding error.
+  /// The last three bits are replaced by the lane, so that the results can be sorted as integers. Returns one bit for
+  /// each box that may be within the limit.
   SHARED u32 least_distances(const Block& block, u32 (&to)[8]) const {
     f32x4 most = splat(most_rank_);
     u32 close = 0;
@@ -290,9 +291,9 @@ template <int D> class Queries {
     return close;
   }
 
-  /// The same for when the moving box meets eight boxes, in shares of its way.
+  /// The same for the times at which the moving box meets eight boxes, as shares of its path.
   SHARED u32 least_times(const Block& block, u32 (&to)[8]) const {
-    // Times tell all but where it does not move at all.
+    // If it moves along all axes, the times suffice.
     u32 close = all_move_ ? 0xff : touched(block);
     if (!is_tame_) {
       for (u32 lane = 0; lane < 8; lane++) to[lane] = lane;
@@ -308,7 +309,7 @@ template <int D> class Queries {
         f32x4 ahead = (load<f32x4>(block.lo[a] + half) - above_[a]) * slowness_[a];
         f32x4 behind = (load<f32x4>(block.hi[a] + half) - below_[a]) * slowness_[a];
         bool forth = asked_.along[a] > 0;
-        enter = max(forth ? ahead : behind, enter);  // what is not a number does not count
+        enter = max(forth ? ahead : behind, enter);  // NaN is ignored
         leave = min(forth ? behind : ahead, leave);
       }
       enter = max(f32x4{}, enter * splat(1 - slack) - splat(least_slack));
@@ -320,7 +321,7 @@ template <int D> class Queries {
     return close;
   }
 
-  /// Offers the boxes of a block to `hits`, what promises the least rank first.
+  /// Offers the boxes of a block to `hits`, in ascending order of their lower bounds.
   template <bool moving> void search(u32 level, u32 number, Hits& hits) {
     const Block& block = index_.block(level, number);
     looks_++;
@@ -341,15 +342,15 @@ template <int D> class Queries {
     }
   }
 
-  /// In the terms of what is estimated, times or squared distances; no less than the limit.
+  /// Sets the limit, in the unit of the lower bounds, a time or a squared distance; never rounded below it.
   template <bool moving> void set_most(f64 limit) {
     if (!moving) most_rank_ = round_up(squared_limit(limit));
     else most_rank_ = is_tame_ ? round_up(limit * scale_) : __builtin_inff();
   }
-  /// No less than the square of every distance within the limit.
+  /// An upper bound for the square of every distance within the limit.
   static f64 squared_limit(f64 limit) { return limit * limit * (1 + 1e-15) + 1e-300; }
 
-  /// The distance to a box whose square is given, which may have overflowed.
+  /// The distance to a box, given its square, which may have overflowed.
   f64 distance(u32 place, f64 squared) const { return squared < 1e300 ? __builtin_sqrt(squared) : far_distance(place); }
   SMALL f64 far_distance(u32 place) const {
     f64 box[2 * D], away[D];
@@ -367,7 +368,7 @@ template <int D> class Queries {
       for (int a = 0; a < D; a++) {
         f64x2 lo = __builtin_convertvector(load<f32x2>(block.lo[a] + lane), f64x2);
         f64x2 hi = __builtin_convertvector(load<f32x2>(block.hi[a] + lane), f64x2);
-        // Infinite sides that meet are not apart; what is no number is not in `is_box`.
+        // Equal infinite sides have distance 0, not NaN; unused lanes, which are NaN, are not in `is_box`.
         f64x2 away = max(max(lo - splat(asked_.hi[a]), splat(asked_.lo[a]) - hi), f64x2{});
         sum += away * away;
         if (a == 0) is_box |= at_most(lo, hi) << lane;
@@ -417,7 +418,7 @@ template <int D> class Queries {
     return true;
   }
 
-  /// The same in a world that wraps around; also false where it meets the box at another turn before.
+  /// The same in a world that wraps around; also false if it meets the box earlier in another turn.
   SMALL bool meets_around(const f64* box, u32 id, Hit& hit, f64 limit) const {
     f64 copy[2 * D];
     copies_.copy(box, copy);

@@ -2,20 +2,21 @@
 #pragma once
 #include "questions/index.hpp"
 
-/// What a question is asked with.
+/// The arguments of a query.
 template <int D> struct Question {
   f64 lo[D] = {}, hi[D] = {};  // the box, which may be a point
-  f64 along[D] = {};  // what a moving box moves by
-  f64 radius = 0;  // of a circle; negative: none, or `within`
+  f64 along[D] = {};  // the displacement of a moving box
+  f64 radius = 0;  // of a circle; or one of the codes below
   f64 limit = 0;  // the largest rank
-  f64 length = 0;  // of the way, where its share is to be ranked by distance; else 1
-  bool stops = false;  // times are to be stopped at: see meeting.hpp
-  bool touching = true;  // of areas: whether what only touches counts
+  f64 length = 0;  // of the path, if hits are ranked by distance; 1 if by time
+  bool stops = false;  // the caller stops the box at the time of a hit: see meeting.hpp
+  bool touching = true;  // for areas: whether touching counts
   u32 mask = 0;  // layers; all bits: every box, even one without a layer
   u32 ignored = 0;  // an id
-  u32 layer = 0;  // where it is a box of another space that asks: its own; else 0
+  u32 layer = 0;  // if a box of another space asks: that box's own layer; else 0
 
-  static constexpr f64 within = -2;  // in place of a radius: boxes are to be within the box, wholly
+  // Instead of a radius: the query is for a box, or only for boxes wholly within it.
+  static constexpr f64 no_circle = -1, within = -2;
 
   /// Sets `length`, without overflow. A ray ranks by distance.
   SMALL void measure_way(bool is_ray) {
@@ -36,7 +37,7 @@ template <int D> struct Question {
     return touch;
   }
 
-  /// In a world that wraps around, once the way is measured. A ray without a limit ends where it has gone once around.
+  /// In a world that wraps around, after `measure_way`. A ray without a limit ends after going around once.
   SMALL void wrap(const f64* world) {
     Copies::reach_around(world, D, lo, hi, along);
     f64 once = __builtin_inf();
@@ -45,7 +46,7 @@ template <int D> struct Question {
   }
 };
 
-/// Which boxes a question is about, by its mask and by whom it ignores.
+/// Which boxes a query asks for, by its mask and the id it ignores.
 template <int D> class Wanted {
   const Index<D>& index_;
   const u32 mask_, ignored_, own_;
@@ -54,7 +55,7 @@ template <int D> class Wanted {
   Wanted(const Index<D>& index, const Question<D>& asked)
       : index_(index), mask_(asked.mask), ignored_(asked.ignored), own_(asked.layer) {}
 
-  /// Whether no box is left out for its layer or its id.
+  /// Whether no box is excluded by its layer or id.
   bool all() const { return ignored_ > slot_mask && (own_ ? !index_.filtered() : mask_ == 0xffffffff); }
   SHARED bool operator()(u32 place) const {
     if (own_) return meets(index_.rule(index_.slot(place)));
@@ -66,18 +67,18 @@ template <int D> class Wanted {
 };
 
 struct Hit {
-  f64 rank;  // what the moving box has moved, or the distance
-  u32 id;  // with `corner`
-  i32 side;  // of moving boxes: axis + 1 of the face that is hit, negative where its normal is; 0: none
+  f64 rank;  // how far the box has moved, or the distance
+  u32 id;  // may have the flag `corner`
+  i32 side;  // for moving boxes: axis + 1 of the face that is hit, negative if its normal is; 0: none
 
-  /// With the ids of what is met only at a corner, so that faces that are met at the same time come before it: who
-  /// walks over a floor stays on the box below, and does not run into the next.
+  /// A flag on the ids of boxes that are met only at a corner, so that faces met at the same time come first: a box
+  /// sliding over a floor of boxes touches the one below and does not stop at the next.
   static constexpr u32 corner = 0x80000000;
 
   bool operator<(const Hit& other) const { return rank < other.rank || (rank == other.rank && id < other.id); }
 };
 
-/// The least `most` of the hits behind a given one: a few in order, many as a heap with the largest on top.
+/// The `most` smallest hits after a given one: few are kept in order, many in a heap with the largest on top.
 class Hits {
   static constexpr u32 few = 24;
 
@@ -106,7 +107,7 @@ class Hits {
   }
 
  public:
-  f64 limit = 0;  // no hit of a larger rank is wanted
+  f64 limit = 0;  // hits of a larger rank are rejected
 
   const Hit* data() const { return list_.data(); }
 
@@ -134,7 +135,7 @@ class Hits {
     if (count_ == most_) limit = smaller(limit, list_[ordered ? most_ - 1 : 0].rank);
   }
 
-  /// Puts them in order, the least first; returns how many.
+  /// Sorts the hits, smallest first; returns how many.
   SMALL u32 finish() {
     for (u32 n = most_ <= few ? 0 : count_; n-- > 1;) {
       Hit least = list_[n];

@@ -1,5 +1,5 @@
-// A copy of what an update saw, by slot: boxes, ids, rules and reaches, for queries that come after changes.
-// Most copies are never asked, so doubles are rounded only when an index is built over them.
+// A copy of what an update saw, by slot: boxes, ids, rules and reaches, for queries made after changes. Most copies are
+// never queried, so doubles are rounded only when an index is built over them.
 #pragma once
 #include "base/rounding.hpp"
 #include "boxes/ids.hpp"
@@ -9,14 +9,14 @@
 template <int D> struct SeenBoxes {
   static constexpr u32 width = 2 * D;
 
-  Buffer<f32> boxes;  // where they are `rounded`: outward, once `round_all` was called
+  Buffer<f32> boxes;  // if `rounded`: rounded outward, once `round_all` was called
   Buffer<f64> exact;
   Buffer<u32> ids;
   Buffer<Rule> rules;
   Buffer<f64> reaches;
   f64 most_reach = 0;
   u32 count = 0;
-  const f64* world = nullptr;  // where it wraps around: then boxes are in `exact`, and are moved as they are rounded
+  const f64* world = nullptr;  // if it wraps around: boxes are then in `exact`, and moved into it when rounded
   bool rounded = false, named = false, filtered = false, reached = false;
 
   /// Copies the boxes of a space.
@@ -44,13 +44,13 @@ template <int D> struct SeenBoxes {
     count = n;
   }
 
-  /// Whether a space holds the same kinds of things as were seen.
+  /// Whether a space has the same kinds of data as this copy.
   bool is_like(const f64* doubles, const Ids& names, const Rule* given, const f64* far, const f64* around) const {
     return reached == (far != nullptr) && world == around && rounded == (doubles || world) && named == !names.same() &&
            filtered == (given != nullptr);
   }
 
-  /// Room for n boxes. `both`: in float32 too where they are rounded.
+  /// Room for n boxes. `both`: in float32 too if they are rounded.
   SMALL void grow(u32 n, bool both) {
     if (both || !rounded) boxes.grow(u64(n) * width + 4, u64(count) * width);
     if (rounded) exact.grow(u64(n) * width, u64(count) * width);
@@ -59,7 +59,7 @@ template <int D> struct SeenBoxes {
     if (reached) reaches.grow(n, count);
   }
 
-  /// Takes over one slot.
+  /// Copies one slot.
   SMALL void take(u32 s, const f32* floats, const f64* doubles, const Ids& names, const Rule* given, const f64* far) {
     u64 from = u64(s) * width;
     if (rounded) {
@@ -72,7 +72,7 @@ template <int D> struct SeenBoxes {
     if (reached) most_reach = larger(most_reach, reaches[s] = far[s]);
   }
 
-  /// A box outward; where the world wraps around to where it is searched.
+  /// Rounds a box outward; if the world wraps around, moves it into the world first.
   NOINLINE void round(u32 slot) {
     const f64* box = &exact[u64(slot) * width];
     f32* to = &boxes[u64(slot) * width];

@@ -11,19 +11,19 @@
 #include "rules/wrap.hpp"
 
 class Copies {
-  static constexpr f64 rounding_share = 0x1p-48;  // of all numbers: what roundings may amount to
+  static constexpr f64 rounding_share = 0x1p-48;  // relative to all numbers: bounds the rounding errors
 
   const f64 *world_, *lo_, *hi_;
   int axes_ = 0;
   Span span_[3];
-  f64 worlds_[3];  // how many it is away from where `span_` has it
-  f64 turn_[3];  // by how many it is moved
+  f64 worlds_[3];  // how many worlds the query is away from `span_`
+  f64 turn_[3];  // how many worlds it is shifted in this turn
 
  public:
-  /// How many turns areas and what is near take.
+  /// The number of turns for areas and nearest boxes.
   static constexpr u32 turns(int axes) { return axes == 2 ? 9 : 27; }
 
-  /// What is as long as the world along an axis reaches all around, and moves along it in vain.
+  /// A query as long as the world along an axis covers the axis, and moving along it has no effect.
   SMALL static void reach_around(const f64* world, int axes, f64* lo, f64* hi, f64* along) {
     for (int a = 0; a < axes; a++) {
       if (!Span::of(lo[a], hi[a], world[a]).full) continue;
@@ -33,7 +33,7 @@ class Copies {
     }
   }
 
-  /// Where a box is searched, rounded outward.
+  /// Where a box stands in the index, rounded outward.
   SMALL static void place(const f64* world, int axes, const f64* box, f32* to) {
     for (int a = 0; a < axes; a++) {
       f64 lo = box[a], hi = box[axes + a];
@@ -56,7 +56,7 @@ class Copies {
     }
   }
 
-  /// Takes the n-th turn; false where it would be one along an axis along which the question reaches all around.
+  /// Takes the n-th turn; false if it would shift along an axis that the query covers.
   SMALL bool take(u32 n) {
     for (int a = 0; a < axes_; a++, n /= 3) {
       turn_[a] = number_of(n % 3);
@@ -65,7 +65,7 @@ class Copies {
     return true;
   }
 
-  /// Takes each turn at which what moves by `way` may meet boxes, and calls `at`.
+  /// Takes each turn in which a query that moves by `way` may meet boxes, and calls `at`.
   SMALL void pass(const f64* way, void (*at)(void*), void* given, int a = 0, f64 from = 0, f64 until = 1) {
     if (a == axes_) return at(given);
     if (span_[a].full) return pass(way, at, given, a + 1, from, until);
@@ -87,7 +87,7 @@ class Copies {
     }
   }
 
-  /// By how many worlds the question is moved along an axis.
+  /// By how many worlds the query is shifted along an axis.
   f64 turn(int a) const { return turn_[a]; }
 
   SMALL bool same_turn(const Copies& other) const {
@@ -96,7 +96,7 @@ class Copies {
     return same;
   }
 
-  /// Where the question is looked for at this turn, rounded outward: its lower or its upper end.
+  /// The lower or upper bound of the query in this turn, rounded outward.
   SMALL f64 end(int a, bool upper) const {
     if (span_[a].full) return upper ? __builtin_inf() : -__builtin_inf();
     f64 moved = span_[a].low + span_[a].shift + turn_[a] * world_[a];
@@ -104,12 +104,13 @@ class Copies {
     return upper ? moved + span_[a].size + more : moved - more;
   }
 
-  /// The numbers of a box that is met at this turn, where the question was asked.
+  /// Shifts a box that was met in this turn to where the query was asked.
   SMALL void copy(const f64* box, f64* to) const {
     for (int a = 0; a < axes_; a++) copy(a, turn_[a], box, to[a], to[axes_ + a]);
   }
 
-  /// Whether the question overlaps a box, or holds it, at this turn and at none before. `touching`: touching is enough.
+  /// Whether the query overlaps a box, or contains it, in this turn and in no earlier one. `touching`: touching is
+  /// enough.
   SMALL bool touches(const f64* box, bool holds, bool touching) const {
     for (int a = 0; a < axes_; a++) {
       Span its = Span::of(box[a], box[axes_ + a], world_[a]);
@@ -120,7 +121,7 @@ class Copies {
     return true;
   }
 
-  /// Whether the question overlaps a box at any turn.
+  /// Whether the query overlaps a box in any turn.
   SMALL bool meets(const f64* box, bool touching) const {
     bool all = true;
     for (int a = 0; a < axes_; a++) {
@@ -132,7 +133,7 @@ class Copies {
     return all;
   }
 
-  /// How far a box is away along each axis; false where it is nearer at another turn.
+  /// The distance of a box along each axis; false if it is nearer in another turn.
   SMALL bool away(const f64* box, f64* to) const {
     for (int a = 0; a < axes_; a++) {
       u32 best = 0;
@@ -150,7 +151,7 @@ class Copies {
   }
 
  private:
-  /// By how many worlds the n-th turn of an axis is.
+  /// By how many worlds the n-th turn shifts along an axis.
   static f64 number_of(u32 n) { return n == 2 ? -1.0 : f64(n); }
 
   static f64 slack_of(f64 lo, f64 hi, f64 world) {

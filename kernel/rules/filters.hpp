@@ -10,12 +10,12 @@
 #include "boxes/ids.hpp"
 #include "pairs/pairs.hpp"
 
-/// What a box says about whom it meets. Two boxes meet where each one's layer is in the other's mask and they
+/// The rule of a box: which other boxes it meets. Two boxes meet where each one's layer is in the other's mask and they
 /// share no exclusion bit.
 struct Rule {
   u32 layer, mask, excluded;
 
-  /// A mark beside the exclusion bits: the box is out of all pairs and questions.
+  /// A mark beside the exclusion bits: the box is off, and in no pair and no answer.
   static constexpr u32 off = 2;
   bool is_off() const { return excluded & off; }
 };
@@ -27,30 +27,30 @@ inline bool meet(const Rule& a, const Rule& b) {
 class Filters {
   static constexpr Rule everybody{0xffffffff, 0xffffffff, 0}, nobody{0, 0, 0};
   static constexpr u32 most_classes = 64, table_size = 4 * most_classes;
-  static constexpr u32 rest = most_classes;  // stands for all classes beyond: they may meet anybody
-  static constexpr u32 spare_bits = 0x0f000000;  // of the tag: those that no box has set are for classes
+  static constexpr u32 rest = most_classes;  // stands for all classes beyond that number: they may meet any box
+  static constexpr u32 spare_bits = 0x0f000000;  // bits of the tag: those that no box has set are used for classes
 
   struct Class {
     Rule rule;
-    u64 meets;  // bit d: class d
+    u64 meets;  // bit d: it meets class d
     u32 count;  // its boxes
-    u32 bits;  // the exclusion bits of its boxes in the search
+    u32 bits;  // its exclusion bits in the search
     bool lonely;
   };
 
   bool active_ = false;  // some box has a rule of its own
-  bool changed_ = false;  // since the classes were found
-  bool check_ = false;  // some pairs that the search finds may be forbidden
+  bool changed_ = false;  // since the classes were computed
+  bool check_ = false;  // the search may find forbidden pairs
   bool some_ = false;  // not all boxes are searched
   u32 searched_ = 0;  // how many are, while `some_`
   Buffer<Rule> rules_;  // per slot
-  Buffer<Rule> staged_;  // what `replace` puts in their place
+  Buffer<Rule> staged_;  // what `replace` puts in place of them
   Buffer<u32> excluded_;  // per slot, or per searched box: the exclusion bits for the search
   Buffer<u32> slots_;  // per searched box
   Buffer<f32> boxes_;  // per searched box
   Buffer<u8> class_of_;  // per slot
 
-  // Only while classes are found, so one for all spaces.
+  // Used only while classes are computed, so all spaces share it.
   inline static Class classes_[most_classes + 1];
   inline static u8 table_[table_size];  // by hash: number of the class + 1
   inline static u32 class_count_;
@@ -65,27 +65,27 @@ class Filters {
 
   SMALL void clear() { active_ = false; }
 
-  /// From now on each box has a rule, room for `capacity` of them.
+  /// Gives each box a rule of its own, with room for `capacity` of them.
   SMALL void start(u32 count, u64 capacity) {
     rules_.reserve(capacity);
     for (u32 s = 0; s < count; s++) rules_[s] = everybody;
     active_ = changed_ = true;
   }
 
-  /// Room for the rules that `replace` will put in the place of all.
+  /// Room for the rules that `replace` will put in place of all.
   SMALL Rule* stage(u32 count) { return staged_.reserve(larger(count, 1u)); }
   SMALL void replace() {
     rules_.swap(staged_);
     active_ = changed_ = true;
   }
 
-  /// The rule of a slot, to be changed.
+  /// The rule of a slot, for changing it.
   SMALL Rule& change(u32 slot) {
     changed_ = true;
     return rules_[slot];
   }
 
-  // The slots' doings, as in Store; only while active.
+  // What happens to slots, as in Store; only while active.
   SMALL void make_room(u64 count, u32 keep) { rules_.grow(count, keep); }
   u64 room() const { return rules_.capacity(); }
   SMALL void insert(u32 slot) { change(slot) = everybody; }
@@ -124,7 +124,7 @@ class Filters {
     return to;
   }
 
-  /// What slots have of their own, for those that are searched.
+  /// Picks, from an array with an entry per slot, those of the boxes that are searched.
   SMALL const u32* select(const u32* of_slots, u32 count, Buffer<u32>& to) const {
     if (!active_ || !some_) return of_slots;
     to.reserve(larger(count, 1u));
@@ -132,10 +132,10 @@ class Filters {
     return to.data();
   }
 
-  /// Where the k-th of the boxes that are searched stands.
+  /// The slot of the k-th box that is searched.
   u32 slot(u32 k) const { return active_ && some_ ? slots_[k] : k; }
 
-  /// After the search: places in the scene back to slots, and the forbidden pairs out.
+  /// After the search: turns places in the scene back into slots, and removes forbidden pairs.
   SMALL void finish(Pairs& pairs) const {
     if (!some_ && !check_) return;
     u64* list = pairs.list.data();
@@ -167,7 +167,7 @@ class Filters {
     for (u32 s = 0; s < count; s++) {
       const Class& its = classes_[class_of_[s]];
       if (its.lonely) continue;
-      // Beyond the classes that are counted, each box has bits of its own.
+      // Boxes beyond the counted classes each use their own bits.
       excluded_[k] = class_of_[s] == rest ? rules_[s].excluded : its.bits;
       if (some_) slots_[k] = s;
       k++;
@@ -181,7 +181,7 @@ class Filters {
   SMALL void find_classes(u32 count) {
     class_of_.reserve(count);
     __builtin_memset(table_, 0, sizeof(table_));
-    // The first class is that of boxes that are off: there is room for it however many others there are.
+    // The first class is that of boxes that are off, so that there is always room for it.
     classes_[0] = {nobody, 0, 0, 0, false};
     class_count_ = table_[home(nobody)] = 1;
     classes_[rest] = {everybody, 0, 0, 0, false};
@@ -214,9 +214,9 @@ class Filters {
   /// themselves included, beginning with the largest.
   SMALL void share_bits() {
     bool beyond = classes_[rest].count > 0;
-    u32 free = beyond ? 0 : spare_bits;  // nobody knows which bits those beyond have set
+    u32 free = beyond ? 0 : spare_bits;  // which bits the boxes beyond have set is not known
     check_ = beyond;
-    u64 lonely = 0, wanting = 0;  // sets of classes: bit c is class c
+    u64 lonely = 0, wanting = 0;  // sets of classes: bit c stands for class c
     for (u32 c = 0; c < class_count_; c++) {
       Class& mine = classes_[c];
       mine.meets = 0;

@@ -1,13 +1,13 @@
 // Worlds that wrap around: what leaves on one side comes in on the other.
 // Idea: each box is moved by whole worlds until its minimum is inside, and where it then reaches across the border, a
-// ghost of it, of what reaches across, is put at the other side: up to 2^D - 1 ghosts a box. Techniques see boxes and
-// ghosts and know nothing of it. A pair may be found several times, by its ghosts too. It is kept where it is found by
-// the first of them, per axis: the two boxes, the first and the other's ghost, its ghost and the other.
+// ghost of it, of what reaches across, is put at the other side: up to 2^D - 1 ghosts a box. Techniques search boxes
+// and ghosts alike. A pair may be found several times, also by its ghosts. It is kept only when found by the first of
+// these, per axis: the two boxes; the first and the other's ghost; the first's ghost and the other.
 // Exact: a box is its minimum modulo the world, which is exact, and its size as the sum of two doubles, which is too;
 // where rounding could matter, whether two of them touch is the sign of a sum of five doubles, found exactly.
 // One copy for 2D and 3D, since it is small code that counts here.
-// Cost: about 13 ns a box, for a copy of 17 (2D) or 25 (3D) bytes each; about 100 ns for each that is given outside of the world
-// or crosses its border, and for each pair of such boxes, or of ones that float32 cannot hold.
+// Cost: about 13 ns a box, for a copy of 17 (2D) or 25 (3D) bytes each; about 100 ns for each box that is given outside
+// the world or crosses its border, and for each pair of such boxes, or of ones that are not exact in float32.
 #pragma once
 #include "base/rounding.hpp"
 #include "rules/filters.hpp"
@@ -16,25 +16,25 @@
 struct Span {
   f64 low, size, rest;  // low: in ]-world, world[
   f64 shift;  // 0, or the world where low is negative
-  bool full;  // it reaches all around
+  bool full;  // it covers the whole axis
 
   SMALL static Span of(f64 lo, f64 hi, f64 world) {
     f64 size = hi - lo;
     f64 back = size - hi;  // -lo, as far as size holds it
     f64 rest = (hi - (size - back)) - (lo + back);
-    // What has no end reaches all around; so does what is as long as the world.
+    // A box that is infinite, or as long as the world, covers the whole axis.
     if (!(size < world || (size == world && rest < 0))) return {0, world, 0, 0, true};
     f64 low = lo >= 0 && lo < world ? lo : remainder(lo, world);
     return {low, size, rest, low < 0 ? world : 0, false};
   }
 
-  /// Whether it ends behind where another one begins that much further on, which is a whole number of worlds, or, where
-  /// `touching` counts, just there.
+  /// Whether it ends behind where another one begins that is shifted by `further`, a whole number of worlds; or just
+  /// there, if `touching` counts.
   SMALL bool reaches(const Span& other, f64 further, bool touching) const {
     return is_below({other.low, -low, -size, -rest, other.shift - shift + further}, touching);
   }
 
-  /// Whether it lies within another one that is moved so much further on.
+  /// Whether it lies within another one that is shifted by `further`.
   SMALL bool is_within(const Span& other, f64 further, bool touching) const {
     f64 shifted = other.shift - shift + further;
     return is_below({other.low, -low, shifted}, touching) &&
@@ -46,7 +46,7 @@ struct Span {
     f64 terms[7];
   };
 
-  /// x modulo world, with the sign of x: exact.
+  /// x modulo world, with the sign of x: exact, like fmod.
   SMALL static f64 remainder(f64 x, f64 world) {
     f64 rest = __builtin_fabs(x), step = world;
     while (step <= rest / 2) step *= 2;
@@ -56,7 +56,7 @@ struct Span {
     return x < 0 ? -rest : rest;
   }
 
-  /// Whether a sum is below 0, or just that.
+  /// Whether a sum is below 0, or equal to it.
   SMALL static bool is_below(const Sum& all, bool just) {
     f64 sum = 0, largest = 0;
     for (f64 term : all.terms) {
@@ -68,7 +68,7 @@ struct Span {
     return just ? exact <= 0 : exact < 0;
   }
 
-  /// The sign of a sum, by Shewchuk's expansions: doubles that add up to it and do not overlap, the largest last.
+  /// The sign of a sum, by Shewchuk's expansions: doubles with the same sum that do not overlap, the largest last.
   SMALL static f64 sign(const Sum& all) {
     constexpr int most = sizeof(all.terms) / sizeof(f64);
     f64 parts[most] = {};
@@ -91,9 +91,9 @@ struct Span {
 class Wrap {
   Buffer<f32> boxes_;  // rounded outward: the boxes, then the ghosts
   Buffer<u32> excluded_;  // of both
-  Buffer<u32> owners_;  // per ghost: its box, and above 24 bits the axes along which it is one
-  Buffer<u8> plain_;  // per box, whether float32 holds it, as it was given and without ghosts
-  const Filters* filters_ = nullptr;  // where each box stands among those given
+  Buffer<u32> owners_;  // per ghost: its box in 24 bits, above them the axes along which it is shifted
+  Buffer<u8> plain_;  // per box, whether it is exact in float32, not moved and without ghosts
+  const Filters* filters_ = nullptr;  // maps the boxes searched to slots
   const f32* given_ = nullptr;
   const f64* doubles_ = nullptr;
   const f64* world_ = nullptr;
@@ -129,7 +129,7 @@ class Wrap {
       }
       plain &= across == 0;
       plain_[k] = plain;
-      // One ghost for each set of the axes it reaches across along.
+      // One ghost for each subset of the axes along which it crosses the border.
       for (u32 some = across; some; some = (some - 1) & across) {
         u32 next = count_ + ghosts;
         if (next >= max_slots) fail(Fault::out_of_memory, f64(next) * width * sizeof(f32));
@@ -154,7 +154,7 @@ class Wrap {
     return boxes_.data();
   }
 
-  /// Ghosts to boxes; keeps each pair that overlaps once, and those that only touch where that counts.
+  /// Ghosts to boxes; keeps each overlapping pair once, and those that only touch if that counts.
   SMALL void fold(Pairs& pairs, bool touching) {
     touching_ = touching;
     u64* list = pairs.list.data();
@@ -193,10 +193,10 @@ class Wrap {
 
   Span span(u32 k, u32 axis) const { return Span::of(number(k, axis), number(k, dimensions_ + axis), world_[axis]); }
 
-  /// What roundings may amount to.
+  /// A bound for the rounding errors.
   static f64 slack(f64 world) { return world * 0x1p-50; }
 
-  /// Where the box itself is searched, rounded outward; says whether it may reach across the border.
+  /// The box moved into the world, rounded outward; returns whether it may cross the border.
   SMALL static bool place(const Span& span, f64 world, f32& low, f32& high) {
     if (span.full) {
       low = -__builtin_inff();
@@ -214,7 +214,7 @@ class Wrap {
     return round_up(larger(0.0, span.low + span.shift + span.size - world + 2 * slack(world)));
   }
 
-  /// Whether these are the ghosts, or the boxes, by which the pair is to be found.
+  /// Whether these are the boxes or ghosts by which the pair is to be reported.
   SMALL bool is_first(u32 a, u32 ghost_a, u32 b, u32 ghost_b) const {
     for (u32 axis = 0; axis < dimensions_; axis++) {
       Span first = span(a, axis), second = span(b, axis);

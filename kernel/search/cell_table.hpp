@@ -1,13 +1,13 @@
 // Endless cells in a finite table: each box stands in the cell of its minimum corner.
-// Idea: cells are counted round and round, modulo a power of two along each axis, so the world has no border; boxes
-// of cells that fall together are told apart when they are tested. A box that is smaller than a cell overlaps only
-// boxes that start in its cell or in one beside it. Cells of a row are contiguous: neighbours along it are one run.
+// Idea: cells are counted modulo a power of two along each axis, so the world has no border. Different cells may share
+// an entry of the table; testing their boxes tells them apart. A box that is smaller than a cell overlaps only boxes
+// that start in its cell or in one beside it. Cells of a row are contiguous: neighbours along it are one run.
 #pragma once
 #include "boxes/scene_sample.hpp"
 #include "search/sweep.hpp"
 
 template <int D> struct CellTable {
-  /// Where a box lies: its first cell, and how many cells further it reaches along each axis.
+  /// The cells of a box: the first one, and how many more it extends over along each axis.
   struct Place {
     u32x4 at, reach;
   };
@@ -15,15 +15,15 @@ template <int D> struct CellTable {
   u32x4 mask;    // per lane of an item's vectors: the number of cells, a power of two but not 2, less 1
   f32x4 scale;   // cells per unit; 0: one cell for all
   u32 first;     // cell
-  u32 shift[D];  // of the number of a cell along each axis
+  u32 shift[D];  // of a cell's number along each axis
 
-  /// With so many cells along each axis, or fewer where that would be more than `most`. Returns how many.
+  /// Sets the number of cells along each axis, reduced if there would be more than `most`. Returns how many there are.
   SMALL u32 shape(const f64* wanted, u32 first_cell, u64 most) {
     u32 log[D], sum = 0;
     for (int a = 0; a < D; a++) {
       log[a] = 0;
       while (log[a] < 20 && f64(1u << log[a]) < wanted[a]) log[a]++;
-      // Of two cells each would be on both sides of the other.
+      // With two cells, each would be on both sides of the other.
       if (log[a] == 1) log[a] = 2;
       sum += log[a];
     }
@@ -46,12 +46,13 @@ template <int D> struct CellTable {
     return 1u << sum;
   }
 
-  /// Numbers of cells, not yet modulo: coordinates to the nearest integer, as floats of the exponent `counted`.
+  /// Numbers of cells before the modulo: coordinates rounded to the nearest integer, as floats of the exponent
+  /// `counted`.
   static constexpr f32 magic = 12582912;  // 1.5 * 2^23 leaves integers below 2^22 in the low bits, two's complement
   static constexpr u32 counted = 0x4b000000, exponent = 0xff800000;
   u32x4 number(f32x4 x) const { return bits<u32x4>(x * scale + splat(magic)); }
 
-  /// Whether the cells of an item's corners have such numbers: not where they are too far away.
+  /// Whether the cells of an item's corners have such numbers: false if they are too far away.
   bool is_counted(const Item<D>& item) const {
     u32x4 wrong = (number(item.first()) ^ splat(counted)) & splat(exponent);
     if constexpr (D == 3) {
@@ -75,14 +76,15 @@ template <int D> struct CellTable {
     return cell;
   }
 
-  /// The items of `count` cells of a row, from cell x on, but none before `from`. `starts`: of each cell.
+  /// The items of `count` cells of a row, from cell x on, but none before `from`. `starts` has the first item of each
+  /// cell.
   Run* run(Run* out, const u32* starts, u32 item, u32 from, u32 row, u32 x, u32 count) const {
     u32 width = mask[0] + 1, behind = x + count;
     out = add(out, item, from, starts[row + smaller(behind, width)]);
     return add(out, item, starts[row], starts[row + larger(behind, width) - width]);
   }
 
-  /// Cells around a place along an axis: from the one before it to the last it reaches, but none twice.
+  /// Cells around a place along an axis: from the one before it to the last one it extends to, none twice.
   u32 before(const Place& place, int axis) const { return (place.at[axis] - 1) & mask[axis]; }
   u32 around(const Place& place, int axis) const { return smaller(place.reach[axis] + 2, mask[axis] + 1); }
 
@@ -109,8 +111,8 @@ template <int D> struct CellTable {
     return out;
   }
 
-  /// The items that an item of these cells meets: those behind it in its cell, and those of the cells that it reaches
-  /// into or that lie beside these. Every pair is met from one side.
+  /// The items to test an item against: those after it in its cell, and those of the cells that it extends into or that
+  /// lie beside these. Every pair is met from one side only.
   NOINLINE Run* peers(Run* out, const u32* starts, const Item<D>& item, u32 i) const {
     Place at = place(item);
     u32x4 reach = at.reach & mask;
@@ -128,7 +130,7 @@ template <int D> struct CellTable {
     return out;
   }
 
-  /// Writes the cell of each of some items, but not the same one twice in a row. Returns the end.
+  /// Writes the cells of some items, without consecutive duplicates. Returns the end.
   SMALL f32* draw(f32* to, ItemsAt<D> items, u32 from, u32 until) const {
     for (u32 i = from; i < until; i++) {
       bool another = i == from;

@@ -1,5 +1,5 @@
 // A grid of uniform cells: which size they have, and which of them a box overlaps.
-// Boxes outside stand in the border cells. Where no cell size is given it follows from the mean size and the crowding
+// Boxes outside are put into the border cells. If no cell size is given, it follows from the mean size and the crowding
 // of the boxes.
 #pragma once
 #include "boxes/cell_map.hpp"
@@ -8,8 +8,8 @@
 
 template <int D> struct Grid {
   static constexpr f64 boxes_per_cell = 3;  // aimed at; measured to be nearly flat from 2 to 5
-  // A cell size so small that boxes would have more entries than this is doubled until they do not: 64 each and some
-  // for few boxes, 16 each for very many.
+  // If boxes would have more entries than this, the cell size is doubled until they do not: 64 per box plus a constant
+  // for few boxes, 16 per box for very many.
   static constexpr u64 entries_each = 64, entries_more = 1 << 16, few_entries = 1 << 22, entries_of_many = 16;
   static u64 most_entries(u64 count) {
     return larger(entries_of_many * count, smaller(entries_each * count + entries_more, few_entries));
@@ -25,7 +25,7 @@ template <int D> struct Grid {
     return total;
   }
 
-  /// Sets the grid, of at most so many cells; returns the number of entries the boxes will have in it.
+  /// Sets up a grid of at most `most_cells` cells; returns the number of entries the boxes will have in it.
   NOINLINE u64 choose(const SceneItems<D>& items, u32 count, const Settings& options, u32 most_cells) {
     SceneSample<D> world = measure<D>(items, count);
     f64 extent[D], chosen[D];
@@ -51,7 +51,7 @@ template <int D> struct Grid {
     for (;;) {
       f64 product = 1;
       for (int a = 0; a < D; a++) {
-        // Axis rounds to the nearest: cell 0 is centred half a cell in.
+        // Axis rounds to the nearest cell, so cell 0 is centred half a cell inside the border.
         f64 first = low[a] + size[a] / 2;
         axis[a] = Axis::make(first, first + (cells[a] - 1) * size[a], cells[a]);
         product *= cells[a];

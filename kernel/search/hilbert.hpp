@@ -1,7 +1,7 @@
 // Items in the order of their centres along the Hilbert curve.
-// The curve goes through one cell after the other of every quadtree (octree), so that neighbours stand together
-// and the first digits of a place on it name the cell of a tree. Where wanted, boxes that are larger than a cell
-// stand before all that is in it: first by cell, then from the large to the small.
+// The curve visits the cells of a quadtree (octree) one after the other, so neighbours are close together in the order,
+// and the first digits of a place on it name the cell of a tree. On request, boxes that are larger than a cell come
+// before all those in it: ordered by cell, then from large to small.
 // Cost: about 20 ns an item: a radix sort and a copy.
 // From: J. Skilling, "Programming the Hilbert curve", 2004.
 #pragma once
@@ -14,7 +14,7 @@ template <int D> class HilbertCurve {
   Axes along_[D];
 
  public:
-  // Two digits of the radix sort. Finer cells than about one for each item order nothing that matters.
+  // Two digits of the radix sort. Cells much finer than one per item would not improve the order.
   static constexpr u32 levels = D == 2 ? 11 : 7, level_bits = 4;
 
   SMALL explicit HilbertCurve(const SceneSample<D>& world) {
@@ -25,7 +25,7 @@ template <int D> class HilbertCurve {
     }
   }
 
-  /// Centres to cells, cells to the curve.
+  /// From centres to cells, and from cells to the curve.
   SHARED u32x4 operator()(const SceneItems<D>& items, const u32 (&index)[4]) const {
     f32x4 centres[4];
     for (int k = 0; k < 4; k++) {
@@ -48,14 +48,14 @@ template <int D> class HilbertCurve {
       }
     }
     for (int a = 1; a < D; a++) at[a] ^= at[a - 1];
-    u32x4 turns = at[D - 1] >> 1;  // to the parity of all higher bits
+    u32x4 turns = at[D - 1] >> 1;  // the parity of all higher bits
     ROLLED for (u32 step = 1; step < 16; step *= 2) turns ^= turns >> step;
     u32x4 key = {};
     for (int a = 0; a < D; a++) key |= spread(at[a] ^ turns) << u32(D - 1 - a);
     return key;
   }
 
-  /// A place, cut to the cell of a level that it is in.
+  /// A place, truncated to its cell on a level.
   static u32 at_level(u32 key, u32 level) {
     u32 finer = D * (levels - level);
     return key >> finer << finer << level_bits | level;
@@ -122,9 +122,9 @@ template <int D> class HilbertOrder {
     for (int a = 0; a < D; a++) {
       f32 size = item.hi(a) - item.lo(a), extent = f32(world.high[a] - world.low[a]);
       f32 mine = size > 0 ? size / extent : 0;
-      share = mine < share ? share : mine;  // NaN, where both are infinite, counts
+      share = mine < share ? share : mine;  // also true for NaN, when both are infinite
     }
-    // As many levels as it can be doubled and is still no more than 1.
+    // One level for each time that it can be doubled without exceeding 1.
     if (!(share <= 0.5f)) return 0;
     u32 doublings = 127 - ((bits<u32>(share) + 0x7fffff) >> 23);
     return smaller(doublings, Curve::levels);

@@ -1,13 +1,12 @@
 // A packed tree of boxes: nodes of four, level by level in one array, and its join with itself.
 //
 // Idea: items are ordered along the Hilbert curve, which keeps neighbours together; each four in that order have
-// a parent, each four parents one of their own, up to a last four. No node names another: the children of the
-// k-th node of a level are items 4k … 4k + 3 of the level below. All levels are lanes, so that one node is tested
-// against four with the same few instructions as an item.
-// The join meets every two items once: where they are in one node as siblings, else under two sibling nodes that
-// overlap. Lists of overlapping pairs go down the levels in chunks that fit the cache: first the children of the
-// one, then those of the other. A node's tag has the exclusion bits that all its items share, so what can make no
-// pair is not entered.
+// a parent, each four parents one of their own, up to a last four. Nodes store no references: the children of the k-th
+// node of a level are items 4k … 4k + 3 of the level below. All levels are lanes, so that one node is tested against
+// four with the same few instructions as an item.
+// The join meets every two items once: as siblings in one node, or below two sibling nodes that overlap. Lists of
+// overlapping pairs go down the levels in chunks that fit the cache: first the children of one node, then those of the
+// other. A node's tag has the exclusion bits that all its items share, so subtrees without pairs are skipped.
 // Cost: about 25 ns an item to build, 30 (2D) or 40 (3D) bytes.
 // From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993.
 #pragma once
@@ -17,7 +16,7 @@
 
 namespace detail {
 
-// Where one of the two is nothing (NaN) the result is the other.
+// If one of the two is empty (NaN), the result is the other.
 struct Least {
   f32x4 operator()(f32x4 x, f32x4 y) const { return choose(x, min(y, x), y); }
   static f32x4 choose(f32x4 x, f32x4 both, f32x4 y) {
@@ -32,7 +31,7 @@ struct Common {
   f32x4 operator()(f32x4 x, f32x4 y) const { return bits<f32x4>(bits<u32x4>(x) & bits<u32x4>(y)); }
 };
 
-/// One number of each node of a level: those of its four children united. Behind the nodes there is nothing.
+/// Computes one number of each node of a level from those of its four children. After the last node come empty ones.
 template <class Unite> SHARED void unite(const f32* from, u32 size, f32* to, u32 room, Unite both) {
   u32 k = 0;
   for (; 4 * k < size; k += 4) {
@@ -48,19 +47,19 @@ template <class Unite> SHARED void unite(const f32* from, u32 size, f32* to, u32
 
 template <int D> class PackedTree {
   static constexpr u32 most_depth = 13;
-  static constexpr u32 chunk = 128;                             // pairs that go down a level together
+  static constexpr u32 chunk = 128;                             // pairs that go down a level together, per chunk
   static constexpr u32 list_size = 4 * chunk + 2 * Pairs::slack;
 
   HilbertOrder<D> order_;
   Lanes<D> lanes_;
-  Buffer<u64> lists_;             // per level two: pairs of its nodes, and of its nodes with those below
+  Buffer<u64> lists_;             // two per level: pairs of its nodes, and of its nodes with those below
   u32 first_[most_depth] = {};   // per level, its first lane
   u32 sizes_[most_depth] = {};   // and how many
   u32 levels_ = 0;
 
  public:
-  /// Orders the boxes of a scene that is not empty, and builds all levels over them. Behind the last box stay
-  /// `spare` places for others.
+  /// Orders the boxes of a scene that is not empty, and builds all levels over them. After the last box, `spare` places
+  /// are left for others.
   SHARED void build(const Scene<D>& scene, u32 spare) {
     u32 n = scene.count;
     u32 total = 0;
@@ -86,7 +85,7 @@ template <int D> class PackedTree {
     return sum;
   }
 
-  /// Puts an item in a place, or nothing. Then refit.
+  /// Puts an item into a place, or empties it. Call `refit` afterwards.
   SHARED void put(u32 place, const f32* box, u32 tag) {
     for (int a = 0; a < D; a++) {
       lanes_.lo(a)[place] = box[a];
@@ -117,7 +116,7 @@ template <int D> class PackedTree {
     }
   }
 
-  /// Every two items that overlap and share no exclusion bit.
+  /// Finds all pairs of items that overlap and share no exclusion bit.
   SHARED void join(Pairs& pairs, Stats& stats) {
     for (u32 l = levels_; l-- > 0;) siblings(l, pairs, stats);
   }
@@ -150,16 +149,16 @@ template <int D> class PackedTree {
 
   u64* list(u32 which) const { return lists_.data() + which * list_size; }
 
-  /// What stands in a pair: slots where the lanes are items, else the lanes themselves. By masks, so that the
-  /// compiler makes no second loop of it.
+  /// The contents of a pair: slots if the lanes are items, else the lanes themselves. Uses masks so that the compiler
+  /// does not split the loop in two.
   struct Names {
     u32x4 items;
     explicit Names(bool are_items) : items(splat(are_items ? slot_mask : 0)) {}
     u32x4 operator()(u32x4 tags, u32x4 lanes) const { return (tags & items) | (lanes & (items == u32x4{})); }
   };
 
-  /// Tests each pair's smaller against the four children of its larger, a node of `level`, and appends the pairs
-  /// that overlap: of slots where `last`, as all are items, else of lanes.
+  /// Tests the smaller node of each pair against the four children of the larger, a node of `level`. Appends the
+  /// overlapping pairs: of slots if `last`, when all are items, else of lanes.
   SHARED u64* expand(const u64* from, u32 count, u32 level, bool last, u64* out, Stats& stats) const {
     const LaneView<D> lanes = lanes_.view();
     const Names names(last);

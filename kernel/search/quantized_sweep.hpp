@@ -11,10 +11,10 @@
 template <int D> class QuantizedSweep {
   static constexpr u32 block = 16, cells = 1 << 16;
   static_assert(Lanes<D>::spare_lanes >= block);
-  // Blocks are looked at closer when there are this many.
+  // Blocks are tested exactly when this many have been collected.
   static constexpr u32 enough = 512;
 
-  /// Of the items from `at` on those with a bit may overlap `item`.
+  /// Items from `at` on that may overlap `item`, a bit for each.
   struct Near {
     u32 item, at, which;
   };
@@ -23,9 +23,9 @@ template <int D> class QuantizedSweep {
   Buffer<Near> near_;
 
  public:
-  /// Tests each item of [first, last), which are the last of all, against those behind it and before its `end`, and
-  /// appends the pairs. Where the items stand in ascending order of their minima along axis 0, `sorted`, no `end` is
-  /// needed: those are tested that start before it ends. Returns the number of tests, but only then.
+  /// Tests each item of [first, last), which is the end of the list, against those after it and before its `end`, and
+  /// appends the pairs. If `sorted`, items are in ascending order of their minima along axis 0, and no `end` is needed:
+  /// an item is tested against those that start before it ends. Only then, returns the number of tests.
   template <bool sorted = true>
   NOINLINE u64 find(const Lanes<D>& from, const SceneSample<D>& world, u32 first, u32 last, Pairs& pairs,
                     const u32* end = nullptr) {
@@ -87,7 +87,7 @@ template <int D> class QuantizedSweep {
   }
 
  private:
-  /// The cells of `count` coordinates, and of the padding behind them.
+  /// Computes the cells of `count` coordinates, and of the padding after them.
   NOINLINE static void round(const Axis& axis, const f32* from, i16* to, u32 count) {
     Axes axes(axis, axis, axis, axis);
     for (u32 k = 0; k < count + block; k += 8) {

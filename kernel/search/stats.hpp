@@ -17,7 +17,7 @@ struct Stats {
   f64 candidates = 0;  // pairs found in float32, before the exact test in double
   f64 pairs = 0;       // pairs reported
   f64 cells = 0;       // cells, strips or nodes in use
-  f64 entries = 0;     // places of boxes in them: more than boxes where a box stands in several
+  f64 entries = 0;     // boxes in all of these: a box may be in several
   f64 bytes = 0;       // of memory in use by the whole space
   f64 technique = 0;   // index of the technique that ran: tells what `auto` chose
   f64 reason = 0;      // and why: a Reason

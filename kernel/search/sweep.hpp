@@ -11,7 +11,7 @@
 #pragma once
 #include "pairs/pairs.hpp"
 
-/// Which of the items j … j + 3 overlap `one`, or each its own of four.
+/// Which of the items j … j + 3 overlap `one`, which is one item, or four for a lane-by-lane test.
 template <int D, class One> i32x4 overlaps(const One& one, const LaneView<D>& lanes, u32 j) {
   i32x4 all = bits<i32x4>(splat(~0u));
   for (int axis = 0; axis < D; axis++) {
@@ -21,7 +21,7 @@ template <int D, class One> i32x4 overlaps(const One& one, const LaneView<D>& la
   return all;
 }
 
-/// The same; adds those of which two bounds are equal to `touching`.
+/// The same; also sets in `touching` the items with a bound equal to one of `one`.
 template <int D, class One> i32x4 overlaps(const One& one, const LaneView<D>& lanes, u32 j, i32x4& touching) {
   f32x4 depth = min(one.hi[0] - load<f32x4>(lanes.lo[0] + j), load<f32x4>(lanes.hi[0] + j) - one.lo[0]);
   for (int axis = 1; axis < D; axis++) {
@@ -37,7 +37,7 @@ template <int D> struct Probe {
   f32x4 lo[D], hi[D];
   u32x4 slot, excluded;
 
-  /// A box the numbers of which are so far apart.
+  /// A box whose numbers are `apart` floats from each other in memory.
   Probe(const f32* box, u32 apart, u32 tag) : slot(splat(tag & slot_mask)), excluded(splat(tag & ~slot_mask)) {
     for (u32 axis = 0; axis < D; axis++) {
       lo[axis] = splat(box[axis * apart]);
@@ -58,7 +58,7 @@ template <int D> struct Probe {
   i32x4 hits(const LaneView<D>& lanes, u32 j, u32x4 tags) const {
     return overlaps(*this, lanes, j) & bits<i32x4>((tags & excluded) == u32x4{});
   }
-  /// The same; adds those that touch to `touching`, if it is to `watch`.
+  /// The same; if `watch`, also sets those that touch in `touching`.
   template <bool watch> i32x4 hits(const LaneView<D>& lanes, u32 j, u32x4 tags, i32x4& touching) const {
     if constexpr (!watch) return hits(lanes, j, tags);
     else return overlaps(*this, lanes, j, touching) & bits<i32x4>((tags & excluded) == u32x4{});
@@ -84,19 +84,19 @@ template <int D> struct Four {
   }
 };
 
-/// So much further than four items on average may one of them look for them to be tested together.
+/// Four items are tested together if none of them has more candidates than their average and this many.
 inline constexpr u32 together = 6;
 
-/// Tests item i of the `count` items of `from`, which are all, against the items i + 1 … end[i] - 1 and appends the pairs.
-/// `exact_end`: what stands behind `end` may overlap, so lanes past it are masked out. Behind `end` there are four more.
+/// Tests each item i of the `count` items of `from` against the items i + 1 … end[i] - 1, and appends the pairs.
+/// `exact_end`: items past `end` may overlap, so their lanes are masked out. `end` has four more entries.
 template <int D, bool exact_end, bool watch>
 NOINLINE void sweep_as(const Lanes<D>& from, const u32* end, u32 count, Pairs& pairs) {
-  const LaneView<D> lanes = from.view();  // on the stack nothing aliases it
+  const LaneView<D> lanes = from.view();  // a local copy, which nothing aliases
   u64* out = pairs.list.data() + pairs.count;
   u64* limit = pairs.list.data() + pairs.list.capacity();
   for (u32 i = 0; i < count; i += 4) {
     u32x4 place = u32x4{0, 1, 2, 3} + splat(i);
-    // How far each of four items looks; 0 behind the last.
+    // The number of candidates of each of four items; 0 past the last item.
     i32x4 reach = bits<i32x4>(load<u32x4>(end + i) - place) & (bits<i32x4>(place) < bits<i32x4>(splat(count)));
     u32x4 pair = bits<u32x4>(reach);
     pair = max(pair, __builtin_shufflevector(pair, pair, 2, 3, 0, 1));
@@ -139,7 +139,7 @@ template <int D, bool exact_end = false> void sweep(const Lanes<D>& from, const 
   else sweep_as<D, exact_end, false>(from, end, count, pairs);
 }
 
-/// Items that stand together, to be tested against one that stands elsewhere or before them.
+/// A run of contiguous items, to be tested against one item outside it or before it.
 struct Run {
   u32 item, from, until;
 };

@@ -8,24 +8,24 @@
 #include "search/quantized_sweep.hpp"
 
 template <int D> class SweepList {
-  // Cells hold one item on average; above this many squared they are given up for a sort.
+  // Cells hold one item on average; above this mean of the squared counts, a full sort is used instead.
   static constexpr u64 uneven = 6;
-  // Of the tests of so many items, so many blocks of four each, it is told which share would hit.
+  // The share of tests that would hit is estimated from this many items, and this many blocks of four for each.
   static constexpr u32 sampled_items = 32, sampled_blocks = 8;
 
   Items<D> ordered_;
-  Lanes<D> lanes_;       // the same, as the sweep reads them
+  Lanes<D> lanes_;       // the same items, as the sweep reads them
   Buffer<u32> cells_;    // per item, its cell
-  Buffer<u32> starts_;   // per cell, where its items begin, later: end
-  Buffer<u32> end_;      // per ordered item, how far to look
+  Buffer<u32> starts_;   // per cell, where its items begin; later, where they end
+  Buffer<u32> end_;      // per ordered item, the end of its candidates
   RadixSort sort_;
   QuantizedSweep<D> quantized_sweep_;
-  // Items that there is memory for. Where one list is longer than another, another may be longer still: memory that is
-  // used for the first time takes long.
+  // Items that there is memory for. It grows by more than needed, since lists differ in length and using new memory for
+  // the first time is slow.
   u32 room_ = 0;
 
  public:
-  /// Room for lists of so many items.
+  /// Room for lists of `count` items.
   void reserve(u32 count) {
     if (count > room_) make_room(count);
   }
@@ -46,7 +46,7 @@ template <int D> class SweepList {
     }
     for (u32 k = whole; k < count; k++) starts[cells[k] = axes(splat(items[k].lo(0)))[0]]++;
     u32 at = 0;
-    u64 crowd = 0;  // the sum of the squares: what the unsorted cells cost
+    u64 crowd = 0;  // the sum of squared counts: the tests within unsorted cells
     for (u32 c = 0; c < count; c++) {
       u32 size = starts[c];
       starts[c] = at;
@@ -62,7 +62,7 @@ template <int D> class SweepList {
     u32* end = end_.data();
     u64 tests = 0;
     for (u32 k = 0; k < count; k += 4) {
-      u32x4 at = axes(load<f32x4>(hi + k));  // past the last item: NaN, which any cell will do for
+      u32x4 at = axes(load<f32x4>(hi + k));  // past the last item: NaN, for which any cell will do
       u32x4 until = {starts[at[0]], starts[at[1]], starts[at[2]], starts[at[3]]};
       store(end + k, until);
     }
@@ -74,14 +74,14 @@ template <int D> class SweepList {
   /// Appends the pairs of the items that were ordered last.
   void find(u32 count, Pairs& pairs) const { sweep<D>(lanes_, end_.data(), count, pairs); }
 
-  /// The same where items look far and few of those they meet overlap. `world`: where most of them are.
+  /// The same for items with many candidates, few of which overlap. `world`: a sample of the items.
   SMALL void find_few(const SceneSample<D>& world, u32 count, Pairs& pairs)
     requires(D == 3)
   {
     quantized_sweep_.template find<false>(lanes_, world, 0, count, pairs, end_.data());
   }
 
-  /// Of the tests that the sweep is about to make, which share would hit, by a sample of them.
+  /// Estimates, from a sample, which share of the coming sweep's tests would hit.
   SMALL f64 hits(u32 count) const {
     LaneView<D> view = lanes_.view();
     u64 hits = 0, tried = 0;
@@ -119,7 +119,7 @@ template <int D> class SweepList {
     room_ = count;
   }
 
-  /// The same by a full sort: for strips where cells of one size do not fit.
+  /// The same by a full sort: for strips where no single cell size fits.
   u64 order_by_sorting(const ItemsAt<D>& items, u32 count) {
     sort_.begin(count);
     for (u32 k = 0; k < count; k++) sort_.put(k, items[k].lo(0));
@@ -132,7 +132,7 @@ template <int D> class SweepList {
     u32* end = end_.data();
     u64 tests = 0;
     for (u32 k = 0; k < count; k++) {
-      // The first item that starts past this one's end: by doubling steps, then by halving.
+      // The first item that starts past this one's end: found by doubling steps, then by halving them.
       u32 step = 1, from = k + 1;
       while (from + step <= count && lo[from + step - 1] <= hi[k]) {
         from += step;

@@ -1,33 +1,33 @@
 // Which technique `auto` runs in an update, and why. The choices (their wording for users is that of Reason in
 // search/stats.hpp):
-//   - A handful of boxes: brute force, which costs less than looking at them first.
+//   - A handful of boxes: brute force, which costs less than measuring them first.
 //   - From the first snapshot on, strip sweep: it retains nothing, so that earlier updates do not affect the order of
 //     pairs.
-//   - Otherwise incremental, which answers from its candidates when that costs less and by strip sweep when it does not.
+//   - Otherwise incremental, which uses its candidates while that costs less, and strip sweep while it does not.
 //     It decides by counting work, not time.
 #pragma once
 #include "search/stats.hpp"
 #include "space/snapshot.hpp"
 #include "space/techniques.hpp"
 
-/// What a space is made with.
+/// The technique of a new space.
 inline constexpr Technique by_default = Technique::automatic;
 
-/// Boxes up to which all are tested against all: docs/decisions/0008-small-counts.md has the figures.
+/// Up to this many boxes, all are tested against all: docs/decisions/0008-small-counts.md has the figures.
 inline constexpr u32 handful = 24;
 
 static_assert(!is_built(Technique::automatic) || (is_built(Technique::brute_force) &&
                                                   is_built(Technique::strip_sweep) && is_built(Technique::incremental)),
               "auto stands for brute force, strip sweep and incremental: a build with it has all three");
 
-/// What a technique that was asked for stands for, given how many boxes there are, and whether no update before may show.
+/// The technique to run for the one asked for. `ordered`: earlier updates must not affect the order of pairs.
 inline Technique auto_choice(Technique asked, u32 boxes, bool ordered) {
   if (asked != Technique::automatic) return asked;
   if (boxes <= handful) return Technique::brute_force;
   return ordered ? Technique::strip_sweep : Technique::incremental;
 }
 
-/// Says which technique has answered, and why it was chosen; `incremental` has said so itself.
+/// Records which technique has answered, and why; `incremental` has recorded its own reason.
 SMALL inline void say_choice(Technique asked, Technique ran, Stats& stats) {
   stats.technique = f64(u32(ran));
   if (asked != Technique::automatic) stats.reason = f64(u32(Reason::asked_for));
@@ -36,7 +36,7 @@ SMALL inline void say_choice(Technique asked, Technique ran, Stats& stats) {
   else if (stats.reason != f64(u32(Reason::kept))) stats.technique = f64(u32(Technique::strip_sweep));
 }
 
-/// The number of a technique in a snapshot, and back.
+/// From a technique to its number in a snapshot, and back.
 inline u8 saved_number(Technique name) { return name == Technique::automatic ? SnapshotHeader::automatic : u8(name); }
 inline Technique saved_technique(u8 number) {
   return number == SnapshotHeader::automatic ? Technique::automatic : Technique(number);

@@ -10,14 +10,14 @@ template <int D> class Finder {
   Technique ran_ = {};
 
  public:
-  Buffer<f32> cells;  // what structure() has written
+  Buffer<f32> cells;  // the result of structure()
   u32 cell_count = 0;
 
   Technique ran() const { return ran_; }
   bool follows_changes(Technique name) { return techniques_.follows_changes(name); }
   bool notes_doubts() { return techniques_.notes_doubts(ran_); }
 
-  /// Has a technique find the pairs of slots.
+  /// Lets a technique find the pairs of slots.
   NOINLINE void run(Technique chosen, const Scene<D>& scene, const Settings& settings, Pairs& pairs, Stats& stats) {
     if (chosen != ran_) {
       release();
@@ -28,8 +28,8 @@ template <int D> class Finder {
     techniques_.with(ran_, [&](auto& technique) { technique.update(scene, settings, pairs, stats); });
   }
 
-  /// Writes the boxes of the cells of the last update to `cells`. Sides without a border become the border of
-  /// all finite boxes.
+  /// Writes the boxes of the cells of the last update to `cells`. Unbounded sides are clipped to the bounds of all
+  /// finite boxes.
   SMALL void structure(const Store<D>& store, Stats& stats) {
     techniques_.with(ran_, [&](auto& used) { used.structure(cells, cell_count, stats); });
     const f32* boxes = store.numbers.boxes();
@@ -56,7 +56,7 @@ template <int D> class Finder {
     }
   }
 
-  /// Gives the techniques' memory back: on a switch, and after memory has run out in the middle of one.
+  /// Releases the memory of the techniques: on a switch to another, and after memory ran out in one.
   SMALL void release() {
     techniques_.with(ran_, [](auto& used) { used.release(); });
     cells.release();

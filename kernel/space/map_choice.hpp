@@ -6,15 +6,15 @@
 
 template <int D> class MapChoice {
   static constexpr u32 width = 2 * D;
-  // So many points, all at one place, are few candidates for an update.
+  // This many points, even all in one place, add few candidates to an update.
   static constexpr u32 usual_collapsed = 256;
-  // Updates between two looks for a better map, and boxes from which on it is worth one.
+  // Updates between two searches for a better map, and the number of boxes from which on it is worth one.
   static constexpr u32 look_every = 16, worth_a_look = 64;
 
   GapMap<D> map_;      // plain while boxes are written in place or the world wraps around
-  u32 collapsed_ = 0;  // how many boxes given since the last update are points in float32, on some axis, but are none
-  u32 bearable_ = usual_collapsed;  // with more of them another map is looked for at once
-  u32 look_in_ = 0;  // updates until it is looked for anyhow
+  u32 collapsed_ = 0;  // boxes set since the last update that rounding has collapsed along some axis
+  u32 bearable_ = usual_collapsed;  // if there are more, another map is tried at once
+  u32 look_in_ = 0;  // updates until another map is tried in any case
 
  public:
   const GapMap<D>& map() const { return map_; }
@@ -25,12 +25,12 @@ template <int D> class MapChoice {
     bearable_ = usual_collapsed;
   }
 
-  /// So many boxes have become points; more, or in all.
+  /// Records how many boxes have collapsed: further ones, or in all.
   void count_more(u32 collapsed) { collapsed_ += collapsed; }
   void count(u32 collapsed) { collapsed_ = collapsed; }
 
-  /// Looks whether another map serves better, now and then, and at once where many boxes have become points; true where
-  /// all are to be rounded anew. `ordered`: what stands in the space alone decides.
+  /// Tries another map, every few updates, or at once if many boxes have collapsed. True if the map was replaced, and
+  /// all boxes have to be rounded again. `ordered`: the choice must depend on the present boxes alone.
   SMALL bool look(const f32* boxes, const f64* exact, u32 n, bool ordered) {
     u32 collapsed = collapsed_;
     collapsed_ = 0;

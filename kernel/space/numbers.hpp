@@ -10,9 +10,9 @@ template <int D> class Numbers {
   static constexpr u32 width = 2 * D;  // numbers in a box
 
   Buffer<f32> boxes_, staged_;
-  Buffer<f64> exact_, staged_exact_;  // the doubles given, while `rounding_`
+  Buffer<f64> exact_, staged_exact_;  // the numbers given, while `rounding_`
   bool rounding_ = false;
-  MapChoice<D> choice_;  // from doubles to float32, while `rounding_`
+  MapChoice<D> choice_;  // the map from doubles to float32, while `rounding_`
 
  public:
   static constexpr u64 padding = 4;  // vector loads may read this many floats past the last box
@@ -21,7 +21,7 @@ template <int D> class Numbers {
 
   f32* boxes() { return boxes_.data(); }
   const f32* boxes() const { return boxes_.data(); }
-  /// Null where float32 holds all boxes.
+  /// Null if all numbers are exact in float32.
   const f64* exact() const { return rounding_ ? exact_.data() : nullptr; }
   const GapMap<D>& map() const { return choice_.map(); }
 
@@ -31,7 +31,7 @@ template <int D> class Numbers {
     u64 all = (boxes_.capacity() - padding) / width;
     return rounding_ ? smaller(all, exact_.capacity() / width) : all;
   }
-  /// Room for `count` boxes, of which the first `keep` stay.
+  /// Room for `count` boxes; the first `keep` are preserved.
   SMALL void make_room(u64 count, u32 keep) {
     if (written.in_place() && written.shown() == 0 && count * width + padding > boxes_.capacity()) {
       written.move(boxes_, larger(count * width + padding, boxes_.capacity() + boxes_.capacity() / 2), keep);
@@ -39,12 +39,12 @@ template <int D> class Numbers {
     boxes_.grow(count * width + padding, u64(keep) * width);
     if (rounding_) exact_.grow(capacity() * width, u64(keep) * width);
   }
-  /// Whether memory may be had for the first double.
+  /// Whether there is memory to start storing doubles.
   SMALL bool may_round() const { return rounding_ || heap::reach(2 * capacity() * width * sizeof(f64)); }
 
   // One box.
 
-  /// Takes the last box to another slot.
+  /// Moves the last box to another slot.
   SMALL void move(u32 last, u32 slot) {
     written.changes.note(slot);
     __builtin_memcpy(boxes_.data() + u64(slot) * width, boxes_.data() + u64(last) * width, width * sizeof(f32));
@@ -54,7 +54,7 @@ template <int D> class Numbers {
     written.show(boxes_.data(), slot);
   }
 
-  /// A number as it was given, or written in place since.
+  /// A number as it was given, or as it was written in place since.
   f64 number(u32 slot, u32 k) const {
     u64 at = u64(slot) * width + k;
     if (!rounding_) return boxes_[at];
@@ -64,13 +64,13 @@ template <int D> class Numbers {
     return box[k];
   }
 
-  /// Reads these boxes beforehand, all that are taken together.
+  /// Prefetches a batch of boxes.
   void read_ahead(const u32* slots, u32 many) const {
     read_rows(boxes_.data(), width * sizeof(f32), slots, many, 1);
     if (rounding_) read_rows(exact_.data(), width * sizeof(f64), slots, many, 1);
   }
 
-  /// Puts boxes, each so many numbers behind the one before, in their slots, and notes which are not what stood there.
+  /// Writes boxes, `step` numbers apart, to their slots, and records which of them have changed.
   template <u32 step> void put(const f64* box, const u32* slots, u32 count) {
     if (rounding_) put<step, true>(box, slots, count);
     else put<step, false>(box, slots, count);
@@ -78,7 +78,7 @@ template <int D> class Numbers {
 
   // All boxes.
 
-  /// Memory into which boxes are written that are to stand in place of all, as float32 or as doubles.
+  /// Memory for boxes that are going to replace all, as float32 or as doubles.
   f32* stage(u32 count) { return staged_.reserve(u64(count) * width + padding); }
   f64* stage_exact(u32 count) {
     stage(count);
@@ -86,13 +86,13 @@ template <int D> class Numbers {
   }
   f64 staged_number(u32 index, bool doubles) const { return doubles ? staged_exact_[index] : f64(staged_[index]); }
 
-  /// The first bad box among what was staged, or -1. `rounded`: whether float32 cannot hold all of them.
+  /// The first bad one of the staged boxes, or -1. `rounded`: whether some are not exact in float32.
   SMALL i32 check_staged(u32 count, bool doubles, bool& rounded) {
     rounded = false;
     return doubles ? round_staged(count, rounded) : first_bad(staged_.data(), count);
   }
 
-  /// What was staged is now what stands in the space; `rounded`: with doubles that float32 cannot hold.
+  /// Replaces all boxes by the staged ones. `rounded`: some of these are not exact in float32.
   void take_staged(bool rounded) {
     boxes_.swap(staged_);
     if (rounded) exact_.swap(staged_exact_);
@@ -101,7 +101,7 @@ template <int D> class Numbers {
     written.end();
   }
 
-  /// Room for so many boxes where they stand, the new ones at the origin.
+  /// Changes the number of boxes in place; new ones are at the origin.
   SMALL void resize(u32 count, u32 had) {
     boxes_.grow(u64(count) * width + padding, u64(had) * width);
     if (count > had) {
@@ -109,15 +109,15 @@ template <int D> class Numbers {
     }
   }
 
-  /// What was staged stands in the place of the boxes, to be written in place.
+  /// Replaces the boxes by the staged ones, which will be written in place.
   void swap_staged() { boxes_.swap(staged_); }
 
-  /// From now on these boxes are float32, each number to the nearest.
+  /// Rounds each number to the nearest float32, for good.
   SMALL void round_in_place(u32 count) {
     for (u32 k = 0; k < count * width; k++) boxes_[k] = f32(exact_[k]);
   }
 
-  /// From now on the doubles are kept too, of so many boxes.
+  /// Starts to store the doubles of `n` boxes too.
   SMALL void keep_doubles(u32 n) {
     written.see(boxes_.data(), n);
     exact_.reserve(larger(boxes_.capacity(), u64(width)));
@@ -126,18 +126,18 @@ template <int D> class Numbers {
     round_all(n);
   }
 
-  /// From now on the boxes are float32.
+  /// Drops the doubles: boxes are stored as float32 only.
   SMALL void hold_floats() {
     rounding_ = false;
     choice_.reset();
   }
 
-  /// Looks whether the doubles of so many boxes would better be searched by other numbers.
+  /// Tries another map, and rounds the boxes again if it is better.
   SMALL void look_for_map(u32 n, bool ordered) {
     if (rounding_ && !written.in_place() && choice_.look(boxes_.data(), exact_.data(), n, ordered)) round_all(n);
   }
 
-  /// Takes over what was written in place, none of it bad, over boxes that were given as doubles.
+  /// Updates the stored doubles by what was written in place, which has no bad boxes.
   SMALL void take_written(u32 n) {
     written.see(boxes_.data(), n);
     for (u32 s = 0; written.in_place() && rounding_ && s < n; s++) {
@@ -149,7 +149,7 @@ template <int D> class Numbers {
     }
   }
 
-  /// The first of so many boxes that is not what it is to be searched by, or -1.
+  /// The first box whose float32 numbers are not what its doubles are rounded to, or -1.
   SMALL i32 first_unrounded(u32 n) const {
     for (u32 s = 0; rounding_ && !written.in_place() && s < n; s++) {
       f32 image[width];
@@ -159,10 +159,10 @@ template <int D> class Numbers {
     return -1;
   }
 
-  /// The first of so many boxes that is bad, or -1.
+  /// The first bad one of `count` boxes, or -1.
   i32 first_bad(u32 n) const { return first_bad(boxes_.data(), n); }
 
-  /// Whether float32 holds all numbers of these boxes, so many numbers apart.
+  /// Whether all numbers of these boxes, which are `step` numbers apart, are exact in float32.
   NOINLINE static bool are_floats(const f64* box, u32 count, u32 step) {
     i32x4 rounded = {};
     for (; count > 0; count--, box += step) rounded |= GapMap<D>::rounded(box);
@@ -208,7 +208,8 @@ template <int D> class Numbers {
     written.changes.note_all();
   }
 
-  /// A box of which some numbers may have been written in place since it was given: those that are not what was shown.
+  /// A box of which some numbers may have been written in place since it was given: those that differ from its rounded
+  /// ones.
   SMALL void as_written(u32 slot, f64* to) const {
     const f64* given = exact_.data() + u64(slot) * width;
     const f32* now = boxes_.data() + u64(slot) * width;
@@ -216,7 +217,7 @@ template <int D> class Numbers {
     map().round(given, shown);
     for (u32 k = 0; k < width; k++) to[k] = shown[k] == now[k] ? given[k] : f64(now[k]);
     for (u32 a = 0; a < D; a++) {
-      // One side as it was given, the other as it was written: rounding may have put them in this order.
+      // One side is as given and the other as written; rounding may have swapped their order.
       if (to[a] <= to[D + a]) continue;
       to[a] = now[a];
       to[D + a] = now[D + a];
@@ -234,8 +235,8 @@ template <int D> class Numbers {
     return -1;
   }
 
-  /// Rounds the staged doubles into the staged float32; says whether float32 cannot hold all of them. Returns the first
-  /// bad box, or -1.
+  /// Rounds the staged doubles into the staged float32; `rounded`: whether some are not exact in float32. Returns the
+  /// first bad box, or -1.
   i32 round_staged(u32 count, bool& rounded) {
     auto all = map().round_all(staged_exact_.data(), count, staged_.data());
     if (all.bad >= 0) return all.bad;

@@ -9,7 +9,7 @@ struct Own {
   PerBox<u32> groups;
   PerBox<f64> reaches;
 
-  /// Null where no box has a rule.
+  /// Null if no box has a rule.
   const Rule* rules() const { return filters.active() ? filters.rules() : nullptr; }
   Rule rule(u32 slot) const { return filters.active() ? filters.rules()[slot] : Rule{0xffffffff, 0xffffffff, 0}; }
 
@@ -18,7 +18,7 @@ struct Own {
     groups.make_room(count, keep);
     reaches.make_room(count, keep);
   }
-  /// How many boxes there is room for, at most `all`.
+  /// The number of boxes there is room for, at most `all`.
   u64 room(u64 all) const {
     if (filters.active()) all = smaller(all, filters.room());
     if (groups.some()) all = smaller(all, groups.room());
@@ -26,7 +26,7 @@ struct Own {
     return all;
   }
 
-  /// A new box has nothing.
+  /// A new box has the default settings.
   void insert(u32 slot) {
     if (filters.active()) filters.insert(slot);
     groups.insert(slot);
@@ -42,7 +42,7 @@ struct Own {
     groups.clear();
     reaches.clear();
   }
-  /// The ids become 0 … count - 1; those that were there keep what they have.
+  /// The ids become 0 … count - 1; boxes that were there keep their settings.
   void renumber(const Ids& ids, u32 count) {
     if (groups.some()) groups.stage(count);
     if (reaches.some()) reaches.stage(count);

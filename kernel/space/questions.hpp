@@ -11,19 +11,19 @@ template <int D> class Questions {
 
  public:
   Question<D> asked;
-  Planes<D> planes;  // of a question about planes
-  Buffer<u32> answers;  // ids, of the last question
-  Hits hits;  // where the question asks for an order
-  Bulk<D> bulk;  // many questions, and their answers
+  Planes<D> planes;  // of a query with planes
+  Buffer<u32> answers;  // ids, of the last query
+  Hits hits;  // of queries whose answers are in order
+  Bulk<D> bulk;  // many queries in one call, and their answers
 
-  static constexpr u32 unknown = 0xffffffff;  // an answer: nobody has kept what the last update saw
+  static constexpr u32 unknown = 0xffffffff;  // an answer: no copy was kept of what the last update saw
 
   SMALL constexpr Questions(Store<D>& store, const Settings& options) : options_(options), store_(store) {}
 
-  /// What the last update saw.
+  /// The boxes of the last update.
   Index<D>& index() { return store_.seen.index; }
 
-  /// Answers the question with the boxes that touch its box or circle: see Queries::area.
+  /// Finds the boxes that touch the box or circle of the query: see Queries::area.
   SMALL u32 ask_area(u32& from, u32 most) {
     if (store_.seen.lost()) return unknown;
     if (!can_answer()) return 0;
@@ -34,7 +34,7 @@ template <int D> class Questions {
     return found;
   }
 
-  /// Answers it with the boxes that are not behind one of the planes: see PlaneQuery::search.
+  /// Finds the boxes that are not behind one of the planes: see PlaneQuery::search.
   SMALL u32 ask_planes(u32& from, u32 most) {
     if (store_.seen.lost()) return unknown;
     if (!can_answer()) return 0;
@@ -44,8 +44,8 @@ template <int D> class Questions {
     return found;
   }
 
-  /// Answers it with what the moving box meets first, or with what is nearest, at most so many and behind `after`:
-  /// the answers are in `hits`, in order. Returns how many.
+  /// Finds the first boxes that the moving box meets, or the nearest ones: at most `most`, after the hit `after`. They
+  /// are in `hits`, in order. Returns how many.
   SMALL u32 ask_order(bool moving, u32 most, const Hit* after) {
     if (store_.seen.lost()) return unknown;
     if (!can_answer()) return 0;
@@ -58,8 +58,8 @@ template <int D> class Questions {
     return hits.finish();
   }
 
-  /// Answers many questions, those that are staged or those of all boxes, into `bulk`; `asked` says what they have in
-  /// common. Returns how many there are, or `unknown`.
+  /// Answers many queries into `bulk`: those that are staged, or one for each box. `asked` has what they have in
+  /// common. Returns the number of queries, or `unknown`.
   SMALL u32 ask_many(Asks kind, u32 count, u32 most) {
     if (store_.seen.lost()) return unknown;
     bool can = can_answer();
@@ -74,14 +74,14 @@ template <int D> class Questions {
     return count;
   }
 
-  /// From now on the ids are kept that have changed, and what the last update saw. Returns their epoch, or `unknown`.
+  /// Starts to keep a list of changed ids, and what the last update saw. Returns the epoch of the list, or `unknown`.
   SMALL u32 keep_changes() {
     if (store_.seen.lost()) return unknown;
     look();
     return store_.changed.keep();
   }
 
-  /// Whether two boxes overlap, one behind the other, where the world wraps around.
+  /// Whether two boxes, stored one after the other, overlap in a world that wraps around.
   SMALL bool meet_around(const f64* boxes) const {
     Copies copies;
     copies.begin(options_.wrap, D, boxes, boxes + D);
@@ -99,7 +99,7 @@ template <int D> class Questions {
     if (!store_.seen.ask()) store_.seen.see(store_.standing());
   }
 
-  /// Whether there is anything to ask about; if so, the index is made.
+  /// Whether there are any boxes; if so, builds the index.
   SMALL bool can_answer() {
     look();
     if (index().count() == 0) return false;

@@ -4,18 +4,18 @@
 #include "base/heap.hpp"
 
 template <int D> struct RoomAhead {
-  // Bytes a box, pairs included, that an update takes in ordinary scenes; and that stand once all is kept.
+  // Bytes per box, pairs included, that an update takes in ordinary scenes, and that everything retained takes.
   static constexpr u32 usual = D == 2 ? 448 : 640, kept = D == 2 ? 352 : 640;
-  // Bytes that a few more boxes take, or the first filter, double, gap or question.
+  // Bytes for a few more boxes, or for the first filter, double, gap in the ids, or query.
   static constexpr u32 spare = 1 << 17;
-  // Bytes that the pairs of boxes that are written in place may take, of which nobody knows yet where they stand.
+  // Bytes for the pairs of boxes that will be written in place, whose positions are not known yet.
   static constexpr u32 in_place = 1 << 18;
-  // Bytes a pair that the tables take in which pairs are looked up.
+  // Bytes per pair of the lookup tables.
   static constexpr u32 lookup = 24;
-  // Bytes a box that all arrays of boxes may take as they grow.
+  // Bytes per box that all arrays of boxes may take as they grow.
   static constexpr u32 most = 2 * (2 * D * (sizeof(f32) + sizeof(f64)) + 24);
 
-  /// Takes memory for the updates to come of so many boxes, and so many bytes.
+  /// Reserves memory for updates of `count` boxes, and `more` bytes.
   SMALL static void take(u64 count, u64 more) {
     u64 usually = count * usual, all = usually + count * kept;
     heap::reach(larger(usually, all - smaller(all, u64(heap::used))) + more);

@@ -9,15 +9,15 @@
 template <int D> class SceneBuilder {
   static constexpr u32 width = 2 * D;
 
-  Buffer<u32> groups_;  // of those that are searched, where not all boxes are
-  Buffer<f32> grown_;  // by their reaches: the boxes that are searched, where some box has one
-  Buffer<f64> grown_exact_;  // the same as doubles, of which they are made
+  Buffer<u32> groups_;  // of the boxes searched, if not all are
+  Buffer<f32> grown_;  // the boxes enlarged by their reaches, if some box has one
+  Buffer<f64> grown_exact_;  // the same as doubles, from which they are rounded
 
  public:
   Wrap wrap;
-  const f64* doubles = nullptr;  // what pairs in doubt are tested in, where float32 does not hold all of it
+  const f64* doubles = nullptr;  // the numbers to test pairs in doubt with; null if all are exact in float32
 
-  /// The scene of an update. `follows`: whether the technique asks what has changed.
+  /// Builds the scene of an update. `follows`: whether the technique uses the list of changes.
   SMALL Scene<D> build(Store<D>& store, bool follows, bool ordered) {
     Numbers<D>& numbers = store.numbers;
     Filters& filters = store.own.filters;
@@ -32,21 +32,21 @@ template <int D> class SceneBuilder {
       scene.excluded = filters.excluded();
       if (scene.filtered || scene.boxes != boxes) scene.changes = nullptr;
     }
-    if (groups.some() && !store.world()) {  // ghosts have none: `part_groups` sees to them
+    if (groups.some() && !store.world()) {  // ghosts have no groups: then `part_groups` removes the pairs
       scene.groups = filters.select(groups.data(), scene.count, groups_);
       scene.filtered |= groups.changed();
     }
     groups.updated();
     if (store.world()) {
       scene.changes = nullptr;
-      scene.filtered |= scene.excluded != nullptr;  // of the ghosts, too
+      scene.filtered |= scene.excluded != nullptr;  // exclusion bits of ghosts may change too
       scene.boxes = wrap.unfold(scene.count, scene.excluded, filters, boxes, doubles, store.world(), D);
     }
     return scene;
   }
 
  private:
-  /// Makes the boxes that are searched where some reach beyond themselves.
+  /// Enlarges the boxes by their reaches.
   SMALL const f32* grow(const Store<D>& store) {
     u32 n = store.ids.count();
     f32* to = grown_.reserve(u64(n) * width + Numbers<D>::padding);

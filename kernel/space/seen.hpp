@@ -5,27 +5,28 @@
 #include "boxes/changes.hpp"
 #include "questions/index.hpp"
 
-/// What stands in a space, to be copied.
+/// The present contents of a space, for the index to copy.
 template <int D> struct Standing {
   const f32* boxes;
-  const f64* exact;  // null: float32 holds all boxes
+  const f64* exact;  // null: all numbers are exact in float32
   const Ids& ids;
   const Rule* rules;  // null: none
   const f64* reaches;  // null: none
-  const f64* world;  // its size, where it wraps around; else null
+  const f64* world;  // its size if it wraps around; else null
 };
 
 template <int D> class Seen {
-  // The index follows one changed box in so many, or as few boxes; more cost more than a new index.
+  // The index is updated in place if at most one box in `follow_share` changed, or `follow_least` boxes; with more, a
+  // new one costs less.
   static constexpr u32 follow_share = 32, follow_least = 8;
 
-  bool asked_ = false;  // ever
+  bool asked_ = false;  // there has been a query
   bool holds_ = true;  // the index has what the last update saw: at first, nothing
-  bool lost_ = false;  // nobody has
+  bool lost_ = false;  // no copy was kept of it
 
  public:
-  // Boxes up to which a copy is made though nobody has asked; and where boxes are written in place, so that it would be
-  // made in each update.
+  // Up to this many boxes, a copy is made even before the first query; fewer if boxes are written in place, when each
+  // update makes one.
   static constexpr u32 spared = 16384, spared_in_place = 4096;
 
   Index<D> index;
@@ -33,24 +34,25 @@ template <int D> class Seen {
   bool holds() const { return holds_; }
   bool lost() const { return lost_; }
 
-  /// The index takes over what stands in the space.
+  /// Copies the present boxes into the index.
   void see(const Standing<D>& now) {
     index.see(now.boxes, now.exact, now.ids, now.rules, now.reaches, now.world);
     holds_ = true;
   }
 
-  /// Before a change: what the last update saw is kept, once. `most`: boxes of which a copy is made unasked.
+  /// Before the first change since an update: keeps what that update saw. `most`: up to this many boxes are copied even
+  /// before the first query.
   void hold(const Standing<D>& now, u32 most) {
     if (asked_ || now.ids.count() <= most) see(now);
-    else lost_ = holds_ = true;  // holds_: so that it is not asked for again
+    else lost_ = holds_ = true;  // holds_: so that this is not called again
   }
 
-  /// An update sees what stands in the space, whatever was lost before.
+  /// An update begins: it sees the present boxes, so an earlier loss no longer matters.
   void begin() {
     if (lost_) holds_ = lost_ = false;
   }
 
-  /// Whether it can follow an update of so many boxes with these changes; if not, it holds nothing any more.
+  /// Whether the index can be updated in place by these changes; if not, it is out of date.
   bool can_follow(const Changes& changes, u32 boxes) {
     holds_ = holds_ && !changes.all() && changes.count() <= larger(boxes / follow_share, follow_least);
     return holds_;
@@ -59,18 +61,18 @@ template <int D> class Seen {
     holds_ = index.follow(now.boxes, now.exact, now.ids, now.rules, now.reaches, changes.list(), changes.count(),
                           now.world);
   }
-  /// After an update of boxes that are written in place: whoever does so does not say when.
+  /// After an update of boxes that are written in place: a later write is not announced, so they are copied now.
   void see_in_place(const Standing<D>& now) {
     if (!holds_ && (asked_ || now.ids.count() <= spared_in_place)) see(now);
   }
 
-  /// Somebody asks; false where what stands in the space has to be seen first.
+  /// A query begins; false if the present boxes have to be copied first.
   bool ask() {
     asked_ = true;
     return holds_;
   }
 
-  /// What was seen is no more, and of the order of boxes before nothing is to be seen.
+  /// Forgets what was seen, and the order of boxes in the index.
   SMALL void restart() {
     holds_ = lost_ = false;
     index.forget();

@@ -5,8 +5,8 @@
 
 namespace detail {
 
-/// Whether some box is nowhere along an axis: the difference of its bounds is no number, or, where they were rounded,
-/// infinite, so that doubts go unnoticed.
+/// Whether some box lies at infinity along an axis: a difference of its bounds is NaN, or infinite if they were
+/// rounded, so the sweep does not record its pairs as in doubt.
 template <int D, class T> SMALL bool some_nowhere(const T* boxes, u32 count) {
   bool some = false;
   for (u64 k = 0; k < u64(count) * 2 * D; k += 2 * D) {
@@ -15,7 +15,7 @@ template <int D, class T> SMALL bool some_nowhere(const T* boxes, u32 count) {
   return some;
 }
 
-/// Writes those of these pairs that overlap behind one another; returns where they end.
+/// Writes those pairs that overlap, contiguously; returns the end.
 template <int D, bool touching, class T>
 NOINLINE u64* retest(const Filters& filters, const T* boxes, const u64* from, const u64* until, u64* to) {
   for (; from < until; from++) {
@@ -35,8 +35,8 @@ NOINLINE u64* retest(const Filters& filters, const T* boxes, const u64* from, co
 
 }  // namespace detail
 
-/// Keeps, of the pairs in doubt, those that overlap in the numbers given, or grown from these. `noted`: whether the
-/// technique says which are in doubt; else all are.
+/// Keeps, of the pairs in doubt, those that overlap in the numbers given, enlarged by the reaches. `noted`: whether the
+/// technique has recorded which are in doubt; else all are.
 template <int D>
 SMALL void settle_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles, bool noted, bool touching) {
   const Filters& filters = store.own.filters;
@@ -66,7 +66,7 @@ SMALL void settle_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles
   pairs.count = kept;
 }
 
-/// Takes pairs within a group out.
+/// Removes pairs within a group.
 NOINLINE inline void part_groups(Pairs& pairs, const u32* groups) {
   u64* list = pairs.list.data();
   u64 kept = 0;
@@ -79,7 +79,7 @@ NOINLINE inline void part_groups(Pairs& pairs, const u32* groups) {
   pairs.count = kept;
 }
 
-/// Slots to ids, the smaller first.
+/// Replaces slots by ids, the smaller first.
 NOINLINE inline void name_pairs(Pairs& pairs, const Ids& ids) {
   u64* list = pairs.list.data();
   for (u64 p = 0; p < pairs.count; p++) {

@@ -13,12 +13,12 @@
 /// Little endian, as WebAssembly is.
 struct SnapshotHeader {
   u32 magic;
-  u8 version;  // 2 where there are parts that 1 does not know
+  u8 version;  // 2 if there are parts that version 1 does not have
   u8 dimensions : 4;
-  u8 reaches : 4;  // 1: they are a part too
+  u8 reaches : 4;  // 1: reaches are included
   u8 parts;  // SnapshotPart
   u8 technique;  // its number, or `automatic`
-  u64 checksum;  // of all bytes, with this one 0
+  u64 checksum;  // of all bytes, with this field 0
   u32 count;  // boxes
   u32 pairs;
 
@@ -37,7 +37,7 @@ enum SnapshotPart : u8 {
   has_groups = 128
 };
 
-/// Why bytes are refused: src/snapshot.ts says it in words, by these names.
+/// Why bytes are refused: src/snapshot.ts has a message for each of these names.
 enum class SnapshotFault : u32 { none, foreign, newer, length, damaged, dimensions, technique, content };
 
 class Snapshot {
@@ -50,7 +50,7 @@ class Snapshot {
   u8* at(u64 byte) const { return reinterpret_cast<u8*>(words_.data()) + byte; }
   bool has(u8 parts) const { return head_.parts & parts; }
 
-  /// Finds the places of all parts; false where they would end beyond what can be addressed.
+  /// Computes the offsets of all parts; false if the end is beyond what can be addressed.
   SMALL bool lay_out() {
     u64 count = head_.count, place = sizeof(SnapshotHeader);
     auto take = [&](bool is_there, u64 bytes) {
@@ -90,7 +90,7 @@ class Snapshot {
   u8* boxes() const { return at(boxes_); }
   u32 box_bytes() const { return ids_ - boxes_; }
 
-  /// Writes all but the boxes, for which there is room then. `events`: where there are some.
+  /// Writes everything except the boxes, and makes room for them. `events`: null if they are off.
   SMALL void write(u32 dimensions, u8 technique, bool doubles, const Ids& ids, const Filters& filters,
                    const u32* groups, const f64* reaches, const Events* events) {
     u32 n = ids.count();
@@ -112,7 +112,7 @@ class Snapshot {
     if (events) head_.pairs = u32(events->count());
     if (!lay_out()) fail(Fault::out_of_memory, f64(u64(1) << 32));
     words_.reserve(end_ / sizeof(u64));
-    words_[end_ / sizeof(u64) - 1] = 0;  // what fills it up
+    words_[end_ / sizeof(u64) - 1] = 0;  // the padding
     if (events) events->save(reinterpret_cast<u64*>(at(pairs_)));
     if (has(has_order)) store(at(order_), ids.clock());
     for (u32 s = 0; s < n; s++) {
@@ -126,15 +126,15 @@ class Snapshot {
     }
   }
 
-  /// When the boxes are written too.
+  /// Writes the checksum, once the boxes are there.
   SMALL void seal() {
     store(at(0), head_);
     head_.checksum = checksum();
     store(at(0), head_);
   }
 
-  /// Makes room for bytes to be read, of which this is the header, if it is good as far as it can tell. `built`: the
-  /// techniques there are.
+  /// Makes room for the bytes of a snapshot with this header, if the header is good. `built`: the techniques of this
+  /// build.
   SMALL SnapshotFault stage(const SnapshotHeader& head, u32 size, u32 dimensions, u32 built) {
     if (size < sizeof(SnapshotHeader) || head.magic != SnapshotHeader::right_magic) return SnapshotFault::foreign;
     if (head.version > SnapshotHeader::newest) return SnapshotFault::newer;
@@ -151,13 +151,14 @@ class Snapshot {
     return SnapshotFault::none;
   }
 
-  /// Whether the bytes, behind the header that they were staged with, are what once was written.
+  /// Whether the bytes after the header are what was once written, by the checksum.
   SMALL bool is_whole() const {
     store(at(0), head_);
     return checksum() == head_.checksum;
   }
 
-  /// Looks at all but the boxes, and makes room for it; nothing changes. False where it is nothing that was written.
+  /// Validates everything except the boxes, and makes room for it; nothing changes. False if it cannot have been
+  /// written by `write`.
   SMALL bool check(Filters& filters, PerBox<u32>& groups, PerBox<f64>& reaches, Events* events) const {
     Rule* rules = has(has_layers | has_masks | has_bits) ? filters.stage(head_.count) : nullptr;
     for (u32 s = 0; rules && s < head_.count; s++) {
@@ -187,7 +188,7 @@ class Snapshot {
     return true;
   }
 
-  /// Takes over all but the boxes, after `check`; false, and nothing has changed, where the ids are bad.
+  /// Restores everything except the boxes, after `check`; false, and nothing has changed, if the ids are bad.
   SMALL bool take(Ids& ids, Filters& filters, PerBox<u32>& groups, PerBox<f64>& reaches, Events* events) const {
     const u32* order = has(has_order) ? reinterpret_cast<const u32*>(at(order_)) : nullptr;
     if (!has(has_ids)) ids.reset(head_.count);

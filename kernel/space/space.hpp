@@ -23,10 +23,10 @@ template <int D> class Space {
   SceneBuilder<D> builder_;
   Lookups lookups_;
   u32 seen_ = 0;  // boxes in the last update
-  bool searching_ = false;  // in an update: until its end there are no pairs
-  bool restored_ = false;  // since the last update: the pairs before are not those of which a table may be made
+  bool searching_ = false;  // in the middle of an update: there are no pairs until it ends
+  bool restored_ = false;  // since the last update: its pairs are not in the list that a table is built for
   bool ordered_ =
-      false;  // a snapshot was taken or restored: from then on no update before may show in the order of pairs
+      false;  // a snapshot was taken or restored: from then on, earlier updates must not affect the order of pairs
 
  public:
   Store<D> store;
@@ -56,7 +56,7 @@ template <int D> class Space {
     return -1;
   }
 
-  /// Writes what stands in the space to `snapshot`. Returns the first bad id among boxes written in place, or -1.
+  /// Writes the contents of the space to `snapshot`. Returns the first bad id among boxes written in place, or -1.
   SMALL i32 save() {
     store.see_written();
     i32 bad = store.bad_in_place();
@@ -64,7 +64,7 @@ template <int D> class Space {
     Numbers<D>& numbers = store.numbers;
     u32 n = store.ids.count();
     numbers.take_written(n);
-    if (!ordered_) store.changes().note_all();  // those pairs are in another order
+    if (!ordered_) store.changes().note_all();  // the retained pairs are in another order
     ordered_ = true;
     const f64* exact = numbers.exact();
     bool doubles = exact && !numbers.are_floats(exact, n, 2 * D);
@@ -76,8 +76,8 @@ template <int D> class Space {
     return -1;
   }
 
-  /// Takes what was staged in `snapshot` in place of all there is, and finds the pairs, as after an update. Where the
-  /// bytes are bad, or memory ends before all is taken, nothing changes; where it ends later there are no pairs.
+  /// Replaces the contents by those staged in `snapshot`, and finds the pairs, as after an update. If the bytes are
+  /// bad, or memory runs out before everything is replaced, nothing changes; if it runs out later, there are no pairs.
   SMALL SnapshotFault restore() {
     if (!snapshot.is_whole()) return SnapshotFault::damaged;
     const SnapshotHeader& head = snapshot.head();
@@ -98,14 +98,14 @@ template <int D> class Space {
     look_for_map();
     find(choose());
     publish();
-    store.changes().note_all();  // the next update finds out what begins and ends
+    store.changes().note_all();  // the next update determines which pairs begin and end
     return SnapshotFault::none;
   }
 
   /// Whether two ids are a pair of the last update.
   SMALL bool is_pair(u32 a, u32 b) { return lookups_.is_pair(pairs, a, b); }
 
-  /// Writes the ids that were in a pair with this one in the last update to the answers; returns how many.
+  /// Writes the partners of an id in the last update to the answers; returns how many.
   SMALL u32 partners(u32 id) { return lookups_.partners(pairs, id, questions.answers); }
 
   /// Writes the boxes of the cells of the last update to the finder's `cells`.
@@ -114,7 +114,8 @@ template <int D> class Space {
     finder.structure(store, stats);
   }
 
-  /// After memory has run out: all that an update needs is built anew. In the middle of one: and there are no pairs.
+  /// After memory has run out: drops everything retained, so that the next update rebuilds it. If it ran out during an
+  /// update, there are no pairs.
   SMALL void recover() {
     finder.release();
     store.changes().note_all();
@@ -126,7 +127,7 @@ template <int D> class Space {
       stats = Stats{};
     }
     searching_ = false;
-    stats.cells = stats.entries = 0;  // there are none to draw
+    stats.cells = stats.entries = 0;  // there are none to draw any more
     lookups_.forget();
     pairs.doubts.release();
     builder_.wrap.release();
@@ -163,7 +164,7 @@ template <int D> class Space {
   Technique choose() const { return auto_choice(technique, store.ids.count(), ordered_); }
   Events* kept_events() { return store.keeps_events ? &store.events : nullptr; }
 
-  /// Takes over what was written in place, and looks for better numbers to search.
+  /// Records what was written in place, and tries a better map.
   void note_written() {
     store.numbers.take_written(store.ids.count());
     look_for_map();
@@ -175,19 +176,20 @@ template <int D> class Space {
     if (!store.world()) store.numbers.look_for_map(store.ids.count(), ordered_);
   }
 
-  /// Whether nothing has changed for a technique that keeps what it has found.
+  /// Whether nothing has changed since the technique found the pairs.
   bool is_at_rest(Technique chosen) {
     const Own& own = store.own;
     return finder.follows_changes(chosen) && chosen == finder.ran() && store.changes().none() &&
            store.ids.count() == seen_ && !own.filters.changed() && !own.groups.changed();
   }
 
-  /// Has a technique find the pairs, and makes of them what is reported; false where they are those of before.
+  /// Lets a technique find the pairs, and turns them into the ones to report; false if they are the same as before.
   SMALL bool find(Technique chosen) {
     searching_ = true;
     Scene<D> scene = builder_.build(store, finder.follows_changes(chosen), ordered_);
     search(scene, chosen);
-    bool same = pairs.same && !store.numbers.written.renamed && !builder_.doubles;  // may have changed below float32
+    // With doubles, bounds may have changed by less than float32 shows.
+    bool same = pairs.same && !store.numbers.written.renamed && !builder_.doubles;
     if (store.own.filters.active() || store.world() || !store.ids.same()) pairs.stable = 0;
     note_seen();
     if (stats.candidates == 0) stats.candidates = f64(pairs.count);
@@ -207,7 +209,7 @@ template <int D> class Space {
     finder.run(chosen, scene, mapped, pairs, stats);
   }
 
-  /// What changed is known to those who follow it; from now on nothing has.
+  /// Passes the changes on to those who follow them, and empties the list.
   SMALL void note_seen() {
     Changes& changes = store.changes();
     u32 n = store.ids.count();
@@ -220,7 +222,7 @@ template <int D> class Space {
     store.numbers.written.renamed = false;
   }
 
-  /// From pairs of slots in float32 to those that are reported.
+  /// Turns pairs of slots found in float32 into the pairs to report.
   SMALL void settle() {
     const Own& own = store.own;
     if (store.world()) builder_.wrap.fold(pairs, options_.touching);
@@ -235,7 +237,7 @@ template <int D> class Space {
     lookups_.forget();
     updates++;
     stats.pairs = f64(pairs.count);
-    // Growing later would cut the views of the pairs off, in the midst of a loop over them.
+    // Growing memory later would detach the views of the pairs in the middle of a loop over them.
     RoomAhead<D>::take(store.ids.count(), pairs.count * RoomAhead<D>::lookup + RoomAhead<D>::spare);
     stats.bytes = f64(heap::used);
     say_choice(technique, finder.ran(), stats);

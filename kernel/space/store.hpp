@@ -11,13 +11,16 @@
 #include "space/room_ahead.hpp"
 #include "space/seen.hpp"
 
+/// The contents of a space, for a recorder. 0 for ids that are the slots, and for what no box has.
+enum ContentsPlace : u32 { ids_at, boxes_at, doubles_at, rules_at, groups_at, reaches_at };
+
 template <int D> class Store {
   static constexpr u32 width = 2 * D;
-  // With more boxes than these, all that are taken together are read beforehand: see Ring.
+  // With more boxes than this, slots no longer fit the cache, and a batch is prefetched: see Ring.
   static constexpr u32 near_boxes = 20000;
 
   const Settings& options_;
-  bool tight_ = false;  // memory may not be had for the first double
+  bool tight_ = false;  // there may be no memory to start storing doubles
 
  public:
   Ids& ids;
@@ -26,19 +29,19 @@ template <int D> class Store {
   Seen<D> seen;
   Events events;  // while `keeps_events`
   bool keeps_events = false;
-  ChangedIds changed;  // for who keeps pairs with another space
+  ChangedIds changed;  // for spaces that keep pairs with this one
 
   SMALL constexpr Store(Ids& all, const Settings& options) : options_(options), ids(all) {}
 
   Changes& changes() { return numbers.written.changes; }
-  /// The size of the world, where it wraps around.
+  /// The size of the world if it wraps around; else null.
   const f64* world() const { return options_.wrap[0] > 0 ? options_.wrap : nullptr; }
   /// For the index to copy.
   Standing<D> standing() {
     see_written();
     return {numbers.boxes(), numbers.exact(), ids, own.rules(), own.reaches.data(), world()};
   }
-  /// What was written in place is where the boxes are.
+  /// Copies what was written in place to where the boxes are.
   SMALL void see_written() { numbers.written.see(numbers.boxes(), ids.count()); }
 
   /// Memory for that many boxes, so that it need not grow while they are added.
@@ -46,15 +49,15 @@ template <int D> class Store {
     if (count > ids.count()) make_room(count, ids.count());
   }
 
-  /// Adds or moves the first `count` boxes of the ring, in their order, and says what may wait in it from now on. All
-  /// ids but one that comes alone are in the space, or there is room for them.
+  /// Adds or moves the first `count` boxes of the ring, in order, and updates what may wait in it. All ids are in the
+  /// space, or there is room for them; only a box that comes alone may need more.
   NOINLINE void take(Ring<D>& ring, u32 count) {
     if (count) before_change();
     u32 slots[Ring<D>::batch];
     for (u32 from = 0; from < count; from += Ring<D>::batch) {
       const f64* entries = ring.entries + from * Ring<D>::step;
       u32 many = smaller(count - from, Ring<D>::batch);
-      // What can fail comes first.
+      // Whatever can fail comes first.
       if (!numbers.exact() && !numbers.are_floats(entries + 1, many, Ring<D>::step)) numbers.keep_doubles(ids.count());
       find_slots(entries, many, slots);
       if (ids.count() > near_boxes) numbers.read_ahead(slots, many);
@@ -63,7 +66,7 @@ template <int D> class Store {
     tell(ring);
   }
 
-  /// Says what may wait in the ring.
+  /// Tells JavaScript which boxes may wait in the ring.
   NOINLINE void tell(Ring<D>& ring) {
     ring.dense = ring.room = ring.pages = 0;
     if (numbers.written.in_place()) return;
@@ -81,7 +84,7 @@ template <int D> class Store {
     }
   }
 
-  /// Takes a box away; false where there is none.
+  /// Removes a box; false if there is none.
   SMALL bool remove(u32 id) {
     see_written();
     before_change();
@@ -98,7 +101,7 @@ template <int D> class Store {
     return true;
   }
 
-  /// The numbers a box was given with; false where there is none.
+  /// The numbers a box was given with; false if there is none.
   SMALL bool get(u32 id, f64* box) {
     see_written();
     u32 slot = ids.slot(id);
@@ -119,19 +122,18 @@ template <int D> class Store {
     numbers.written.renamed = true;
   }
 
-  /// Where everything stands, for a recorder and right after an update: the ids (0: slots), the boxes, the doubles they
-  /// were given as (0: none), the rules (0: none), the groups and the reaches (0: none).
+  /// Writes the addresses of all contents, in the order of ContentsPlace.
   SMALL void contents(f64* out) const {
-    out[0] = f64(u64(ids.names()));
-    out[1] = f64(u64(numbers.boxes()));
-    out[2] = f64(u64(numbers.exact()));
-    out[3] = f64(u64(own.rules()));
-    out[4] = f64(u64(own.groups.data()));
-    out[5] = f64(u64(own.reaches.data()));
+    out[ids_at] = f64(u64(ids.names()));
+    out[boxes_at] = f64(u64(numbers.boxes()));
+    out[doubles_at] = f64(u64(numbers.exact()));
+    out[rules_at] = f64(u64(own.rules()));
+    out[groups_at] = f64(u64(own.groups.data()));
+    out[reaches_at] = f64(u64(own.reaches.data()));
   }
 
-  /// Takes what was staged in place of all boxes, as ids 0 … count - 1. Returns the first bad id, or -1;
-  /// where there is one, nothing changes.
+  /// Replaces all boxes by the staged ones, as ids 0 … count - 1. Returns the first bad id, or -1; if there is one,
+  /// nothing changes.
   SMALL i32 replace(u32 count, bool doubles) {
     bool rounded;
     i32 bad = numbers.check_staged(count, doubles, rounded);
@@ -160,11 +162,11 @@ template <int D> class Store {
     }
     if (numbers.exact()) {
       if (ids_were_same) numbers.round_in_place(smaller(count, had));
-      changes().note_all();  // boxes that touch only as they are rounded are pairs from now on
+      changes().note_all();  // boxes that touch only when rounded are pairs from now on
       numbers.hold_floats();
     }
     numbers.written.begin();
-    // Growing later would cut the caller's view off.
+    // Growing memory later would detach the caller's view.
     RoomAhead<D>::take(count, RoomAhead<D>::in_place);
     return numbers.boxes();
   }
@@ -185,7 +187,7 @@ template <int D> class Store {
     rule.excluded = on ? rule.excluded | bit : rule.excluded & ~bit;
   }
 
-  /// Takes a box out of pairs and questions, or back in.
+  /// Excludes a box from pairs and queries, or includes it again.
   SMALL void enable(u32 slot, bool on) {
     if (on != own.rule(slot).is_off()) return;
     before_change();
@@ -198,7 +200,7 @@ template <int D> class Store {
     if (group != own.groups.of(slot)) own.groups.set(slot, group, numbers.capacity());
   }
 
-  /// Says how far a box reaches.
+  /// Sets how far a box reaches.
   SMALL void set_reach(u32 slot, f64 distance) {
     if (distance == own.reaches.of(slot)) return;
     before_change();
@@ -209,7 +211,7 @@ template <int D> class Store {
   /// The id of the first bad box among those written in place, or -1.
   SMALL i32 bad_in_place() const {
     i32 bad = numbers.written.in_place() ? numbers.first_bad(ids.count()) : -1;
-    return bad < 0 ? -1 : i32(ids.id(u32(bad)));  // since it was written, a removal may have moved it
+    return bad < 0 ? -1 : i32(ids.id(u32(bad)));  // a removal may have moved it after it was written
   }
 
  private:
@@ -219,7 +221,7 @@ template <int D> class Store {
 
   NOINLINE void hold(u32 most) { seen.hold(standing(), most); }
 
-  /// Room for `count` boxes in every array that has one entry a box.
+  /// Room for `count` boxes in every array with one entry per box.
   SMALL void make_room(u64 count, u32 keep) {
     if (count > max_slots) fail(Fault::out_of_memory, f64(count) * width * sizeof(f32));
     numbers.make_room(count, keep);
@@ -228,13 +230,13 @@ template <int D> class Store {
     tight_ = !numbers.may_round();
   }
 
-  /// How many boxes there is room for in all of these arrays.
+  /// The number of boxes there is room for in all of these arrays.
   u32 room() const {
     u64 all = smaller(smaller(u64(max_slots), numbers.room()), u64(numbers.written.changes.room()));
     return u32(larger(own.room(all), u64(ids.count())));
   }
 
-  /// The slots of these boxes of the ring; those that have none get one.
+  /// Finds the slots of these boxes of the ring; new ids get one.
   void find_slots(const f64* entry, u32 count, u32* slots) {
     u32 known = ids.same() ? ids.count() : 0;
     for (u32 k = 0; k < count; k++, entry += Ring<D>::step) {
@@ -259,7 +261,7 @@ template <int D> class Store {
     return slot;
   }
 
-  /// Stages the boxes of ids 0 … count - 1 as float32; those that are not there are points at the origin.
+  /// Stages the boxes of ids 0 … count - 1 as float32; missing ones are points at the origin.
   SMALL void stage_by_id(u32 count) {
     f32* to = numbers.stage(count);
     for (u32 id = 0; id < count; id++) {
@@ -270,27 +272,27 @@ template <int D> class Store {
     }
   }
 
-  /// The rule of a box, to be changed.
+  /// The rule of a box, for changing it.
   SMALL Rule& rule_of(u32 slot) {
     if (!own.filters.active()) own.filters.start(ids.count(), numbers.capacity());
     return own.filters.change(slot);
   }
 
-  /// Room for all ids to be deleted, where events have to know of it.
+  /// Room to record the deletion of any id, if events are on.
   SMALL void room_to_forget() {
     u32 last = 0;
     for (u32 s = 0; s < ids.count(); s++) last = larger(last, ids.id(s));
     if (keeps_events) events.make_room(last);
   }
 
-  /// The boxes of ids from this one on are about to go; there is room.
+  /// Records that the boxes of ids from this one on are about to be removed; there is room.
   SMALL void forget_from(u32 first) {
     for (u32 s = 0; keeps_events && s < ids.count(); s++) {
       if (ids.id(s) >= first) events.forget(ids.id(s));
     }
   }
 
-  /// The ids become 0 … count - 1; those that were there keep their filters.
+  /// The ids become 0 … count - 1; boxes that were there keep their filters.
   SMALL void renumber(u32 count) {
     changes().note_all();
     numbers.written.renamed = true;

@@ -15,8 +15,8 @@
 #include "techniques/strip_sweep.hpp"
 #include "techniques/sweep_and_prune.hpp"
 
-/// In the order of BroadPhase.techniques, which scripts/abi.mjs makes of them. Their numbers stand in snapshots, so new ones
-/// go in front of `automatic`, which is another number there.
+/// In the order of BroadPhase.techniques, which scripts/abi.mjs makes from this list. Their numbers are stored in
+/// snapshots, so new ones go before `automatic`, which has another number there.
 enum class Technique : u32 {
   brute_force,
   spatial_grid,
@@ -40,7 +40,7 @@ inline constexpr u32 built = TECHNIQUES & ((2u << u32(Technique::automatic)) - 1
 
 constexpr bool is_built(Technique name) { return built >> u32(name) & 1; }
 
-/// What a technique is: it finds all pairs of a scene, says where its cells stand, and gives its memory back.
+/// A technique finds all pairs of a scene, writes its cells as boxes, and releases its memory.
 template <class Kind, int D>
 concept FindsPairs = requires(Kind kind, const Kind same, const Scene<D>& scene, const Settings& settings, Pairs& pairs,
                               Stats& stats, Buffer<f32>& cells, u32& cell_count) {
@@ -49,7 +49,7 @@ concept FindsPairs = requires(Kind kind, const Kind same, const Scene<D>& scene,
   kind.release();
 };
 
-/// Stands in the place of a technique that is not built: nobody asks for it.
+/// Replaces a technique that is not built in, and so is never called.
 struct LeftOut {
   template <class... Any> constexpr LeftOut(Any&...) {}
 };
@@ -99,14 +99,14 @@ template <int D> class Techniques {
     }
   }
 
-  /// Whether it asks which boxes have changed, and may answer by what it found before.
+  /// Whether the technique uses the list of changes, and may retain the pairs it found.
   bool follows_changes(Technique name) {
     bool follows = false;
     with(name, [&]<class Kind>(Kind&) { follows = requires { Kind::follows_changes; }; });
     return follows;
   }
 
-  /// Whether it notes which of its pairs are in doubt (see Pairs::watch). Of the others all are.
+  /// Whether the technique records which of its pairs are in doubt (see Pairs::watch). Otherwise all are.
   bool notes_doubts(Technique name) {
     bool notes = false;
     with(name, [&]<class Kind>(Kind&) { notes = requires { Kind::notes_doubts; }; });
@@ -114,8 +114,8 @@ template <int D> class Techniques {
   }
 };
 
-// Both dimensions of each next to one another in the module, where gzip finds what they share: an eighth less. A build
-// may have one alone: DIMENSIONS is 2 or 3 then.
+// Puts both dimensions of each class next to each other in the module, so that gzip finds what they share: it makes the
+// module an eighth smaller. A build may have only one dimension: DIMENSIONS is then 2 or 3.
 #if defined(DIMENSIONS)
 #define BOTH(Kind) template class Kind<DIMENSIONS>;
 #else

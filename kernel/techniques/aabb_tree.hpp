@@ -3,9 +3,9 @@
 // Idea: each box is enclosed in a fat one that extends ahead of it, as far as its motion will take it in a few updates.
 // While it stays inside, the tree and the candidates, which are the overlapping pairs of fat boxes, remain valid, and
 // an update only tests each candidate again. Boxes that left get new fat ones: their candidates are dropped, the nodes
-// above them are refitted, and the tree is joined with itself where something moved; boxes at rest share an exclusion
-// bit. When boxes have moved far from their places on the curve, the order is rebuilt; when most moved at once,
-// everything is, at the cost of the r-tree.
+// above them are refitted, and the parts of the tree in which something moved are joined with the tree; boxes at rest
+// share an exclusion bit. When boxes have moved far from their places on the curve, the order is rebuilt. When most
+// move at once, everything is, at the cost of the r-tree.
 // Cost: about 2 ns per box at rest, 6 ns per candidate, 60 ns per box that left; build and pairs as the r-tree; about
 // 140 (2D) or 200 (3D) bytes per box.
 // Wins when most boxes are at rest or move slowly and steadily. Loses when all jump: fat boxes are then useless.
@@ -19,42 +19,43 @@
 template <int D> class AabbTree {
   static constexpr u32 width = 2 * D;
   static constexpr u32 padding = 4;  // vector loads may read this many floats past the last box
-  static constexpr u32 rests = continues_1;  // the exclusion bit of all that did not move
+  static constexpr u32 rests = continues_1;  // the exclusion bit of all boxes that did not move
   static constexpr f32 horizon = 8;  // updates that a fat box reaches ahead, at most: fewer in a crowd
   static constexpr u32 crowd_size = 64;
-  static constexpr f32 aside_share = 0.5f;  // and to all sides, in motions of one update
-  static constexpr u32 bulk_share = 2;  // all is built anew when one box in so many moved
-  // The order is, when each box has moved so many times; a little earlier where an update has little else to do.
+  static constexpr f32 aside_share = 0.5f;  // how far it extends to all sides, as a share of its motion per update
+  static constexpr u32 bulk_share = 2;  // a full rebuild when one box in this many moved
+  // The order is rebuilt when each box has moved this many times on average; earlier in an update with little else to
+  // do.
   static constexpr u32 worn = 4, worn_early = 2, little_share = 8;
-  static constexpr u32 spare_share = 16;  // one place in so many is kept for boxes to come
-  // What an update costs, in nanoseconds, to see whether keeping anything pays: an r-tree anew, a look at a box,
-  // fitting its node, moving it, testing a candidate; a test in the tree.
+  static constexpr u32 spare_share = 16;  // one place in this many is left free for new boxes
+  // Relative costs, to decide whether retaining the tree pays. Per box: building a new r-tree, checking it, refitting
+  // its node, moving it; per candidate: testing it; per test in the tree.
   static constexpr f64 build_cost = 30, look_cost = 4, fit_cost = 5, move_cost = D == 2 ? 30 : 50, candidate_cost = 8;
   static constexpr f64 test_cost = D == 2 ? 2 : 4;
-  // A pause begins when keeping has cost more than so many updates that keep nothing; each is twice as long as the one
-  // before, in updates.
+  // A pause, in which nothing is retained, begins when retaining has lost more than the cost of this many full
+  // rebuilds. Each pause is twice as long as the one before, in updates.
   static constexpr f64 most_loss = 2;
   static constexpr u32 first_pause = 16, longest_pause = 256;
 
   PackedTree<D> tree_;
   Pairs candidates_;  // in the order of their slots
-  Buffer<u64> merged_;  // where they go with each update, and what they are swapped with
+  Buffer<u64> merged_;  // each update writes them here, and swaps the two
   PairOrder pair_order_;
   Buffer<f32> fat_;  // per slot its fat box, as in a scene
-  Buffer<f32> origin_;  // per slot its minima when it was fattened, and in which update that was
-  Buffer<u32> tags_;  // per slot its exclusion bits, and whether it rests
+  Buffer<f32> origin_;  // per slot its minima when it got its fat box, and the number of that update
+  Buffer<u32> tags_;  // per slot its exclusion bits, and whether it is at rest
   Buffer<u32> place_;  // per slot its place in the tree
   Buffer<u32> free_;  // places without a box
   Buffer<u32> moved_;  // slots that moved
-  u32 count_ = 0;  // boxes in the tree; 0: nothing is kept
+  u32 count_ = 0;  // boxes in the tree; 0: nothing is retained
   u32 free_count_ = 0;
-  u64 wear_ = 0;  // boxes moved since the order was made
+  u64 wear_ = 0;  // boxes moved since the order was built
   u32 now_ = 0;  // updates, counted
   f32 reach_ = 0;  // updates that fat boxes reach ahead, on average
-  f64 fresh_ = 0;  // what an update costs that keeps nothing
-  f64 loss_ = 0;  // what keeping has cost more than that
-  u32 pause_ = 0;  // updates left in which nothing is kept
-  u32 pauses_ = 0;  // how many the last pause had
+  f64 fresh_ = 0;  // the cost of a full rebuild
+  f64 loss_ = 0;  // by how much retaining has exceeded that
+  u32 pause_ = 0;  // updates left in which nothing is retained
+  u32 pauses_ = 0;  // length of the last pause
 
  public:
   void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
@@ -111,7 +112,7 @@ template <int D> class AabbTree {
   }
 
  private:
-  /// An update by a new tree.
+  /// An update with a new tree.
   void keep_nothing(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
     tree_.build(scene, 0);
     tree_.join(pairs, stats);
@@ -139,7 +140,7 @@ template <int D> class AabbTree {
     drop_candidates_from(n);
   }
 
-  /// Has the tree hold what moved and what is new; `order`: its order is to be made anew. Gives what that costs.
+  /// Updates the tree for moved and new boxes. `order`: its order has to be rebuilt. Returns the cost.
   f64 follow(u32 n, u32 had, u32 moved, bool order) {
     bool all = u64(moved) * bulk_share > n;
     wear_ += moved;
@@ -163,7 +164,7 @@ template <int D> class AabbTree {
     return cost;
   }
 
-  /// Where keeping things costs more than it saves, update after update, it is left for a while.
+  /// Starts a pause if retaining the tree has cost more than it saved for some updates.
   void reckon(f64 cost) {
     loss_ = larger(0.0, loss_ + cost - fresh_);
     if (loss_ < most_loss * fresh_) return;
@@ -173,7 +174,7 @@ template <int D> class AabbTree {
     candidates_.count = 0;
   }
 
-  /// Notes who left its fat box, of the first `had`, and who is new; they get new ones.
+  /// Collects the boxes that left their fat boxes, of the first `had`, and new ones; gives them new fat boxes.
   u32 look(const Scene<D>& scene, u32 had, f32 margin) {
     u32 moved = 0;
     for (u32 slot = 0; slot < scene.count; slot++) {
@@ -194,7 +195,8 @@ template <int D> class AabbTree {
   SHARED void fatten(u32 slot, const f32* box, bool is_new, f32 margin) {
     f32* fat = fat_.data() + u64(slot) * width;
     f32* origin = origin_.data() + u64(slot) * (D + 1);
-    // Not all reach equally far, or they would all leave together; but neighbours do, for the nodes' sake.
+    // Fat boxes reach ahead by different amounts, or all boxes would leave them at once. Neighbours get the same, since
+    // their nodes are refitted together.
     u32 crowd = is_new ? 0 : place_[slot] / crowd_size;
     f32 reach = reach_ * (0.6f + f32(crowd * 0x9e3779b9u >> 8) * 0x0.cp-24f);
     f32 updates = f32(larger(now_ - bits<u32>(origin[D]), 1u));
@@ -211,7 +213,7 @@ template <int D> class AabbTree {
     origin[D] = bits<f32>(now_);
   }
 
-  /// Orders the tree anew.
+  /// Rebuilds the order of the tree.
   SMALL void plant(u32 n) {
     u32 spare = n / spare_share;
     tree_.build(Scene<D>{fat_.data(), n, tags_.data()}, spare);
@@ -222,19 +224,19 @@ template <int D> class AabbTree {
     wear_ = 0;
   }
 
-  /// Drops the candidates of slots that are gone: their boxes are no longer there to be tested.
+  /// Drops the candidates of deleted slots, whose boxes can no longer be tested.
   SMALL void drop_candidates_from(u32 slot) {
     u64* list = candidates_.list.data();
     u64 left = 0;
     for (u64 k = 0; k < candidates_.count; k++) {
       list[left] = list[k];
-      left += u32(list[k] >> 32) < slot;  // the larger slot stands in the upper half
+      left += u32(list[k] >> 32) < slot;  // the larger slot is in the upper half
     }
     candidates_.count = left;
   }
 
-  /// Drops, of the first `kept` candidates, those of boxes that moved; reports all that overlap. The first and the
-  /// others are both in order, and so is what comes out.
+  /// Merges the first `kept` candidates, without those of boxes that moved, with the others, and reports all that
+  /// overlap. Both parts are sorted, and so is the result.
   void retest(const f32* boxes, u64 kept, Pairs& pairs) {
     u64 count = candidates_.count;
     const u64* list = candidates_.list.data();

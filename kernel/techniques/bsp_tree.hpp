@@ -21,7 +21,7 @@ template <int D> class BspTree {
   // Costs relative to a tested candidate: a copy of an item, and one more pass over it.
   static constexpr f32 copy_cost = D == 2 ? 32 : 80, pass_cost = 12;
   static constexpr u32 fewest = 32;  // items of a node that is cut
-  // A crowd of copies is cut off: a node may make this many for each of its items, all its cuts together.
+  // Limits the copies in a crowd: all cuts below a node together may make this many for each of its items.
   static constexpr f32 copies_each = 3;
   static constexpr u32 deepest_cut = 40;
   static constexpr u32 samples = 15;
@@ -70,7 +70,7 @@ template <int D> class BspTree {
     f32 at;
   };
 
-  /// Works off the top `count` items of a stack, which begin at `first`; on the other one `free` is.
+  /// Cuts the top `count` items of a stack, which begin at `first`. On the other stack, `free` is the first free place.
   void node(u32 stack, u32 first, u32 free, u32 count, f32 spare, const Region& region, u32 depth, Pairs& pairs) {
     ItemsAt<D> items(stacks_[stack], first);
     Cut cut = depth < deepest_cut && count > fewest ? choose(items, count, spare) : Cut{-1, 0};
@@ -95,7 +95,7 @@ template <int D> class BspTree {
       return;
     }
     f32 share = (spare - f32(left + right - count)) / f32(left + right);
-    // Items that reach in from outside may draw the cut out of the region: a side of it is then empty.
+    // Items that extend in from outside may place the cut outside the region: one side of it is then empty.
     f32 border = larger(region.low[cut.axis], smaller(region.high[cut.axis], cut.at));
     Region part = region;
     part.high[cut.axis] = border;
@@ -115,7 +115,7 @@ template <int D> class BspTree {
     swept_.find(count, pairs);
   }
 
-  /// Where to cut, by a sample of the items.
+  /// Chooses a cut by a sample of the items.
   SMALL static Cut choose(const ItemsAt<D>& items, u32 count, f32 spare) {
     static f32 starts[D][samples];
     static f32 sizes[D][samples];
@@ -135,7 +135,7 @@ template <int D> class BspTree {
         least = smaller(least, starts[a][k]);
         most = larger(most, starts[a][k]);
       }
-      // Halves, lest the difference overflow. No less than the smallest normal number: it divides.
+      // Half the spread, since the whole could overflow. At least the smallest normal number, since it is a divisor.
       f32 half = larger(smaller(most / 2 - least / 2, 1e38f), 1e-37f);
       f32 sum = 0;
       for (u32 k = 0; k < samples; k++) sum += smaller(sizes[a][k] / half, 2.0f);

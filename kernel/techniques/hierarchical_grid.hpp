@@ -17,10 +17,10 @@
 #include "search/stats.hpp"
 
 template <int D> class HierarchicalGrid {
-  // A level has at least so many boxes in each cell of the world, or it is merged into the next: measured to be
-  // nearly flat from 1 to 3.
+  // A level with fewer boxes per cell of the world is merged into the next. Measured: times are nearly flat from 1 to
+  // 3.
   static constexpr f64 crowd = 1.2;
-  // When so few large boxes are left, all others are tested against them.
+  // When at most this many larger boxes are left, all others are tested against them.
   static constexpr u32 few = 24;
   // A class is a float's exponent: boxes of class c are smaller than 2^(c - 126). Those above the last one, infinite
   // ones among them, have a level of one cell.
@@ -31,8 +31,8 @@ template <int D> class HierarchicalGrid {
   static constexpr u32 most_near = D == 2 ? 6 : 18;
   struct Level {
     CellTable<D> cells;
-    Place last;  // the last place that was looked around
-    Run near[most_near];  // what was found there
+    Place last;  // the last place whose surroundings were searched
+    Run near[most_near];  // the runs found there
     u32 near_count;
   };
   // Runs are swept when there are this many.
@@ -125,7 +125,7 @@ template <int D> class HierarchicalGrid {
     return level + 1 < level_count_ ? starts_[levels_[level + 1].cells.first] : count;
   }
 
-  /// The exponent of a box's longest side, or larger where its cells would be too many to be counted.
+  /// The exponent of a box's longest side, or larger if cells of that size would be too many to count.
   static u32 class_of(const Item<D>& item) {
     f32x4 tiny = splat(0x1p-22f);
     u32x4 most;
@@ -140,7 +140,7 @@ template <int D> class HierarchicalGrid {
   }
   static u32x4 magnitude(f32x4 v) { return bits<u32x4>(v) & splat(0x7fffffffu); }
 
-  /// Makes the levels for boxes of these classes; returns the number of cells.
+  /// Sets up levels for the classes in use; returns the number of cells.
   SMALL u32 choose(const SceneSample<D>& world, const u32* sizes, u32 rest) {
     level_count_ = 0;
     u32 cells = 0, waiting = 0;
@@ -168,7 +168,7 @@ template <int D> class HierarchicalGrid {
     return cells;
   }
 
-  /// The items of a level above that an item meets: all around it. Kept for the next item, which stands near it.
+  /// The items of a higher level around an item. The result is cached for the next item, which is usually close by.
   Run* elders(Run* out, Level& level, const Item<D>& item, u32 i) const {
     Place place = level.cells.place(item);
     if (any(bits<i32x4>((place.at ^ level.last.at) | (place.reach ^ level.last.reach)))) {

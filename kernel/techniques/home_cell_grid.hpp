@@ -19,18 +19,19 @@
 #include "search/stats.hpp"
 
 template <int D> class HomeCellGrid {
-  static constexpr f64 crowd = 1.2;    // boxes in a cell, at least: measured to be nearly flat from 1 to 3
-  static constexpr f64 common = 0.98;  // the share of boxes that a cell is as large as
+  static constexpr f64 crowd = 1.2;    // boxes per cell, at least; measured: times are nearly flat from 1 to 3
+  static constexpr f64 common = 0.98;  // the share of boxes that fit in a cell
   // Runs are swept when there are this many.
   static constexpr u32 enough_runs = 2048;
-  // A large box with more rows of cells under it than a share of the boxes looks at all of them in one run.
+  // A row of cells costs as much as this many boxes: a large box with too many rows under it is tested against all
+  // boxes in one run.
   static constexpr u32 row_cost = 8;
 
   CellTable<D> table_ = {};
-  Buffer<u32> cells_;   // per slot its cell; of the large ones: behind the last
+  Buffer<u32> cells_;   // per slot its cell; large boxes have the one after the last
   Buffer<u32> starts_;  // per cell
   Buffer<u32> large_;   // slots
-  Items<D> ordered_;    // by cell, then the large ones in the order of the sweep
+  Items<D> ordered_;    // by cell, then large boxes in the order of the sweep
   Lanes<D> lanes_;
   Buffer<Run> runs_;
   RadixSort sort_;
@@ -130,13 +131,13 @@ template <int D> class HomeCellGrid {
     return table_.block(out, starts_.data(), place, i);
   }
 
-  /// Sets the cells; returns their number.
+  /// Chooses the cells; returns their number.
   SMALL u32 choose(const SceneSample<D>& world, u32 count, const Settings& options) {
     f64 size[D], extent[D];
     f64 share = world.crowding * count;  // boxes in a cell
     for (int a = 0; a < D; a++) {
       extent[a] = world.high[a] - world.low[a];
-      // A little more than the boxes, which are not to reach over two borders.
+      // A little larger than the boxes, so that rounding cannot make them cross two borders.
       size[a] = larger(detail::common_size(a, D, count, common) * 1.001, extent[a] * 1e-6);
       if (extent[a] > size[a]) share *= size[a] / extent[a];
     }

@@ -18,7 +18,7 @@
 
 template <int D> class Quadtree {
   using Curve = HilbertCurve<D>;
-  static constexpr u32 few = 24;  // boxes of a cell that is not divided
+  static constexpr u32 few = 24;  // a cell with at most this many boxes is not divided
 
   /// In the first D lanes.
   struct Bounds {
@@ -34,10 +34,10 @@ template <int D> class Quadtree {
   };
 
   struct Node {
-    Bounds all;  // of the boxes from here to `behind`
+    Bounds all;  // bounds of the boxes from here to `behind`
     Bounds own;
     u32 first, last;  // its own boxes
-    u32 behind;  // the node after all that are below it
+    u32 behind;  // the node after all its descendants
   };
 
   HilbertOrder<D> order_;
@@ -78,9 +78,9 @@ template <int D> class Quadtree {
   u32 level(u32 k) const { return order_.key(k) & ((1u << Curve::level_bits) - 1); }
   u32 cell(u32 k, u32 level) const { return order_.key(k) >> (Curve::level_bits + D * (Curve::levels - level)); }
 
-  /// Makes the node of the boxes from `first` to `end`, which are all those of one cell, and the nodes below it.
+  /// Builds the node of the boxes from `first` to `end`, which are all those of one cell, and the nodes below it.
   void divide(u32 first, u32 end, u32 at) {
-    // A cell with nothing of its own and all in one quarter is not worth a node.
+    // A cell that has no boxes of its own, and all others in one quarter, gets no node.
     while (end - first > few && at < Curve::levels && level(first) > at &&
            cell(first, at + 1) == cell(end - 1, at + 1)) {
       at++;
@@ -107,7 +107,7 @@ template <int D> class Quadtree {
     nodes_[me] = node;
   }
 
-  /// Where a cell's boxes end, of those from k to `end`, which are in order.
+  /// The end of a cell's boxes, among those from k to `end`, which are sorted.
   u32 end_of(u32 wanted, u32 k, u32 end, u32 level) const {
     while (k < end) {
       u32 middle = (k + end) / 2;
@@ -134,7 +134,7 @@ template <int D> class Quadtree {
     return {low, high};
   }
 
-  /// The pairs of a node's own boxes, with each other and with those of all later nodes.
+  /// Finds the pairs of a node's own boxes with each other and with those of all later nodes.
   void walk(u32 at, Pairs& pairs, Stats& stats) {
     const Node own = nodes_[at];
     if (own.first == own.last) return;
@@ -151,7 +151,7 @@ template <int D> class Quadtree {
     stats.tests += tests;
   }
 
-  /// The boxes of one node against those of another, or of the same, that stand behind them.
+  /// Tests the boxes of one node against those of another, or of the same, that come after them.
   SHARED u32 test(const Node& one, const Node& other, Pairs& pairs) const {
     const LaneView<D> lanes = lanes_.view();
     u64* out = pairs.list.data() + pairs.count;

@@ -4,7 +4,7 @@
 // makes its cells dirty, and only if it overlaps other cells than before is it removed from the old ones and added to
 // the new. Then the dirty cells are searched for pairs with a changed box; pairs of unchanged boxes are retained. A
 // cell is a short list of slots with room to grow. When much has changed at once, or boxes have drifted until the cells
-// fit them badly, the grid is rebuilt.
+// no longer suit them, the grid is rebuilt.
 // Cost: update O(n + entries of the boxes that changed cells), pairs O(dirty cells * their squared number of boxes);
 // memory about 100 (2D) or 200 (3D) bytes per box, and the pairs, which are retained too.
 // Wins when most boxes are at rest. Loses when all move: then change detection saves little.
@@ -16,10 +16,10 @@
 #include "search/sweep.hpp"
 
 template <int D> class RetainedGrid {
-  // Entries that may be looked at for each box before building anew is the better way.
+  // If moving boxes visits more entries than this per box, a full rebuild is cheaper.
   static constexpr u32 most_effort = 8;
-  // All is built anew when there are so many times the entries, or the tests, that there were when it was built, and
-  // when there is room for so many times the entries that are in use.
+  // A full rebuild when there are `most_worse` times as many entries, or tests, as after the last one, or room for
+  // `most_room` times the entries in use.
   static constexpr u32 most_worse = 2, most_room = 4, worse_anyway = 64;
 
   struct Cell {
@@ -34,13 +34,13 @@ template <int D> class RetainedGrid {
   Buffer<f32> boxes_;  // of the last update
   Buffer<u32> tags_;
   Buffer<u8> moved_;  // per slot, whether it changed with this update
-  u32 count_ = 0;  // of boxes in the cells; 0: all is to be built
-  f64 placed_ = 0, tests_ = 0;  // entries, and tests if all cells were dirty
+  u32 count_ = 0;  // boxes in the cells; 0: a full rebuild is due
+  f64 placed_ = 0, tests_ = 0;  // the entries, and the tests if all cells were dirty
   f64 built_placed_ = 0, built_tests_ = 0;  // the same when the cells were built
-  f64 effort_ = 0;  // entries looked at while boxes were moved
+  f64 effort_ = 0;  // entries visited while boxes were moved
   Buffer<u64> found_;  // the pairs of the last update, in the order of their slots
   u64 found_count_ = 0;
-  Pairs fresh_;  // those of the dirty cells
+  Pairs fresh_;  // the pairs of the dirty cells
   PairOrder pair_order_;
   // For the search of dirty cells.
   Buffer<u32> picked_, end_;
@@ -89,7 +89,7 @@ template <int D> class RetainedGrid {
  private:
   static u32 tag_of(const Scene<D>& scene, u32 slot) { return scene.excluded ? scene.excluded[slot] : 0; }
 
-  /// Remembers a box as it is now.
+  /// Copies a box, for comparison in the next update.
   void keep(const Scene<D>& scene, u32 slot) {
     __builtin_memcpy(&boxes_[u64(slot) * 2 * D], scene.boxes + u64(slot) * 2 * D, 2 * D * sizeof(f32));
     tags_[slot] = tag_of(scene, slot);
@@ -130,7 +130,7 @@ template <int D> class RetainedGrid {
     count_ = n;
   }
 
-  /// Follows what has changed since the last update; false where building anew is the better way.
+  /// Updates the cells for what has changed since the last update; false if a full rebuild is cheaper.
   bool follow(const SceneItems<D>& items) {
     const Scene<D>& scene = items.scene;
     u32 n = scene.count, had = count_;
@@ -200,7 +200,7 @@ template <int D> class RetainedGrid {
     });
   }
 
-  /// Gives a cell that is full twice the room, behind all others.
+  /// Moves a full cell behind all others, with twice the room.
   SMALL void move(Cell& cell) {
     u32 room = cell.room * 2;
     entries_.grow(u64(entries_end_) + room, entries_end_);
@@ -210,7 +210,7 @@ template <int D> class RetainedGrid {
     entries_end_ += room;
   }
 
-  /// Finds what overlaps in the dirty cells.
+  /// Finds the pairs in the dirty cells.
   void search(const SceneItems<D>& items, Pairs& pairs, Stats& stats) {
     u32 cells = grid_.total();
     u32 picked = 0;
@@ -239,7 +239,7 @@ template <int D> class RetainedGrid {
     for (u32 c = 0; c < cells; c++) cells_[c].dirty = 0;
   }
 
-  /// The pairs of boxes that rest, as they were, and of what was found those of boxes that moved, all in order.
+  /// Merges the previous pairs of boxes at rest with the new pairs of boxes that moved; both are sorted.
   void merge(u32 slots, Pairs& pairs) {
     auto moves = [&](u64 pair) { return bool(moved_[u32(pair)] | moved_[pair >> 32]); };
     u64* fresh = fresh_.list.data();

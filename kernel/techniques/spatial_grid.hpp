@@ -15,7 +15,7 @@
 #include "search/sweep.hpp"
 
 template <int D> class SpatialGrid {
-  /// All cells are looked at in each update, so that few boxes do not get many.
+  /// Each update visits all cells, so few boxes must not get many.
   static u32 most_cells(u32 count) { return u32(smaller(u64(1) << 24, (u64(1) << 16) + 128 * u64(count))); }
 
   Items<D> ordered_;
@@ -61,7 +61,7 @@ template <int D> class SpatialGrid {
     for (u32 c = 0; c < cells; c++) {
       u32 until = starts[c];
       do {
-        store(end + k, splat(until));  // what is too much, the next cells write over
+        store(end + k, splat(until));  // may write past the cell's end: the next cells overwrite that
         k += 4;
       } while (k < until);
       k = until;

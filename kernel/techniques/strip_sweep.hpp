@@ -17,22 +17,21 @@
 template <int D> class StripSweep {
   // What an entry in a strip costs, relative to a tested candidate: sets the width of the strips.
   static constexpr f64 entry_cost = D == 2 ? 24 : 40;
-  // Below this many candidates a box, narrower strips save nothing: the first block of four is tested anyway.
+  // Below this many candidates per box, narrower strips save nothing: the first block of four is tested anyway.
   static constexpr f64 free_candidates = 1.5;
-  // Strips longer than this leave the cache near the core.
+  // Strips with more items than this do not fit the cache of the core.
   static constexpr f64 cached_items = 8192;
   static constexpr f64 least_items = 100;  // in a strip, on average: shorter ones cost more than they save
-  static constexpr u32
-      one_strip_below = 2000;  // boxes that are one strip where they have no more candidates than a strip may have
+  static constexpr u32 one_strip_below = 2000;  // fewer boxes stay one strip, unless that has too many candidates
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
   static constexpr u32 deepest = 6;
-  // A strip is cut again where it has this many candidates an item, and this many in all.
+  // A strip is cut again if it has this many candidates per item, this many in all, and fewer hits among them than the
+  // share `wasteful`. In 3D, sixteen are tested at a time if an item has more than `look_factor` candidates, and fewer
+  // than the share `rare` are hits. In 2D, strips can always be made narrow enough.
   static constexpr u64 again_factor = D == 2 ? 24 : 48, again_least = 8192;
-  // ... and no more than this share of them are hits. Where still fewer are, sixteen are tested at a time, in 3D, from
-  // so many an item on: in 2D, strips that are narrow enough are always to be had.
   static constexpr f64 wasteful = 0.25, rare = 0.06;
   static constexpr u64 look_factor = D == 2 ? again_factor : 32;
-  // A cut after which there would be more entries than this for each box is not made.
+  // No cut is made that would lead to more entries per box than this.
   static constexpr u64 most_copies = 8;
 
   /// How one set of items is cut: along the binned axes 1 (and 2); axis 0 is swept.
@@ -42,7 +41,7 @@ template <int D> class StripSweep {
     u32 strips[D];
 
     u32 lists() const { return strips[1] * (D == 2 ? 1 : strips[D - 1]); }
-    // One more strip along each axis, which stays empty: there, what is counted by differences ends.
+    // One more strip along each axis, which stays empty: counting by differences writes one past the last strip.
     u32 across() const { return D == 2 ? 1 : strips[D - 1] + 1; }
     u32 rows() const { return (strips[1] + 1) * across(); }
   };
@@ -81,7 +80,7 @@ template <int D> class StripSweep {
   Buffer<u32> offsets_[deepest + 1];  // per cut: where each strip's entries begin
   Buffer<Region> leaves_;  // the strips in use
   AxisOrder<D> order_ = {};
-  Cut cut_ = {};  // the outermost
+  Cut cut_ = {};  // the outermost one
   u32 boxes_ = 0;
   u32 entered_ = 0;  // entries of the outermost cut
   Stats* stats_ = nullptr;
@@ -104,7 +103,7 @@ template <int D> class StripSweep {
     list(all, scene.count, tests, everywhere(), scene.count, cuts ? deepest : 0, pairs);
   }
 
-  /// Calls `what` with the slot of each box that is as it was in the last update.
+  /// Calls `what` with the slot of each box that is unchanged since the last update.
   template <class What> SMALL void each_same(const Scene<D>& scene, What what) const {
     SceneItems<D> items{scene, order_};
     ItemsAt<D> entries(entries_, 0);
@@ -114,7 +113,7 @@ template <int D> class StripSweep {
     }
   }
 
-  /// The bounds of the lower corners of the last update's boxes, and their sizes on average, along the world's axes.
+  /// The bounds of the minimum corners of the last update's boxes, and their mean size, along the axes of the world.
   SMALL void bounds(f64* low, f64* high, f64* sizes) const {
     for (int a = 0; a < D; a++) {
       low[order_.axis[a]] = cut_.world.low[a];
@@ -152,7 +151,7 @@ template <int D> class StripSweep {
       f64 extent = world.high[a] - world.low[a];
       relative[a] = extent > 0 ? smaller(1.0, larger(world.size[a] / extent, 1e-3 / count)) : 1;
     }
-    f64 neighbours = world.crowding * count * relative[0];  // along the sweep axis, in the whole width
+    f64 neighbours = world.crowding * count * relative[0];  // along the sweep axis, without strips
     f64 width[D];  // as a share of the extent
     auto one_axis = [&](int axis) {
       f64 balanced = __builtin_sqrt(entry_cost * relative[axis] / neighbours);
@@ -165,7 +164,7 @@ template <int D> class StripSweep {
       boxes = larger(boxes, __builtin_sqrt(free_candidates / (neighbours * relative[1] * relative[2])));
       width[1] = boxes * relative[1];
       width[2] = boxes * relative[2];
-      // Where one axis is not worth cutting the world is flat: balance the other alone.
+      // If one axis is not worth cutting, the world is flat: balance the other alone.
       if (width[1] >= 1) width[2] = one_axis(2);
       else if (width[2] >= 1) width[1] = one_axis(1);
     }
@@ -197,7 +196,7 @@ template <int D> class StripSweep {
     return region;
   }
 
-  /// Chooses the sweep axis and the outermost cut; false where it would leave all in one strip.
+  /// Chooses the sweep axis and the outermost cut; false if that leaves all in one strip.
   SMALL bool cut_up(const Scene<D>& scene) {
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     SceneSample<D> world;
@@ -226,9 +225,9 @@ template <int D> class StripSweep {
     }
   }
 
-  /// Puts items into the strips of a cut, behind the `base` entries of the cuts further out, and sweeps each.
-  /// Does nothing and returns false where the cut would not pay: boxes that overlap nearly all others enter every
-  /// strip, and cutting strips again and again would multiply them without end.
+  /// Puts items into the strips of a cut, after the `base` entries of the cuts further out, and sweeps each strip. Does
+  /// nothing and returns false if the cut would not pay: boxes that overlap nearly all others enter every strip, and
+  /// each further cut would multiply them.
   template <class Source>
   bool divide(Source items, u32 size, const Cut& cut, const Region& region, u32 base, u32 depth, Pairs& pairs) {
     clear(cut, depth);
@@ -273,7 +272,7 @@ template <int D> class StripSweep {
     }
   }
 
-  /// Where each strip's entries begin, and how many there will be in all; whether that pays.
+  /// Computes where each strip's entries begin, and how many there will be in all; returns whether the cut pays.
   SMALL bool add_up(u32 size, const Cut& cut, u32 depth, u64& total) const {
     u32 across = cut.across(), lists = cut.rows();
     u32* offsets = offsets_[depth].data();
@@ -291,8 +290,8 @@ template <int D> class StripSweep {
       total += here;
       tests += f64(here) * here;
     }
-    // It pays when it saves a third of the tests, or when it copies little: then it closes in on a crowd, for the
-    // next cut to spread it.
+    // It pays if it saves a third of the tests, or if it makes few copies: then it isolates a crowd, which the next cut
+    // can divide.
     bool pays = tests * 3 < 2 * f64(size) * size || (total - base) * 2 < size * 3;
     return pays && total <= most_copies * boxes_;
   }
@@ -326,11 +325,11 @@ template <int D> class StripSweep {
     }
   }
 
-  /// Sweeps the strips of a cut, whose entries stand from `begin` to `total`, where deeper cuts stack theirs.
+  /// Sweeps the strips of a cut, whose entries are from `begin` to `total`; deeper cuts put theirs after them.
   SMALL void sweep(const Cut& cut, const Region& region, u32 depth, u32 total, u32 begin, Pairs& pairs) {
     u32 across = cut.across();
     for (u32 l = 0; begin < total; l++) {
-      u32 end = offsets_[depth][l];  // it has moved on from where the strip begins to where it ends
+      u32 end = offsets_[depth][l];  // filling the strip has moved it from the beginning to the end
       if (end == begin) continue;
       Region part = region;
       narrow(part, 1, cut, l / across);
@@ -347,23 +346,23 @@ template <int D> class StripSweep {
     else return bits<u32x4>(entries_.boxes[2 * u64(k)])[3];
   }
 
-  // Items that are cut again stand in entries_ themselves, which may move when it grows.
+  // Items that are cut again are in entries_ themselves, which may move when it grows.
   static size_t place(const SceneItems<D>&) { return 0; }
   static void move(SceneItems<D>&, size_t) {}
   size_t place(const ItemsAt<D>& items) const { return size_t(items.boxes - entries_.boxes.data()) / (D - 1); }
   void move(ItemsAt<D>& items, size_t first) const { items = ItemsAt<D>(entries_, first); }
 
-  /// Cuts a region down to one strip along an axis; the border strips keep the region's own border.
+  /// Clips a region to one strip along an axis; the border strips keep the region's own border.
   SMALL static void narrow(Region& region, int axis, const Cut& cut, u32 strip) {
     u32 last = cut.strips[axis] - 1;
     if (last == 0) return;
-    // Strips are centred on whole steps: Axis rounds to the nearest.
+    // Strips are centred on whole steps, since Axis rounds to the nearest.
     f64 low = cut.world.low[axis], step = (cut.world.high[axis] - low) / last;
     if (strip > 0) region.low[axis] = low + (strip - 0.5) * step;
     if (strip < last) region.high[axis] = low + (strip + 0.5) * step;
   }
 
-  /// Sweeps the items of one strip, which were just ordered, or cuts them again where that saves work.
+  /// Sweeps the items of one strip, which were just ordered, or cuts the strip again if that saves work.
   void list(const ItemsAt<D>& items, u32 count, u64 tests, const Region& region, u32 base, u32 depth, Pairs& pairs) {
     f64 hits = tests > look_factor * count && tests > again_least ? swept_.hits(count) : 1;
     SceneSample<D> part;

@@ -2,10 +2,10 @@
 //
 // Idea: the axis along which the world is longest, measured in boxes, is swept. The order is retained: boxes move
 // little between updates, so it is nearly right, and an insertion sort repairs it in one pass. If too much has changed,
-// that is given up after a few moves: a counting sort then distributes the boxes over as many cells as there are boxes,
-// and an insertion sort repairs each cell. If cells are crowded, a radix sort is used. Boxes with equal minima are in
-// the order of their slots, so that the order depends on the boxes alone. Few of the boxes that meet on one axis
-// overlap, so sixteen are tested at a time (quantized_sweep.hpp).
+// that stops early: a counting sort then distributes the boxes over as many cells as there are boxes, and an insertion
+// sort repairs each cell. If cells are crowded, a radix sort is used. Boxes with equal minima are in the order of their
+// slots, so that the order depends on the boxes alone. Few of the boxes that meet on one axis overlap on all, so
+// sixteen are tested at a time (quantized_sweep.hpp).
 // Cost: update O(n + moves in the order), at most that of one radix sort; pairs O(n * boxes that one meets along the
 // axis), which grows with the square root (2D) or the power 2/3 (3D) of n; memory about 65 (2D) or 75 (3D) bytes a box.
 // Wins in sparse and long worlds, and when few boxes move. Loses in large square worlds, and most of all in cubes: it
@@ -19,11 +19,11 @@
 #include "search/stats.hpp"
 
 template <int D> class SweepAndPrune {
-  // A repair is given up when it has made more moves than this for each box it has come past, and this many more.
+  // A repair stops when it has made more than `patience` moves per box it has passed, and `head_start` more.
   static constexpr u32 patience = 2, head_start = 256;
 
-  Buffer<u32> order_;  // the slots 0 … count_ - 1, as they stood in the last update
-  Buffer<f32> keys_;  // where they start
+  Buffer<u32> order_;  // the slots 0 … count_ - 1, in the order of the last update
+  Buffer<f32> keys_;  // per place in the order, the minimum
   Buffer<u32> cells_, starts_, dealt_order_;
   Buffer<f32> dealt_keys_;
   Lanes<D> lanes_;
@@ -55,7 +55,7 @@ template <int D> class SweepAndPrune {
     stats.cells = stats.entries = n;
   }
 
-  /// What each box takes of the axis.
+  /// The interval of each box along the axis.
   SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
     count = u32(stats.cells);
     boxes.reserve(u64(count) * 2 * D);
@@ -80,7 +80,7 @@ template <int D> class SweepAndPrune {
   }
 
  private:
-  /// Slots that are gone leave the order, new ones stand at its end.
+  /// Removes deleted slots from the order, and appends new ones.
   void take(u32 n) {
     order_.grow(n, smaller(n, count_));
     u32 kept = 0;
@@ -93,7 +93,7 @@ template <int D> class SweepAndPrune {
     count_ = n;
   }
 
-  /// Deals the order into cells along the axis.
+  /// Distributes the order over cells along the axis.
   void deal(u32 n, const SceneSample<D>& world) {
     u32* cells = cells_.reserve(n + 4);
     u32* starts = starts_.reserve(n);
@@ -119,7 +119,7 @@ template <int D> class SweepAndPrune {
     order_.swap(dealt_order_);
   }
 
-  /// Insertion sort of the order by its keys, then by the slots; false where that would take too long.
+  /// Insertion sort of the order by keys, then by slots; false if that would take too long.
   bool repair(u32 n) {
     f32* keys = keys_.data();
     u32* order = order_.data();

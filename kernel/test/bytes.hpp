@@ -1,8 +1,8 @@
-// Bytes to decide by, and what they are read as: numbers, boxes, what a box has of its own.
+// A source of decisions: bytes that are read as numbers, boxes and settings of boxes.
 #pragma once
 #include "model.hpp"
 
-/// Bytes to decide by; zeros once they are used up.
+/// The bytes; zeros once they are used up.
 class Bytes {
   const u8* at_;
   const u8* end_;
@@ -31,7 +31,7 @@ struct Beginning {
   explicit Beginning(u8 byte) : dimensions(2 + byte % 2), technique(Technique(byte / 2 % technique_count)) {}
 };
 
-/// Any number, special ones often.
+/// Any number; special ones are frequent.
 inline f64 any_number(Bytes& bytes) {
   static const f64 special[] = {std::numeric_limits<f64>::infinity(),
                                 -std::numeric_limits<f64>::infinity(),
@@ -58,7 +58,7 @@ inline f64 any_number(Bytes& bytes) {
   return any == any ? any : 0;
 }
 
-/// A box, often a small one.
+/// A box; small ones are frequent.
 template <int D> Box<D> any_box(Bytes& bytes) {
   Box<D> box;
   for (u32 a = 0; a < D; a++) {
@@ -82,7 +82,7 @@ template <int D> Box<D> bad_box(Bytes& bytes) {
   return bad;
 }
 
-/// What these calls give: few kinds of it, so that boxes share them.
+/// Settings of boxes: few different ones, so that boxes share them.
 struct Given {
   u32 group;
   f64 reach;

@@ -1,12 +1,12 @@
 // Sequences of calls read from bytes, made on a space and on a model of it: the tests feed random bytes, the
-// fuzzer its own. Any bytes are a valid sequence; where they end, so does the sequence.
-// Here is which call comes next; what each does is in change_calls.hpp, update_calls.hpp and question_calls.hpp.
+// fuzzer its own. Any bytes are a valid sequence, which ends with them. This file chooses the next call; the calls are
+// in change_calls.hpp, update_calls.hpp and question_calls.hpp.
 #pragma once
 #include "question_calls.hpp"
 #include "update_calls.hpp"
 
 template <int D> class Calls {
-  // Long runs of updates take their time and find little more each time.
+  // Long runs of updates are slow, and each further one finds little more.
   static constexpr u32 most_spells = 2;
 
   Bytes& bytes_;
@@ -18,10 +18,11 @@ template <int D> class Calls {
  public:
   Calls(Bytes& bytes, Technique first) : bytes_(bytes), trial_(bytes, first) {
     Settings& settings = trial_.instance->settings;
-    // Not the extremes, which take the grid a while and have a test of their own.
+    // Without extremes, which are slow for the grid and have a test of their own.
     u8 with = bytes_.next();
     trial_.space.store.keeps_events = with & 16;
-    if (with / 32 == 0) updates_.spells_left = most_spells;  // few sequences have them, so that there is time for many
+    if (with / 32 == 0)
+      updates_.spells_left = most_spells;  // few sequences have them, so that there is time for many sequences
     for (u32 a = 0; a < D; a++) {
       if (with % 16 == 1) settings.cell_size[a] = std::exp2(f64(bytes_.below(12)));
       if (with % 16 == 2) {
@@ -35,7 +36,7 @@ template <int D> class Calls {
     trial_.model.touching = settings.touching = with % 4 != 3 || bytes_.below(3) > 0;
   }
 
-  /// Makes all calls that the bytes ask for, then compares once more.
+  /// Makes all calls that the bytes encode, then compares once more.
   void run() {
     while (!bytes_.empty()) step();
     trial_.starved = false;
@@ -48,7 +49,7 @@ template <int D> class Calls {
  private:
   void step() {
     u32 what = bytes_.below(32);
-    // No questions are asked in a world that wraps around.
+    // No queries are made in a world that wraps around.
     if (trial_.wraps() && (what == 23 || (what >= 27 && what <= 29))) return trial_.update();
     switch (what) {
       default: return changes_.set(trial_.id(), any_box<D>(bytes_));

@@ -1,4 +1,4 @@
-// Calls that change what stands in a space, as bytes say.
+// Calls that change the contents of a space, chosen by bytes.
 #pragma once
 #include "scenes.hpp"
 #include "trial.hpp"
@@ -57,7 +57,7 @@ template <int D> class ChangeCalls {
     replace(doubles ? boxes : as_floats<D>(boxes), doubles);
   }
 
-  /// Writes some boxes in place; some of them bad, which only the next update says.
+  /// Writes some boxes in place. Some of them are bad, which only the next update reports.
   void expose() {
     u32 count = bytes_.below(3) ? bytes_.below(40) : smaller(model_.count(), Trial<D>::most_boxes);
     f32* boxes = nullptr;
@@ -110,7 +110,7 @@ template <int D> class ChangeCalls {
     if (trial_.made([&] { own.give_reach(space_, ids_.slot(id)); })) model_.set_reach(id, own.reach);
   }
 
-  /// One box comes, goes, jumps, stops being huge or becomes it, or gets another rule.
+  /// One box is added, deleted, jumps, becomes huge or stops being so, or gets another rule.
   void disturb(Random& random) {
     std::vector<u32> all = model_.ids();
     if (all.empty()) return;
@@ -147,7 +147,7 @@ template <int D> class ChangeCalls {
   }
 
  private:
-  /// Writes a bad box in place: the next update names it, wherever it stands by then, and changes nothing.
+  /// Writes a bad box in place: the next update names it, whichever slot it is in by then, and changes nothing.
   void write_bad(f32* boxes, u32 count) {
     u32 bad = bytes_.next() % count, other = bytes_.next() % count;
     Box<D> good = model_.at(bad), wrong = bad_box<D>(bytes_);

@@ -1,10 +1,10 @@
-// Which boxes have changed, as the space is told.
+// Which boxes are recorded as changed.
 #include "boxes/changes.hpp"
 
 #include "check.hpp"
 #include "model.hpp"
 
-TEST("changes have room for as many as they say, and name each once") {
+TEST("changes have the room they report, and list each slot once") {
   Changes changes;
   changes.make_room(33);
   changes.clear(33);
@@ -16,7 +16,7 @@ TEST("changes have room for as many as they say, and name each once") {
   for (u32 k = 0; k < 60; k++) CHECK(changes.list()[k] == k);
 }
 
-/// Boxes that come through the ring, of which some are not what stood there: the last of a box counts.
+/// Boxes that come through the ring, some of which differ from the previous ones: the last entry of a box counts.
 template <int D> void check_ring() {
   constexpr u32 width = 2 * D, slots = 40, rounds = 600;
   auto instance = open<D>(Technique::strip_sweep);
@@ -47,7 +47,7 @@ template <int D> void check_ring() {
   }
 }
 
-TEST("of boxes in the ring the last of each counts, and it is told what may wait there") {
+TEST("the last entry of a box in the ring counts, and the ring says what may wait") {
   check_ring<2>();
   check_ring<3>();
 }

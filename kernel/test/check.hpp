@@ -1,4 +1,4 @@
-// The tests' frame: TEST names one, CHECK says what must hold, `Where` adds what was being done to the message.
+// The test framework: TEST defines a test, CHECK asserts, and `Where` adds what was being done to the message.
 #pragma once
 #include <cstdio>
 #include <cstdlib>
@@ -13,7 +13,7 @@ struct Test {
   void (*run)();
 };
 inline std::vector<Test> tests;
-inline std::vector<std::string> places;  // what is being done, the outermost first
+inline std::vector<std::string> places;  // what is being done, outermost first
 inline int checks = 0, failures = 0;
 inline constexpr int most_failures = 20;
 

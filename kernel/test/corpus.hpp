@@ -1,4 +1,4 @@
-// The fuzzer's corpus: sequences of calls that together reach all of the kernel that it has reached.
+// The fuzzer's corpus: sequences of calls that together cover all lines of the kernel that it has reached.
 #pragma once
 #include <vector>
 

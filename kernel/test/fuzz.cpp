@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   else Calls<3>(bytes, beginning.technique).run();
   CHECK(heap::used == 0);
   if (testing::failures > 0) {
-    std::fflush(stdout);  // what does not hold
+    std::fflush(stdout);  // the checks that failed
     std::abort();
   }
   return 0;

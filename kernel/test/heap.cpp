@@ -53,7 +53,7 @@ TEST("heap arrays keep their contents when they grow") {
   CHECK(heap::used == before);
 }
 
-TEST("heap ends with a failure that changes nothing") {
+TEST("heap that runs out of memory changes nothing") {
   u64 limit = heap::limit;
   Buffer<u32> array;
   array.reserve(16);

@@ -83,7 +83,7 @@ TEST("ids in order are not stored") {
   CHECK(heap::used == before);
 }
 
-TEST("ids are as before when memory ends") {
+TEST("ids are unchanged when memory runs out") {
   u64 limit = heap::limit;
   auto ids = std::make_unique<Ids>();
   for (u32 id = 0; id < 9000; id++) ids->insert(id);

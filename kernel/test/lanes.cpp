@@ -1,8 +1,8 @@
-// What stands behind the items of `Lanes`: sweeps read it.
+// What comes after the items of `Lanes`, since sweeps read it.
 #include "boxes/box.hpp"
 #include "check.hpp"
 
-TEST("behind the lanes there is padding that overlaps nothing, whatever stood there before") {
+TEST("after the items of lanes there is padding that overlaps nothing, whatever was there before") {
   Lanes<2> lanes;
   Items<2> store;
   store.grow(100, 0);

@@ -1,4 +1,4 @@
-// Memory that ends in the middle of a call: the failure is reported, nothing is half changed, and the space works
+// Memory that runs out in the middle of a call: the failure is reported, nothing is half changed, and the space works
 // again.
 #pragma once
 #include "calls.hpp"
@@ -80,7 +80,7 @@ template <int D> void check_changes() {
       return failures;
     };
 
-    // set: an id further on, one by one until every array has grown.
+    // set: one id after another, until every array has grown.
     auto fixture = fresh();
     u32 failures = 0;
     for (u32 k = 40; k < 300; k++) {
@@ -115,7 +115,7 @@ template <int D> void check_updates() {
     f.model.replace(boxes);
     CHECK(starve(f.space, [&] { CHECK(f.space.update() == -1); }, [&] { f.unchanged(); }) > 10);
     f.works();
-    // What is no update leaves the pairs of the last.
+    // Calls other than update leave the pairs of the last one.
     PairList pairs = sorted_pairs(f.space);
     starve(
         f.space, [&] { f.space.structure(); },
@@ -126,8 +126,8 @@ template <int D> void check_updates() {
   }
 }
 
-/// Boxes of which a few creep, come, wake and jump, update after update, until techniques keep what they find; then
-/// memory ends in one update: when they begin to, while they fill what they keep, and when they answer from it.
+/// A few boxes creep, appear, wake and jump, update after update, until techniques retain what they find. Then memory
+/// runs out in one update: when they begin to retain, while they fill their lists, and when they answer from these.
 template <int D> void check_kept_updates() {
   Random random(23);
   const Boxes<D> boxes = as_floats<D>(spread<D>(random, 400, 0, D == 2 ? 200 : 60, 8));
@@ -217,8 +217,8 @@ template <int D> void check_too_many_pairs() {
   }
 }
 
-/// A huge box that moves among many at rest: there is room for all that it may meet before any is written down, so that
-/// their list is not copied to a larger place.
+/// A huge box that moves among many at rest: room for all boxes that it may meet is reserved first, so that the list is
+/// not copied to a larger place.
 template <int D> void check_huge_mover() {
   Random random(24);
   const u32 count = 20'000;

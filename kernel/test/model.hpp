@@ -1,5 +1,4 @@
-// What a space must be, said as plainly as possible: a map from id to box in double precision, and all pairs by
-// testing each box against each.
+// The simplest model of a space: a map from id to box in double precision, and all pairs by testing every two boxes.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -15,7 +14,7 @@ template <int D> using Box = std::array<f64, 2 * D>;  // D minima, then D maxima
 template <int D> using Boxes = std::vector<Box<D>>;
 using PairList = std::vector<u64>;  // sorted; the smaller id in the low half
 
-// All against all takes most of the time, and watching over the model finds nothing in the kernel.
+// Testing all pairs takes most of the time, and sanitizing the model finds nothing in the kernel.
 #if defined(__clang__)
 #define UNWATCHED __attribute__((no_sanitize("address", "undefined", "coverage")))
 #else
@@ -25,7 +24,7 @@ using PairList = std::vector<u64>;  // sorted; the smaller id in the low half
 /// The number of techniques, `automatic` included.
 inline constexpr u32 technique_count = u32(Technique::automatic) + 1;
 
-/// `touching`: whether it is enough that they touch.
+/// `touching`: whether touching is enough.
 inline bool overlap(const f64* a, const f64* b, int dimensions, bool touching = true) {
   for (int k = 0; k < dimensions; k++) {
     if (a[k] > b[dimensions + k] || b[k] > a[dimensions + k]) return false;
@@ -55,7 +54,7 @@ template <int D> class Model {
   std::map<u32, Entry> entries_;
   std::set<u32> gone_;  // deleted since the last update
 
-  /// Ids are 0 … count - 1 from now on; those that were there keep their rules.
+  /// The ids become 0 … count - 1; boxes that were there keep their rules.
   void renumber(u32 count) {
     for (auto entry = entries_.lower_bound(count); entry != entries_.end(); ++entry) gone_.insert(entry->first);
     entries_.erase(entries_.lower_bound(count), entries_.end());
@@ -85,7 +84,7 @@ template <int D> class Model {
   u32 group(u32 id) const { return entries_.at(id).group; }
   f64 reach(u32 id) const { return entries_.at(id).reach; }
   void set_reach(u32 id, f64 distance) { entries_.at(id).reach = distance; }
-  /// A box with what it reaches.
+  /// A box enlarged by its reach.
   Box<D> grown(u32 id) const {
     Box<D> box = at(id);
     for (u32 a = 0; a < D; a++) {
@@ -116,7 +115,7 @@ template <int D> class Model {
     entries_.at(id).rule.mask = mask;
   }
 
-  /// In order: the larger ids count first.
+  /// Sorted by the larger id first.
   PairList pairs() const {
     std::vector<u32> ids;
     std::vector<f64> boxes;
@@ -141,7 +140,7 @@ template <int D> class Model {
   }
 
  private:
-  /// Which boxes before the k-th one meet it.
+  /// The boxes before the k-th one that meet it.
   UNWATCHED static u32 meet_before(u32 k, const f64* boxes, const Rule* rules, u32* found) {
     const f64* box = boxes + size_t(k) * 2 * D;
     Rule rule = rules[k];
@@ -158,7 +157,7 @@ template <int D> class Model {
   }
 };
 
-/// A space with the ids and settings that it stands on.
+/// A space with the ids and settings that it refers to.
 template <int D> struct Instance {
   Ids ids;
   Settings settings;
@@ -179,7 +178,7 @@ template <int D> PairList sorted_pairs(const Space<D>& space) {
   return found;
 }
 
-/// Adds or moves a box, as JavaScript does one that may not wait.
+/// Adds or moves a box, as JavaScript does if a box may not wait.
 template <int D> void set(Space<D>& space, u32 id, const f64* box) {
   Ring<D> ring;
   ring.entries[0] = id;
@@ -187,7 +186,7 @@ template <int D> void set(Space<D>& space, u32 id, const f64* box) {
   space.store.take(ring, 1);
 }
 
-/// Stages boxes and puts them in place of all; as float32 where `doubles` is false. Returns the first bad one.
+/// Stages boxes and replaces all by them; as float32 if `doubles` is false. Returns the first bad one.
 template <int D> i32 replace(Space<D>& space, const Boxes<D>& boxes, bool doubles) {
   u32 count = u32(boxes.size());
   if (doubles) {

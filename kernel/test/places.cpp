@@ -1,4 +1,4 @@
-// What is found where regions stand.
+// Finding regions in the grids of places.hpp.
 #include "coherence/places.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Boxes that stand the closer the further along each axis, small ones and large ones; some are half outside the world.
+/// Small and large boxes, which get denser along each axis; some are half outside the world.
 template <int D> std::vector<f32> crowd(Random& random, u32 count, bool in_a_row, f64 huge) {
   std::vector<f32> boxes(count * 2 * D + 4);
   for (u32 k = 0; k < count; k++) {
@@ -35,7 +35,7 @@ template <int D> void check_near(u32 count, bool in_a_row, f64 huge) {
   for (u32 slot = 0; slot < count; slot += 3) {
     places.remove(boxes.data() + slot * 2 * D, slot);
     stands[slot] = slot % 2;
-    if (!stands[slot]) continue;  // the others are put where they have gone, and half of them leave that too
+    if (!stands[slot]) continue;  // the others are put where they have moved to, and half of them leave that place too
     auto go_to = [&](u32 other) {
       std::copy_n(others.data() + other * 2 * D, 2 * D, boxes.data() + slot * 2 * D);
       places.put(boxes.data() + slot * 2 * D, slot);
@@ -65,7 +65,7 @@ template <int D> void check_near(u32 count, bool in_a_row, f64 huge) {
 
 }  // namespace
 
-TEST("each region that touches one is found among the places, once") {
+TEST("each region that touches another is found in the places, once") {
   for (bool in_a_row : {false, true}) {
     for (f64 huge : {0.0, 0.01, 1.0}) {
       check_near<2>(1500, in_a_row, huge);

@@ -1,4 +1,4 @@
-// Questions, as bytes say: each answer is the model's.
+// Queries, chosen by bytes: each answer must be the model's.
 #pragma once
 #include "trial.hpp"
 
@@ -40,11 +40,11 @@ template <int D> class QuestionCalls {
     std::vector<u32> expected;
     for (u32 id : eligible(asks)) {
       const Box<D>& its = trial_.seen->at(id);
-      // Squares tell where they are exact; those of what is very far away overflow, which only an endless radius reaches.
+      // Compares squares if they are exact. Those of very distant boxes overflow: only an infinite radius reaches them.
       bool is_endless = asks.radius == std::numeric_limits<f64>::infinity();
       f64 far = is_endless ? distance(asks, its) : squared_distance(asks, its);
       f64 most = is_endless ? asks.radius : asks.radius * asks.radius;
-      // A circle without size, where touching does not count, is a point.
+      // A circle of radius 0 is a point if touching does not count.
       bool is_round = is_circle && (asks.touching || asks.radius > 0);
       bool within = !is_round       ? overlap(box.data(), its.data(), D, asks.touching)
                     : asks.touching ? far <= most
@@ -57,7 +57,7 @@ template <int D> class QuestionCalls {
 
   /// Up to rounding: the nearest, in order.
   void ask_near() {
-    const f64 tiny = 1e-150;  // the squares of less are not exact
+    const f64 tiny = 1e-150;  // squares of smaller numbers are not exact
     Question<D> asks = question();
     from_a_point(asks);
     asks.limit = bytes_.below(2) ? std::numeric_limits<f64>::infinity() : f64(bytes_.next()) * 4;
@@ -103,7 +103,8 @@ template <int D> class QuestionCalls {
     CHECK(good);
   }
 
-  /// Many questions in one call: each answered as if it were asked alone. Of all boxes: each, and none itself.
+  /// Many queries in one call: each is answered as if it were made alone. For all boxes: each asks, and none finds
+  /// itself.
   void ask_many() {
     Question<D> common = question();
     common.limit = f64(bytes_.next());
@@ -173,7 +174,7 @@ template <int D> class QuestionCalls {
     if (trial_.made([&] { met = space_.is_pair(mine, other); })) CHECK(met == !expected.empty() || expected.empty());
   }
 
-  /// The structure is made of boxes.
+  /// The structure consists of boxes.
   void look() {
     if (!trial_.made([&] { space_.structure(); })) return;
     bool good = true;
@@ -199,7 +200,7 @@ template <int D> class QuestionCalls {
     return question;
   }
 
-  /// The ids that a question is about.
+  /// The ids that a query asks for.
   std::vector<u32> eligible(const Question<D>& question) const {
     std::vector<u32> ids;
     if (!trial_.seen) return ids;
@@ -210,12 +211,12 @@ template <int D> class QuestionCalls {
     return ids;
   }
 
-  /// Makes it a question about a point.
+  /// Makes it a query at a point.
   void from_a_point(Question<D>& asks) {
     for (u32 a = 0; a < D; a++) asks.lo[a] = asks.hi[a] = f64(bytes_.below(40));
   }
 
-  /// From the point that is asked about to a box: without overflow.
+  /// The distance from the query's point to a box, without overflow.
   static f64 distance(const Question<D>& asks, const Box<D>& box) {
     f64 all = 0;
     for (u32 a = 0; a < D; a++) all = std::hypot(all, std::max({box[a] - asks.lo[a], asks.lo[a] - box[D + a], 0.0}));

@@ -1,5 +1,5 @@
-// Boxes that broad phases get wrong, as in test/support/hostile-boxes.ts: everything in one place, nothing near anything, no
-// size, no end, numbers at the limits of float32 and beyond; and ordinary random ones.
+// Boxes that broad phases get wrong, as in test/support/hostile-boxes.ts: all in one place, all far apart, zero size,
+// infinite, numbers at the limits of float32 and beyond; and ordinary random ones.
 #pragma once
 #include <cmath>
 #include <limits>

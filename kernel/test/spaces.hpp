@@ -17,7 +17,7 @@ template <int D> PairList pairs_of(const Boxes<D>& boxes) {
   return model.pairs();
 }
 
-/// Updates and compares, with nothing changed in between too.
+/// Updates and compares, also with nothing changed in between.
 template <int D> void check_pairs(Space<D>& space, const PairList& expected) {
   CHECK(space.update() == -1);
   CHECK(sorted_pairs(space) == expected);
@@ -43,7 +43,7 @@ template <int D> void check_scenes() {
   }
 }
 
-/// Fresh arrays of every size, then of a smaller one: what is read or written past their ends is seen.
+/// Fresh arrays of every size, then of a smaller one: the sanitizer sees reads and writes past their ends.
 template <int D> void check_every_count() {
   Random random(9);
   for (u32 count = 0; count < 180; count += count < 40 ? 1 : 7) {
@@ -60,8 +60,8 @@ template <int D> void check_every_count() {
   }
 }
 
-/// With cells far too small, far too large, and of different sides; with bounds around all, around nothing, and
-/// beyond what float32 holds.
+/// With cells far too small, far too large, and with different sides; with bounds around everything, around nothing,
+/// and beyond float32.
 template <int D> void check_settings() {
   Random random(10);
   Boxes<D> boxes = spread<D>(random, 150, -30, 30, 5);
@@ -106,14 +106,14 @@ template <int D> void check_calls() {
   }
 }
 
-/// Long spells in which little changes, of every kind, for the techniques that keep what they find.
+/// Long runs of updates in which little changes, of every kind, for techniques that retain what they find.
 template <int D> void check_spells() {
   u8 seed = 0;
   for (Technique technique : {Technique::incremental, Technique::automatic, Technique::aabb_tree}) {
     for (u8 how = 0; how < 32; how += 2) {
       testing::Where where("technique " + std::to_string(u32(technique)) + ", spell " + std::to_string(how));
       u8 events = how & 4 ? 16 : 0, margin = how % 16 == 6 ? 4 : 0, speed = u8(seed % 8 << 5);
-      // What the space is made with, then twice: a spell, a look, the technique once more.
+      // The options of the space, then twice: a run of updates, a comparison, the technique again.
       std::vector<u8> data = {u8(events | margin)};
       if (margin) data.push_back(seed);
       for (u8 kind : {how, u8(how + 1)}) {
@@ -137,7 +137,7 @@ template <int D> void check_corpus() {
   }
 }
 
-/// From any scene to any other in one space: with one technique, and with another each time.
+/// From any scene to any other in one space: with one technique, and with a different one each time.
 template <int D> void check_switches() {
   Random random(11);
   const auto& all = scenes<D>();
@@ -161,12 +161,12 @@ template <int D> void check_switches() {
   });
 }
 
-/// The order of the pairs follows from what stands in the space, not from the updates before: a space that has seen
-/// other boxes, with few and with many changes in between, gives them as a fresh one does.
+/// The order of the pairs follows from the boxes in the space, not from earlier updates: a space that had other boxes,
+/// with few and with many changes in between, gives the same order as a fresh one.
 template <int D> void check_history() {
   Random random(16);
   Boxes<D> boxes = spread<D>(random, 400, 0, 60, 8);
-  for (auto& box : spread<D>(random, 200, 0, 12, 0)) {  // many that start together
+  for (auto& box : spread<D>(random, 200, 0, 12, 0)) {  // many with equal minima
     for (u32 a = 0; a < D; a++) box[a] = box[D + a] = std::floor(box[a]);
     boxes.push_back(box);
   }
@@ -189,7 +189,8 @@ template <int D> void check_history() {
       auto fresh = open<D>(technique);
       for (auto* space : {&old->space, &fresh->space}) {
         replace(*space, now, true);
-        if (technique >= Technique::incremental) CHECK(space->save() == -1);  // only from then on it holds for these
+        if (technique >= Technique::incremental)
+          CHECK(space->save() == -1);  // for these, that holds only from a snapshot on
         space->update();
       }
       const u64 *one = old->space.pairs.list.data(), *other = fresh->space.pairs.list.data();
@@ -238,7 +239,7 @@ template <int D> void check_rounding() {
     for (u32 n = 0; n < 2 * D; n++) CHECK(bits<u32>(floats[n]) == bits<u32>(f32(x)));
   }
   for (u32 k = 0; k < 1000; k++) {
-    Box<D> box;  // no two numbers alike
+    Box<D> box;  // no two numbers are equal
     for (u32 n = 0; n < 2 * D; n++) box[n] = f32(n) + (random.bits64() % 3 ? 0 : random.fraction() / 2);
     set(space, 3, box.data());
     f32* floats = space.store.expose(4) + 3 * 2 * D;
@@ -246,7 +247,7 @@ template <int D> void check_rounding() {
   }
 }
 
-/// Boxes handed out in place, wherever they stand by the time they turn out to be bad.
+/// Bad boxes written in place are named correctly, even if they have moved to another slot since.
 template <int D> void check_exposed() {
   auto instance = open<D>(Technique::automatic);
   Space<D>& space = instance->space;
@@ -320,7 +321,7 @@ template <int D> void check_colours() {
   });
 }
 
-/// Strips that hold too much are cut again, deeper and deeper.
+/// Strips with too many boxes are cut again, deeper and deeper.
 template <int D> void check_deep_cuts() {
   Random random(14);
   Boxes<D> boxes;
@@ -336,7 +337,7 @@ template <int D> void check_deep_cuts() {
   });
 }
 
-/// What is measured of a frame can be reckoned with.
+/// The sample of a frame has usable numbers.
 template <int D> void check_statistics_of(const Boxes<D>& boxes) {
   std::vector<f32> floats;
   for (const auto& box : boxes) {

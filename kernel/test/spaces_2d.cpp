@@ -1,4 +1,4 @@
-// All tests of spaces in 2D. Each dimension is a source of its own, so that they compile side by side.
+// All tests of spaces in 2D. Each dimension is a source of its own, so that both compile in parallel.
 #include "memory.hpp"
 #include "spaces.hpp"
 #include "wrap.hpp"

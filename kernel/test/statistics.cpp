@@ -1,4 +1,4 @@
-// What is measured of a frame, and the maps from coordinates to cells that follow from it.
+// The sample of a frame (scene_sample.hpp), and the maps from coordinates to cells derived from it.
 #include "boxes/scene_sample.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using Limits = std::numeric_limits<f32>;
 
-/// Coordinates over all magnitudes, and those around a range's borders.
+/// Coordinates of all magnitudes, and those around the borders of a range.
 std::vector<f32> probes(Random& random, f64 low, f64 high) {
   std::vector<f32> all = {0.0f,
                           -0.0f,

@@ -1,5 +1,5 @@
-// A space and a model of it that the same calls are made on. After each call they agree on ids and numbers, after each
-// update on the pairs. Calls made with little memory left that fail must have changed nothing.
+// A space and its model, on which the same calls are made. After each call they must agree on ids and numbers, after
+// each update on the pairs. A call that fails for lack of memory must have changed nothing.
 #pragma once
 #include <optional>
 
@@ -9,17 +9,17 @@
 template <int D> struct Trial {
   static constexpr u32 most_boxes = 450;  // the model tests all against all
   static constexpr u32 crowded = 12'000;   // pairs
-  static constexpr u32 most_crowds = 2;  // updates that find a crowd take their time and find little more each time
+  static constexpr u32 most_crowds = 2;  // updates in a crowd are slow, and each further one finds little more
 
   Bytes& bytes;
   std::unique_ptr<Instance<D>> instance;
   Ids& ids;
   Space<D>& space;
   Model<D> model;
-  PairList before;           // of the last update
+  PairList before;           // the pairs of the last update
   bool unsure = false;
-  bool found = false;        // whether they are still the space's: not after memory ended
-  std::optional<Model<D>> seen;  // by the questions: what the last update saw
+  bool found = false;        // whether the space still has them: not after memory ran out
+  std::optional<Model<D>> seen;  // what the last update saw, and queries see
   bool updated = false, was_asked = false;
   u32 crowds = 0;
   bool starved = false;  // the next call has little memory
@@ -29,8 +29,8 @@ template <int D> struct Trial {
 
   bool wraps() const { return instance->settings.wrap[0] > 0; }
 
-  /// The pairs there must be. In a world that wraps around, those that a space finds which has just been made: that they
-  /// are the right ones is known from tests with whole numbers.
+  /// The expected pairs. In a world that wraps around, they are those that a new space finds; tests with whole numbers
+  /// show that these are right.
   PairList expected() {
     if (!wraps()) return model.pairs();
     auto fresh = open<D>(Technique::brute_force);
@@ -50,8 +50,8 @@ template <int D> struct Trial {
     return sorted_pairs(fresh->space);
   }
 
-  /// Makes a call; returns whether there was memory for it. `recover` is what abi.cpp does after a trap. Where memory
-  /// ended, `unmade` sees to it that nothing has changed.
+  /// Makes a call; returns whether there was memory for it. `recover` is what abi.cpp does after a trap. If memory ran
+  /// out, `unmade` checks that nothing has changed.
   template <class Call> bool made(Call call) {
     return made(call, [&] { compare(); });
   }
@@ -72,7 +72,7 @@ template <int D> struct Trial {
     if (!ended) return true;
     space.recover();
     found = false;
-    unsure = true;  // whether the questions see what this update saw, or what the one before did
+    unsure = true;  // whether queries see what this update saw, or what the one before did
     unmade();
     return false;
   }
@@ -111,11 +111,11 @@ template <int D> struct Trial {
     if (space.pairs.count > crowded && ++crowds > most_crowds) clear();
   }
 
-  /// Asks; returns whether there was memory for it.
+  /// Makes a query; returns whether there was memory for it.
   template <class Ask> bool asked(Ask ask) {
-    // A large space that was never asked may not know what the last update saw.
+    // A large space that was never queried may have no copy of what the last update saw.
     if (!was_asked && ids.count() > 4000) update();
-    while (unsure) update();  // an update may be starved, but only once
+    while (unsure) update();  // an update may run out of memory, but only once
     was_asked = true;
     bool done = made(ask);
     if (!done) {
@@ -149,7 +149,7 @@ template <int D> struct Trial {
     CHECK(sorted(space.store.events.ended) == without(before, now));
   }
 
-  /// What the one list has and the other one has not; pairs of boxes that were deleted in between count as another.
+  /// The pairs in one list that are not in the other; a pair with a box deleted in between counts as a different one.
   PairList without(const PairList& list, PairList others) const {
     std::erase_if(others, [&](u64 pair) { return model.is_gone(pair); });
     PairList rest;

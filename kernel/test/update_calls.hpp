@@ -1,4 +1,4 @@
-// Updates by the dozen, and snapshots to go back to, as bytes say.
+// Runs of updates, and snapshots to restore, chosen by bytes.
 #pragma once
 #include "change_calls.hpp"
 
@@ -12,7 +12,7 @@ template <int D> class UpdateCalls {
   Space<D>& space_;
   Model<D>& model_;
 
-  /// A snapshot, and what it is one of.
+  /// A snapshot, and the model of the space it was taken of.
   struct Saved {
     std::vector<u64> words;
     Model<D> model;
@@ -22,7 +22,7 @@ template <int D> class UpdateCalls {
   std::optional<Saved> saved_;
 
  public:
-  u32 spells_left = 0;  // runs of updates that are still made
+  u32 spells_left = 0;  // runs of updates left to make
 
   UpdateCalls(Trial<D>& trial, ChangeCalls<D>& changes)
       : changes_(changes),
@@ -32,8 +32,8 @@ template <int D> class UpdateCalls {
         space_(trial.space),
         model_(trial.model) {}
 
-  /// Many updates in which little changes, which is when techniques come to keep what they have found: some boxes
-  /// move on, now and then turn back; where the bytes say so, others are disturbed, and memory ends once.
+  /// Many updates in which little changes, so that techniques retain what they find. Some boxes move on, and turn back
+  /// now and then. If the bytes say so, others are disturbed, and memory runs out once.
   void let_time_pass() {
     trial_.update();
     if (spells_left == 0) return;
@@ -83,8 +83,8 @@ template <int D> class UpdateCalls {
     saved_ = Saved{{made.words(), made.words() + made.bytes() / 8}, model_, trial_.before, space_.technique};
   }
 
-  /// Goes back to what was saved; or tries to with other bytes, which must change nothing. Where memory ends, all is as it
-  /// was, or the boxes are restored and there are no pairs.
+  /// Restores a snapshot; or tries to restore other bytes, which must change nothing. If memory runs out, nothing has
+  /// changed, or the boxes are restored and there are no pairs.
   void restore() {
     if (!saved_) return;
     std::vector<u64> words = saved_->words;
@@ -93,12 +93,12 @@ template <int D> class UpdateCalls {
     u8* bytes = reinterpret_cast<u8*>(words.data());
     if (how == 1) bytes[bytes_.next16() % size] ^= u8(1u << bytes_.below(8));
     if (how == 2) size = bytes_.next16() % size;
-    // Bytes of anybody's making behind a right checksum: what they say may be restored, but must be in order.
+    // Arbitrary bytes with a correct checksum: they may be restored, but then the space must be valid.
     if (how == 3) bytes[bytes_.next16() % size] = bytes_.next();
     SnapshotHeader head = {};
     __builtin_memcpy(&head, bytes, smaller(size, u64(sizeof(head))));
     SnapshotFault fault = SnapshotFault::none;
-    // The technique tells whether anything was restored: meanwhile it is another than that of the snapshot.
+    // The technique shows whether anything was restored: until then it differs from that of the snapshot.
     Technique mine = space_.technique,
               other = head.technique == u8(Technique::brute_force) ? Technique::automatic : Technique::brute_force;
     space_.technique = other;
@@ -134,7 +134,7 @@ template <int D> class UpdateCalls {
   }
 
  private:
-  /// The model of what stands in the space, whatever it is.
+  /// A model of the present contents of the space.
   void restored_others() {
     bool touching = model_.touching;
     model_ = Model<D>();
@@ -145,7 +145,7 @@ template <int D> class UpdateCalls {
       CHECK(space_.store.get(ids_.id(s), box.data()));
       model_.set(ids_.id(s), box);
     }
-    // Filters and pairs before cannot be asked for: what they are shows in a space that saves again.
+    // Filters and the previous pairs cannot be read: saving again shows them.
     CHECK(space_.save() == -1);
     CHECK(space_.update() == -1);
     u32 detail;

@@ -1,5 +1,5 @@
-// Worlds that wrap around, with every technique. Coordinates are whole, so that the model can say with whole numbers
-// which boxes meet: those of which one, moved by some number of worlds, overlaps the other.
+// Worlds that wrap around, with every technique. Coordinates are integers, so that the model can compute exactly which
+// boxes meet: those of which one, shifted by some number of worlds, overlaps the other.
 #pragma once
 #include "spaces.hpp"
 
@@ -45,7 +45,7 @@ template <int D> void check_wrapped() {
   }
 }
 
-/// What planes see of a box: 0 nothing, 1 some of a copy, 2 all of one; of those in the world and one world away.
+/// What a query with planes sees of a box and its copies one world away: 0 nothing, 1 a part of one, 2 a whole one.
 template <int D> u32 seen(const std::array<f64, 2 * D>& box, const Planes<D>& planes, const std::array<i32, 3>& world) {
   u32 best = 0;
   for (u32 turn = 0, turns = D == 2 ? 9 : 27; turn < turns; turn++) {

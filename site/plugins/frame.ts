@@ -8,7 +8,7 @@ import manifest from '../../package.json' with { type: 'json' };
 const sections = {
   article: 'Article',
   lab: 'Lab',
-  questions: 'Questions',
+  queries: 'Queries',
   showcases: 'Showcases',
   bench: 'Benchmark',
   guides: 'Guides',

@@ -1,5 +1,5 @@
-// What a command is: its arguments and options by name, its exit codes, and where it writes. parser.ts makes command
-// lines and help of that.
+// How a command is described: its arguments and options by name, its exit codes, and where it writes. parser.ts derives
+// parsing and help from that.
 
 /** Exit codes: what a script can rely on. */
 export const exitCode = {
@@ -9,7 +9,7 @@ export const exitCode = {
   different: 1,
   /** The command line is wrong. */
   usage: 2,
-  /** A file is broken, too new, or no trace; or a row of it is no box. */
+  /** A file is broken, too new, or not a trace; or a row of it is not a box. */
   badTrace: 3,
   /** A file cannot be read or written. */
   files: 4,
@@ -23,7 +23,7 @@ export const exitCode = {
 export class UsageError extends Error {}
 
 export interface Option {
-  /** What stands for the value in the help; left out for a switch. */
+  /** The placeholder of the value in the help; undefined for a switch. */
   value?: string;
   help: string;
 }
@@ -36,7 +36,7 @@ export interface Terminal {
   interactive: boolean;
   /** How wide lines may be. */
   columns: number;
-  /** How wide tables may be: wherever no person reads, they are whole. */
+  /** How wide tables may be: unlimited unless the output is a terminal. */
   tableColumns: number;
   /** Whether `out` shows colours. */
   colour: boolean;
@@ -51,7 +51,7 @@ export interface Command {
   run(input: Input, terminal: Terminal): Promise<number>;
 }
 
-/** What a number may be, both ends included. */
+/** The range of a number, both ends included. */
 export interface Range {
   least: number;
   most?: number;
@@ -89,7 +89,7 @@ export class Input {
     return value;
   }
 
-  /** One of the names, or with commas between them several. */
+  /** One of the names, or several, separated by commas. */
   names<Name extends string>(name: string, known: readonly Name[]): Name[] | undefined {
     const names = this.text(name)?.split(',');
     for (const each of names ?? []) {

@@ -7,12 +7,12 @@ import { cellSizeOption, readCellSize, techniqueHelp } from './replay.ts';
 import { bytes, complain, number, progressBar, table, time } from './terminal.ts';
 
 export const compareCommand: Command = {
-  summary: 'all techniques side by side: time, tests, memory',
+  summary: 'compare all techniques: time, tests, memory',
   operands: sourceOperand,
   options: {
-    techniques: { value: 'names', help: `some of ${techniqueHelp}, with commas (all)` },
+    techniques: { value: 'names', help: `some of ${techniqueHelp}, separated by commas (all)` },
     ...cellSizeOption,
-    passes: { value: 'n', help: 'how often the frames are played; the fastest time of each counts (3)' },
+    passes: { value: 'n', help: 'how many times the frames are played; each counts with its fastest time (3)' },
     ...sourceOptions,
   },
   async run(input, terminal) {
@@ -51,7 +51,7 @@ export const compareCommand: Command = {
       table(terminal, ['technique', 'mean ms', 'to best', '95 %', 'worst', 'median', 'memory', 'tests'], rows, 0),
     );
     for (const { technique, disagrees } of wrong) {
-      complain(terminal, `${technique} finds other pairs than ${techniques[0]}, first in frame ${disagrees}`);
+      complain(terminal, `${technique} finds different pairs than ${techniques[0]}, first in frame ${disagrees}`);
     }
     if (wrong.length === 0) terminal.out('\nall agree on the pairs of every frame\n');
     return code;

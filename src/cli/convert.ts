@@ -4,8 +4,11 @@ import { checkWritable, openSource, sourceOperand, sourceOptions, writeFrames } 
 import { bytes, counted } from './terminal.ts';
 
 export const convertCommand: Command = {
-  summary: 'to a raw recording (.bin) or a trace (any other name); .gz after it is gzipped',
-  operands: { ...sourceOperand, file: 'where to: .bin is raw, any other name a trace, .gz after it gzipped' },
+  summary: 'convert to a raw recording (.bin) or a trace (any other name); with .gz at the end, gzipped',
+  operands: {
+    ...sourceOperand,
+    file: 'the file to write: .bin is raw, any other name a trace; with .gz at the end, gzipped',
+  },
   options: sourceOptions,
   async run(input, terminal) {
     const source = await openSource(input, terminal);

@@ -1,4 +1,4 @@
-// Files in and out: any kind of trace comes in, and out goes what the name asks for.
+// Reading and writing files: reads any kind of trace, and writes the format that the file name asks for.
 import { open, readFile, stat, unlink, writeFile } from 'node:fs/promises';
 import { gzipSync } from 'node:zlib';
 import {
@@ -16,13 +16,13 @@ import { complain, counted } from './terminal.ts';
 /** A file that cannot be read or written. */
 export class FileError extends Error {}
 
-/** The options by which each command that reads a trace lets choose what of it. */
+/** The options of commands that read a trace, to select a part of it. */
 /** The operand that {@link openSource} takes. */
-export const sourceOperand = { trace: 'what record(space) wrote, or a raw recording; either may be gzipped' };
+export const sourceOperand = { trace: 'a file written by record(space), or a raw recording; either may be gzipped' };
 
 export const sourceOptions: Record<string, Option> = {
-  frames: { value: 'a..b', help: 'only these frames, both included, counted from 0' },
-  salvage: { help: 'take the whole frames of a trace that was cut off, instead of refusing it' },
+  frames: { value: 'a..b', help: 'only frames a to b, counted from 0' },
+  salvage: { help: 'read the intact frames of a trace that was cut off, instead of refusing it' },
 };
 
 /**
@@ -51,7 +51,7 @@ export async function write(path: string, data: Uint8Array | string): Promise<vo
 }
 
 /**
- * Finds out before much work is done whether its result can be written.
+ * Checks, before much work is done, whether its result can be written.
  * @throws FileError where it cannot; UsageError where the file is the one that is read
  */
 export async function checkWritable(option: string, path: string, read: string): Promise<void> {
@@ -67,7 +67,7 @@ export async function checkWritable(option: string, path: string, read: string):
   }
 }
 
-/** Writes frames as the name says: `.bin` is the raw layout, all else a trace; with `.gz` after it, gzipped. */
+/** Writes frames in the format of the file name: `.bin` is the raw layout, any other a trace; with `.gz`, gzipped. */
 export async function writeFrames(path: string, source: FrameSource): Promise<number> {
   const zipped = path.endsWith('.gz');
   const plain = /\.bin(\.gz)?$/.test(path) ? exportRaw(source) : exportTrace(source);

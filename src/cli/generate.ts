@@ -7,19 +7,19 @@ import { bytes, counted, number, progressBar } from './terminal.ts';
 
 const names: readonly SceneName[] = [...sceneNames, ...gameNames];
 
-/** A space has no more. */
+/** The limit of a space. */
 const mostBoxes = 2 ** 24;
-/** In all frames: some 1 GB while it is written. */
+/** The limit for all frames together: takes about 1 GB while it is written. */
 const mostInAll = 2 ** 27;
 
 export const generateCommand: Command = {
-  summary: 'a trace of a seeded scene',
-  operands: { scene: names.join(', '), file: 'where to; .gz at the end gzips it' },
+  summary: 'write a trace of a seeded scene',
+  operands: { scene: names.join(', '), file: 'the file to write; with .gz at the end, gzipped' },
   options: {
-    count: { value: 'n', help: 'how many boxes (10000)' },
-    frames: { value: 'n', help: 'how many frames (60)' },
-    seed: { value: 'n', help: 'same seed, same scene (1)' },
-    speed: { value: 'n', help: 'the furthest a box moves in a frame; boxes are some 10 wide (2)' },
+    count: { value: 'n', help: 'number of boxes (10000)' },
+    frames: { value: 'n', help: 'number of frames (60)' },
+    seed: { value: 'n', help: 'the same seed gives the same scene (1)' },
+    speed: { value: 'n', help: 'the largest distance a box moves per frame; boxes are about 10 wide (2)' },
   },
   async run(input, terminal) {
     const [name, path] = input.operands;

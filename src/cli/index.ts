@@ -8,7 +8,7 @@ if (!isMainThread && workerData?.mark === workerMark) serve();
 else await command();
 
 async function command(): Promise<void> {
-  // A reader that has seen enough, such as `head`, is no error.
+  // A reader that closes the pipe early, such as `head`, is not an error.
   for (const stream of [process.stdout, process.stderr]) {
     stream.on('error', (error: NodeJS.ErrnoException) => {
       if (error.code === 'EPIPE') process.exit(0);
@@ -20,10 +20,10 @@ async function command(): Promise<void> {
     out: (text) => void process.stdout.write(text),
     err: (text) => void process.stderr.write(text),
     interactive: Boolean(process.stderr.isTTY) && process.env.TERM !== 'dumb',
-    // A window may say 0; and what is piped is read in lines of 80.
+    // A terminal may report 0 columns; piped output gets lines of 80.
     columns: process.stdout.columns || process.stderr.columns || 80,
     tableColumns: process.stdout.columns || Infinity,
-    // NO_COLOR, FORCE_COLOR and TERM are heeded by Node.
+    // Node respects NO_COLOR, FORCE_COLOR and TERM.
     colour: Boolean(process.stdout.isTTY) && process.stdout.hasColors(),
   });
 }

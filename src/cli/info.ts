@@ -5,7 +5,7 @@ import { openSource, sourceOperand, sourceOptions } from './files.ts';
 import { counted, histogram, number, percent, progressBar, table } from './terminal.ts';
 
 export const infoCommand: Command = {
-  summary: 'what is in it: boxes, sizes, density, motion, pairs',
+  summary: 'show the contents of a trace: boxes, sizes, density, motion, pairs',
   operands: sourceOperand,
   options: sourceOptions,
   async run(input, terminal) {
@@ -22,7 +22,7 @@ export const infoCommand: Command = {
       name,
       ...[min, median, mean, p95, max].map(show),
     ];
-    const numbers = `${found.doubles ? 'doubles' : 'float32'}${found.ids ? ', with ids of their own' : ''}${found.rules ? ', with filters or static boxes' : ''}${found.wrap ? `, in a world of ${found.wrap.join(' × ')} that wraps around` : ''}${found.touching === false ? ', where boxes that only touch are no pairs' : ''}`;
+    const numbers = `${found.doubles ? 'doubles' : 'float32'}${found.ids ? ', with explicit ids' : ''}${found.rules ? ', with filters or static boxes' : ''}${found.wrap ? `, in a world of ${found.wrap.join(' × ')} that wraps around` : ''}${found.touching === false ? ', where boxes that only touch are no pairs' : ''}`;
     terminal.out(`${input.operands[0]}: ${dimensions}D, ${counted(frames, 'frame')}, ${numbers}\n\n`);
     terminal.out(
       table(
@@ -38,10 +38,10 @@ export const infoCommand: Command = {
     );
     const extents = Array.from({ length: dimensions }, (_, axis) => number(world[axis + dimensions] - world[axis]));
     terminal.out(
-      `\nworld ${extents.join(' × ')}, ${percent(density)} of it covered by boxes, overlaps counted again\n`,
+      `\nworld ${extents.join(' × ')}, ${percent(density)} of it covered by boxes (overlaps count several times)\n`,
     );
     terminal.out(`\nboxes by their longest side\n${histogram(histograms.side, terminal.columns)}`);
-    terminal.out(`\nboxes by how many others they overlap\n${histogram(histograms.overlaps, terminal.columns)}`);
+    terminal.out(`\nboxes by number of overlaps\n${histogram(histograms.overlaps, terminal.columns)}`);
     return exitCode.ok;
   },
 };

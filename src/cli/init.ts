@@ -1,4 +1,4 @@
-// `broadphase init`: a folder with a small game to begin from, which is in starter/.
+// `broadphase init`: copies starter/, a small game to start from, into a new folder.
 import { existsSync } from 'node:fs';
 import { cp, mkdir, readdir, readFile } from 'node:fs/promises';
 import { basename, join, relative, resolve } from 'node:path';
@@ -7,12 +7,12 @@ import { devDependencies, version } from '../../package.json' with { type: 'json
 import { type Command, exitCode, UsageError } from './arguments.ts';
 import { FileError, write } from './files.ts';
 
-/** Beside the command where it is built, else in the repository. */
+/** Beside the built command, or else in the repository. */
 const starter = ['./starter/', '../../starter/']
   .map((path) => fileURLToPath(new URL(path, import.meta.url)))
   .find((path) => existsSync(path));
 
-/** A name as npm takes it. */
+/** A name that npm accepts. */
 const nameOf = (folder: string) =>
   basename(folder)
     .toLowerCase()
@@ -28,7 +28,7 @@ const manifestOf = (folder: string, spec: string) => ({
   devDependencies: { typescript: devDependencies.typescript, vite: devDependencies.vite },
 });
 
-/** The tarball that the project around has installed, if it has one: as where the package is not on npm. */
+/** The tarball that the surrounding project has installed, if any: for a package that is not on npm. */
 async function tarballHere(): Promise<string | undefined> {
   const manifest = await readFile('package.json', 'utf8').catch(() => '{}');
   const [, path] = /"broadphase": "file:(.+\.tgz)"/.exec(manifest) ?? [];
@@ -36,12 +36,12 @@ async function tarballHere(): Promise<string | undefined> {
 }
 
 export const initCommand: Command = {
-  summary: 'a small game to begin from: a folder with Vite and TypeScript',
-  operands: { folder: 'a new or empty one' },
+  summary: 'create a small game to start from, with Vite and TypeScript',
+  operands: { folder: 'a new or empty folder' },
   options: {
     package: {
       value: 'file',
-      help: 'a tarball of broadphase to install, instead of what the project here has, or the version on npm',
+      help: 'a tarball of broadphase to install, instead of the one that this project has, or the version on npm',
     },
   },
   async run(input, terminal) {
@@ -60,7 +60,7 @@ export const initCommand: Command = {
       throw new FileError(`cannot write ${name}: ${(error as Error).message}`);
     }
     await write(join(folder, 'package.json'), `${JSON.stringify(manifestOf(folder, spec), null, 2)}\n`);
-    await write(join(folder, '.gitignore'), 'node_modules\ndist\n'); // npm packs no file of this name
+    await write(join(folder, '.gitignore'), 'node_modules\ndist\n'); // npm does not pack files of this name
     if (input.has('json')) terminal.out(`${JSON.stringify({ folder, broadphase: spec })}\n`);
     else terminal.out(`${name} is ready. Now:\n\n  cd ${name}\n  npm install\n  npm start\n`);
     return exitCode.ok;

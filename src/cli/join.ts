@@ -7,20 +7,20 @@ import { type Command, exitCode, type Input, UsageError } from './arguments.ts';
 import { FileError } from './files.ts';
 import { loadDuckDB } from './join/duckdb.ts';
 import { DataError, openSource, type Source } from './join/source.ts';
-import { type Hand, type Plan, Work } from './join/work.ts';
+import { type Plan, type TileStore, Work } from './join/work.ts';
 import { type Found, workerMark } from './join/worker.ts';
 import { bytes, number, progressBar } from './terminal.ts';
 
-/** Of the memory allowed, the share of DuckDB; the rest is for Node and the tiles that are searched. */
+/** The share of the allowed memory for DuckDB; the rest is for Node and the tiles that are searched. */
 const databaseShare = 0.35;
-/** What Node and a thread need without a box. */
+/** Memory of Node and of a thread without any boxes. */
 const nodeBytes = 110e6;
 const threadBytes = 25e6;
-/** What a box takes while its tile is searched: as it was read, as it is sent, in the kernel, and its pairs. */
+/** Memory per box while its tile is searched: as read, as sent, in the kernel, and its pairs. */
 const boxBytes = 400;
 /** The most boxes in a tile on average. */
 const mostPerTile = 250_000;
-/** How much fuller than on average a tile may be. */
+/** How much fuller than the average a tile may be. */
 const fullest = 4;
 
 const units: Record<string, number> = { '': 1, kb: 1e3, mb: 1e6, gb: 1e9, kib: 2 ** 10, mib: 2 ** 20, gib: 2 ** 30 };
@@ -36,27 +36,29 @@ function readMemory(input: Input): number {
 function readColumns(input: Input): string[] | undefined {
   const columns = input.text('columns')?.split(',');
   if (columns && columns.length !== 4 && columns.length !== 6) {
-    throw new UsageError(`--columns has ${columns.length} names, expected 4 or 6 with commas: minima, then maxima`);
+    throw new UsageError(
+      `--columns has ${columns.length} names, expected 4 or 6, separated by commas: minima, then maxima`,
+    );
   }
   return columns;
 }
 
 export const joinCommand: Command = {
-  summary: 'every overlapping pair of a Parquet or CSV file of boxes',
+  summary: 'find every overlapping pair in a Parquet or CSV file of boxes',
   operands: { boxes: 'a Parquet or CSV file', pairs: 'the Parquet file to write' },
   options: {
     blue: {
       value: 'file',
-      help: 'pairs of a box of the first file and one of this, instead of pairs within the first',
+      help: 'a second file: find pairs of a box of each file, instead of pairs within the first',
     },
     columns: {
       value: 'names',
       help: 'the columns of the corners (minX,minY,maxX,maxY, or minX,minY,minZ,maxX,maxY,maxZ)',
     },
-    memory: { value: 'size', help: 'how much memory to use, about (1GB)' },
-    threads: { value: 'n', help: 'how many threads search tiles (as many as there are cores)' },
-    tile: { value: 'n', help: 'boxes in a tile, about (250000, or as many as --memory has room for)' },
-    fresh: { help: 'start anew, also where a join that was interrupted could go on' },
+    memory: { value: 'size', help: 'approximate memory to use (1GB)' },
+    threads: { value: 'n', help: 'number of threads that search tiles (one per core)' },
+    tile: { value: 'n', help: 'approximate number of boxes in a tile (250000, or as many as --memory allows)' },
+    fresh: { help: 'start again, even if an interrupted join could be continued' },
   },
   async run(input, terminal) {
     const started = performance.now();
@@ -86,7 +88,7 @@ export const joinCommand: Command = {
         pairs += found;
         progress.show('tiles', ++searched, plan.sizes.length);
       });
-      progress.show('writes the result', 1, 1);
+      progress.show('writing the result', 1, 1);
       await work.finish(result);
       progress.end();
       const seconds = (performance.now() - started) / 1000;
@@ -121,7 +123,7 @@ function told(path: string, { pairs, boxes, dimensions, tiles, resumed, seconds,
   );
 }
 
-/** What an earlier run of the same join has planned, or else a plan made anew. */
+/** The plan of an earlier run of the same join, or else a new one. */
 async function planOf(
   work: Work,
   sources: readonly Source[],
@@ -143,7 +145,7 @@ function mustFit(work: Work, plan: Plan, perTile: number): void {
   );
 }
 
-/** Searches the tiles that are not done, in so many threads. */
+/** Searches the tiles that are not done, in `threads` threads. */
 async function searchTiles(
   work: Work,
   plan: Plan,
@@ -152,8 +154,8 @@ async function searchTiles(
   found: (pairs: number) => void,
 ): Promise<void> {
   const left = plan.sizes.flatMap((_, tile) => (done.has(tile) ? [] : tile));
-  const hands = await Promise.all(Array.from({ length: Math.min(threads, left.length) }, () => work.hand(plan)));
-  await Promise.all(hands.map((hand) => searchAll(hand, plan, left, found)));
+  const stores = await Promise.all(Array.from({ length: Math.min(threads, left.length) }, () => work.tileStore(plan)));
+  await Promise.all(stores.map((store) => searchAll(store, plan, left, found)));
 }
 
 async function mustExist(path: string): Promise<void> {
@@ -174,23 +176,23 @@ async function openSources(work: Work, paths: readonly string[], columns: string
   return sources;
 }
 
-/** Searches tiles in a thread until none is left. */
-async function searchAll(hand: Hand, plan: Plan, left: number[], done: (pairs: number) => void): Promise<void> {
+/** Searches tiles, in one thread, until none is left. */
+async function searchAll(store: TileStore, plan: Plan, left: number[], done: (pairs: number) => void): Promise<void> {
   const worker = new Worker(new URL(import.meta.url), {
     workerData: { mark: workerMark, dimensions: plan.dimensions },
   });
   try {
     for (let tile = left.shift(); tile !== undefined; tile = left.shift()) {
-      const asked = await hand.read(tile);
+      const asked = await store.read(tile);
       const answers = messagesOf(worker, asked, [asked.rows.buffer, asked.boxes.buffer]);
-      done(await hand.write(tile, answers));
+      done(await store.write(tile, answers));
     }
   } finally {
     await worker.terminate();
   }
 }
 
-/** What a thread answers, until the last of it; it goes on when it is asked to. An error in the thread is thrown. */
+/** The messages of a thread, up to the last one; the thread waits for a request before each. Throws its errors. */
 async function* messagesOf(worker: Worker, ask: object, transfer: ArrayBufferLike[]): AsyncGenerator<Found> {
   worker.postMessage(ask, transfer as ArrayBuffer[]);
   for (;;) {

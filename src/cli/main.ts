@@ -1,4 +1,4 @@
-// The `broadphase` command: runs a command line, and turns what goes wrong into a message and an exit code.
+// The `broadphase` command: runs a command line, and turns errors into a message and an exit code.
 import { TraceError } from 'broadphase/trace';
 import { type Command, exitCode, type Terminal, UsageError } from './arguments.ts';
 import { compareCommand } from './compare.ts';

@@ -1,23 +1,23 @@
-// Command lines and help, by commander, which is bundled: names that are nearly right, versions, and lines of help that
-// fit. What each value may be the commands check themselves.
+// Parsing and help, by commander, which is bundled. It suggests names for mistyped ones, prints the version, and wraps
+// help. The commands check values themselves.
 import { CommanderError, InvalidArgumentError, Command as Parser, Option as ParserOption } from 'commander';
 import { version } from '../../package.json' with { type: 'json' };
 import { type Command, exitCode, Input, type Option, type Terminal, UsageError } from './arguments.ts';
 import { leastText, list, paint } from './terminal.ts';
 
 const about =
-  'Looks into, replays, compares and tunes on traces: recordings of the boxes of a game. Joins files of boxes.';
+  'Inspects and replays traces (recordings of the boxes of a game), and finds the best options for them. Joins files of boxes.';
 const codes = [
   ['0', 'all well'],
   ['1', 'wrong pairs'],
   ['2', 'wrong command line'],
-  ['3', 'broken trace, or a row that is no box'],
+  ['3', 'broken trace, or a row that is not a box'],
   ['4', 'file trouble'],
-  ['5', 'a package missing'],
+  ['5', 'a package is missing'],
   ['70', 'a fault here'],
 ] as const;
 
-/** An option behind one is not its value; a negative number may be. */
+/** A following option is not its value; a negative number may be. */
 function checkValue(given: string): string {
   if (/^-(?!\d)/.test(given)) throw new InvalidArgumentError('Expected a value, not an option.');
   return given;
@@ -47,7 +47,7 @@ function addCommand(
   });
 }
 
-/** What the parser says, as all errors here are said: on one line. */
+/** An error of the parser, in the form of all other errors: on one line. */
 const wordsOf = ({ code, message }: CommanderError): string =>
   code === 'commander.help' ? 'expected a command' : message.replace(/^error: /, '').replaceAll('\n', ' ');
 
@@ -65,10 +65,10 @@ export async function runLine(
   const shownVersion = argv.includes('--json') ? JSON.stringify({ version }) : version;
   const program = new Parser('broadphase')
     .description(about)
-    .version(shownVersion, '-v, --version', 'say which version this is')
+    .version(shownVersion, '-v, --version', 'print the version')
     .option('--json', 'write the result as JSON')
     .helpOption('-h, --help', 'show this')
-    .helpCommand('help [command]', 'show what a command takes')
+    .helpCommand('help [command]', 'show the help of a command')
     .configureHelp({
       minWidthToWrap: leastText,
       showGlobalOptions: true,
@@ -77,7 +77,7 @@ export async function runLine(
     })
     .configureOutput({
       writeOut: terminal.out,
-      writeErr: () => {}, // errors are said by main.ts, like all others
+      writeErr: () => {}, // main.ts prints errors, like all others
       getOutHelpWidth: () => terminal.columns,
       getErrHelpWidth: () => terminal.columns,
       getOutHasColors: () => terminal.colour,

@@ -1,11 +1,12 @@
-// Plots as SVG text: bars, and lines over common axes. Numbers show by titles, without a script. Colours are the page's variables --c0 … --c5.
+// Plots as SVG text: bars, and lines over common axes. Titles show the numbers, without a script. Colours are the
+// page's variables --c0 … --c5.
 import { number, time } from './terminal.ts';
 
 const width = 900;
 const colours = 6;
 const lineHeight = 24;
 
-/** One bar each, on a logarithmic scale that begins below the least: techniques differ by factors. */
+/** A bar for each, on a logarithmic scale that begins below the smallest: techniques differ by factors. */
 export function barPlot(bars: readonly { name: string; value: number }[], title: string): string {
   const values = bars.map(({ value }) => value).filter((value) => value > 0);
   const low = Math.log10(Math.min(...values)) - 0.3;
@@ -29,18 +30,18 @@ export interface Line {
 
 const height = 300;
 const [left, right, top, bottom] = [70, 24, 10, 40];
-/** The most places along the axis that show their numbers. */
+/** The largest number of places along the axis with a title. */
 const mostPlaces = 500;
 const mostMarks = 9;
 
 interface Axes {
   x: string;
   y: string;
-  /** Both axes, from the least to the most; else the upright one is from zero. */
+  /** Both axes are logarithmic; else the vertical one begins at zero. */
   logarithmic?: boolean;
 }
 
-/** Lines over common axes, with the numbers of all at each place, which show where the pointer rests. */
+/** Lines over common axes. A title at each place shows the numbers of all lines there. */
 export function linePlot(lines: readonly Line[], axes: Axes): string {
   const all = lines.flatMap(({ points }) => points);
   const place = axes.logarithmic ? Math.log2 : (value: number) => value;
@@ -81,13 +82,13 @@ export function linePlot(lines: readonly Line[], axes: Axes): string {
   return `${svg(height, `${axes.y} over ${axes.x}`, content.join('\n'))}<ul class="legend">${legend.join('')}</ul>`;
 }
 
-/** Evenly so many of them, the first and the last among these. */
+/** `count` of them, evenly spaced, including the first and the last. */
 function some(values: readonly number[], most: number): number[] {
   if (values.length <= most) return [...values];
   return Array.from({ length: most }, (_, k) => values[Math.round((k * (values.length - 1)) / (most - 1))]);
 }
 
-/** A strip at each place along the axis, from halfway to its neighbours, whose title has the numbers there. */
+/** A strip at each place along the axis, up to halfway to its neighbours, whose title has the numbers there. */
 function strips(lines: readonly Line[], xs: readonly number[], across: (x: number) => number, axes: Axes): string[] {
   const values = lines.map(({ name, points }) => ({ name, at: new Map(points.map(({ x, y }) => [x, y])) }));
   return xs.map((x, k) => {

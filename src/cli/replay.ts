@@ -9,7 +9,7 @@ import { bytes, complain, counted, number, progressBar, table, time } from './te
 export const techniqueHelp = BroadPhase.techniques.join(', ');
 
 export const cellSizeOption: Record<string, Option> = {
-  'cell-size': { value: 'size', help: 'the side of a cell, or one per axis with commas' },
+  'cell-size': { value: 'size', help: 'the side of a cell, or one per axis, separated by commas' },
 };
 
 /** `--cell-size` as an option of BroadPhase. */
@@ -18,13 +18,13 @@ export function readCellSize(input: Input, dimensions: 2 | 3): Pick<ReplayOption
   if (text === undefined) return {};
   const sizes = text.split(',').map(Number);
   if ((sizes.length !== 1 && sizes.length !== dimensions) || !sizes.every((size) => size > 0 && size < Infinity)) {
-    throw new UsageError(`--cell-size is ${text}, expected a number above 0, or ${dimensions} with commas`);
+    throw new UsageError(`--cell-size is ${text}, expected a number above 0, or ${dimensions} separated by commas`);
   }
   return { cellSize: sizes.length === 1 ? sizes[0] : sizes };
 }
 
 export const replayCommand: Command = {
-  summary: 'play it: time and counters of every frame',
+  summary: 'play a trace: time and counters of every frame',
   operands: sourceOperand,
   options: {
     technique: { value: 'name', help: `one of ${techniqueHelp} (auto)` },

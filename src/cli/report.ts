@@ -1,5 +1,5 @@
-// The report of `broadphase tune`: one HTML page that needs nothing else. Plots are SVG made here; the page asks for
-// nothing from anywhere, and says so itself in a policy that forbids it.
+// The report of `broadphase tune`: one self-contained HTML page with plots as inline SVG. It loads nothing, and has a
+// content security policy that forbids loading.
 import type { Candidate, Parameter, Tuned } from 'broadphase/trace';
 import { isLean, timesNoise } from '../trace/tune.ts';
 import { barPlot, htmlText, linePlot } from './plots.ts';
@@ -61,7 +61,7 @@ ${barPlot(
 ${curvesOf(curves, 'cellSize', 'Cell size', 'side of a cell')}
 ${curvesOf(curves, 'margin', 'Margin', 'margin')}
 <h2>Frame by frame</h2>
-<p>Numbers show where the pointer rests.</p>
+<p>Point at a place to see its numbers.</p>
 ${linePlot(
   shown.map((each) => ({ name: nameOf(each), points: perFrame(each.times) })),
   { x: 'frame', y: 'milliseconds' },
@@ -72,7 +72,7 @@ ${linePlot([{ name: 'pairs', points: perFrame(frames.map(({ pairs }) => pairs)) 
 `;
 }
 
-/** What each value of a parameter costs; nothing where no technique heeds it. */
+/** The cost of each value of a parameter; empty if no technique uses it. */
 function curvesOf(curves: Tuned['curves'], parameter: Parameter, title: string, x: string): string {
   const lines = curves
     .filter((curve) => curve.parameter === parameter)
@@ -90,10 +90,10 @@ export const nameOf = ({ technique, cellSize, margin }: Candidate): string =>
   (cellSize === undefined ? '' : `, cells of ${cellSize}`) +
   (margin === undefined ? '' : `, margin of ${margin}`);
 
-/** So much larger is 'broadphase/all' than the library alone: kB, gzipped. */
+/** How much larger 'broadphase/all' is than 'broadphase', in kB, gzipped. */
 export const moreOfAll = 21;
 
-/** What is recommended, what it gains, and what it costs to load. */
+/** The recommendation, its gain, and its cost in download size. */
 export function verdictOf({
   best,
   auto,

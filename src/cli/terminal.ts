@@ -1,8 +1,8 @@
-// What the terminal shows: numbers, tables, histograms, and a progress bar where a person is watching.
+// Terminal output: numbers, tables, histograms, and a progress bar if a person is watching.
 import type { Bin } from '../trace/statistics.ts';
 import type { Terminal } from './arguments.ts';
 
-/** Three or four digits, thousands apart. */
+/** Three or four digits, with thousands separators. */
 export function number(value: number): string {
   const size = Math.abs(value);
   if (size >= 1e15 || (size > 0 && size < 1e-4)) return value.toExponential(2);
@@ -20,14 +20,14 @@ export function bytes(count: number): string {
   return `${number(count / size)} ${unit}`;
 }
 
-/** A number of things: 1 frame, 2 frames, 2 boxes. */
+/** A count with its noun: 1 frame, 2 frames, 2 boxes. */
 export const counted = (count: number, thing: string): string =>
   `${number(count)} ${thing}${count === 1 ? '' : thing.endsWith('x') ? 'es' : 's'}`;
 
-/** Fewer columns than this are not worth wrapping for. */
+/** With fewer columns than this, text is not wrapped. */
 export const leastText = 24;
 
-/** Terms and what they mean, side by side, in lines no wider than so many columns. */
+/** Terms and their meanings side by side, in lines of at most `columns` columns. */
 export function list(entries: readonly (readonly [term: string, meaning: string])[], columns: number): string {
   const column = Math.max(...entries.map(([term]) => term.length)) + 4;
   const room = Math.max(leastText, columns - column);
@@ -36,7 +36,7 @@ export function list(entries: readonly (readonly [term: string, meaning: string]
     .join('\n');
 }
 
-/** Lines of at most so many columns, broken between words. */
+/** Wraps text between words, into lines of at most `columns` columns. */
 export function wrap(text: string, columns: number): string[] {
   const lines: string[] = [];
   let line = '';
@@ -51,13 +51,13 @@ export function wrap(text: string, columns: number): string[] {
 
 const styles = { bold: [1, 22], red: [31, 39], green: [32, 39] } as const;
 
-/** Text as it shows on a terminal with colours, and plain elsewhere. */
+/** Text with colour on a terminal that has colours, and plain elsewhere. */
 export function paint({ colour }: Pick<Terminal, 'colour'>, style: keyof typeof styles, text: string): string {
   const [on, off] = styles[style];
   return colour ? `\x1b[${on}m${text}\x1b[${off}m` : text;
 }
 
-/** What went wrong, as all that goes wrong is said. */
+/** An error message, in the form of all others. */
 export function complain(terminal: Terminal, message: string): void {
   terminal.err(`broadphase: ${message}\n`);
 }
@@ -65,8 +65,8 @@ export function complain(terminal: Terminal, message: string): void {
 const gap = 2;
 
 /**
- * Rows under a head: the first column to the left, the others to the right, what matters least last. Columns for which
- * the terminal has no room are left out, and named. The best row, if one is, has a colour.
+ * Rows under a head: the first column aligned left, the others right, the least important last. Columns that do not fit
+ * the terminal are left out, and named. The best row, if any, has a colour.
  */
 export function table(
   terminal: Terminal,
@@ -86,7 +86,7 @@ export function table(
       .map((cell, k) => (k === 0 ? cell.padEnd(widths[k]) : cell.padStart(widths[k])))
       .join(' '.repeat(gap));
   const left = head.slice(shown);
-  const note = left.length > 0 ? `not shown, for lack of room: ${left.join(', ')}; --json has all\n` : '';
+  const note = left.length > 0 ? `not shown, as the terminal is too narrow: ${left.join(', ')}; --json has all\n` : '';
   return [
     paint(terminal, 'bold', line(head)),
     line(widths.map((width) => '─'.repeat(width))),
@@ -117,13 +117,13 @@ export function histogram(bins: readonly Bin[], columns: number): string {
     .join('');
 }
 
-/** Draws at most so often. */
+/** The shortest time between two drawings. */
 const redrawEvery = 100;
 
-/** Of the progress bar, in columns. */
+/** The width of the progress bar, in columns. */
 const barWidth = { least: 4, most: 30 };
 
-/** A line on `err` that shows how far the work is, and goes when it is done. Nothing where nobody watches. */
+/** A line on `err` that shows the progress, and is removed at the end. Shown only on a terminal. */
 export function progressBar(terminal: Pick<Terminal, 'err' | 'interactive' | 'columns'>): {
   show(what: string, done: number, total: number): void;
   end(): void;
@@ -135,7 +135,7 @@ export function progressBar(terminal: Pick<Terminal, 'err' | 'interactive' | 'co
       drawn = performance.now();
       const share = total > 0 ? done / total : 0;
       const text = ` ${percent(share)} ${what}`;
-      // A line that is too long would be wrapped, and not be rewritten then.
+      // A line that is too long would be wrapped, and could then not be rewritten.
       const width = Math.min(barWidth.most, terminal.columns - 1 - text.length);
       const drawing = width < barWidth.least ? '' : bar(share, width).padEnd(width, '░');
       terminal.err(`\r\x1b[K${(drawing + text).slice(0, Math.max(0, terminal.columns - 1))}`);

@@ -9,13 +9,13 @@ import { nameOf, reportOf, verdictOf } from './report.ts';
 import { progressBar, table, time, wrap } from './terminal.ts';
 
 export const tuneCommand: Command = {
-  summary: 'find the options that suit it best, as code to paste',
+  summary: 'find the best options for a trace, as code to paste',
   operands: sourceOperand,
   options: {
-    techniques: { value: 'names', help: `some of ${techniqueHelp}, with commas (all)` },
-    seconds: { value: 'n', help: 'how long the finalists run against each other (8)' },
+    techniques: { value: 'names', help: `some of ${techniqueHelp}, separated by commas (all)` },
+    seconds: { value: 'n', help: 'how long the finalists run against each other, in seconds (8)' },
     exhaustive: { help: 'try every technique with every cell size and margin on all frames: slow' },
-    report: { value: 'file', help: 'write an HTML page with plots, which needs nothing else' },
+    report: { value: 'file', help: 'write a self-contained HTML page with plots' },
     ...sourceOptions,
   },
   async run(input, terminal) {
@@ -49,11 +49,11 @@ export const tuneCommand: Command = {
       ...[ms.p95, ms.max].map(time),
     ]);
     const at = tuned.finalists.indexOf(tuned.best);
-    terminal.out(table(terminal, ['finalists', 'mean ms', 'to recommended', '95 %', 'worst'], rows, at));
+    terminal.out(table(terminal, ['finalists', 'mean ms', 'vs. recommended', '95 %', 'worst'], rows, at));
     terminal.out(
       `\n${wrap(verdictOf(tuned), terminal.columns).join('\n')}\n\n${tuned.code.replaceAll(/^(?=.)/gm, '  ')}\n`,
     );
-    await writeReport(); // what was found is shown by then, whatever comes
+    await writeReport(); // the result is printed before this, which may fail
     if (report !== undefined) terminal.out(`\nreport: ${report}\n`);
     return exitCode.ok;
   },

@@ -1,11 +1,11 @@
-// How full the cells of a technique are. A box counts in the smallest cell that its lower corner is in, so that the
-// nodes of a tree, which lie in one another, are not all as hot as what is in them. Which cells a corner is in is a
-// query to a space of the cells, some corners at a time: nodes that cover the world a thousand times over would
-// make more pairs with all corners than there is memory. It is of the class of the one that is looked at, so that who
-// imports the small library does not get the large one with it.
+// How full the cells of a technique are. A box counts in the smallest cell that contains its lower corner, so that the
+// nodes of a tree, which are nested, are not all as full as their contents. To find the cells of a corner, the cells
+// are put into a space of their own, which is queried with some corners at a time: pairs with all corners at once could
+// exceed the memory. That space has the class of the space that is drawn, so that users of the small library do not get
+// the large one too.
 import type { BroadPhase } from 'broadphase';
 
-/** How many corners are asked about in one call. */
+/** How many corners are queried in one call. */
 const atOnce = 1000;
 
 /**

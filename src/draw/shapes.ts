@@ -1,11 +1,11 @@
-// What there is to see in a space, shape by shape, for whatever takes shapes: the path of a canvas, or a list of lines.
-// Boxes, cells and rays without an end are cut off where the finite boxes end, since nothing can draw infinity.
+// The visible parts of a space as shapes, for any sink: the path of a canvas, or a list of lines. Infinite boxes, cells
+// and rays are clipped to the bounds of the finite boxes.
 import type { BroadPhase } from 'broadphase';
 import { boxesInCells } from './cells.ts';
 
 type Numbers = ArrayLike<number>;
 
-/** What takes shapes. */
+/** A sink for shapes. */
 export interface Sink {
   /** A box: minima, then maxima, from `at` on. */
   box(numbers: Numbers, at: number): void;
@@ -14,16 +14,16 @@ export interface Sink {
 
 /** From this share of the boxes of the fullest cell on, a cell is hot. */
 const hotFrom = 0.5;
-/** How long the normal of a hit is, as a share of all that is drawn. */
+/** The length of a hit's normal, as a share of the drawing. */
 const normalShare = 0.03;
 
-/** A space as it stands, to draw. */
+/** The present state of a space, to draw. */
 export class Shapes {
   readonly #space: BroadPhase<2 | 3>;
   readonly #dimensions: 2 | 3;
   readonly #box: Float64Array;
   readonly #other: Float64Array;
-  /** The bounds of all that is finite. */
+  /** The bounds of all finite numbers. */
   readonly #low: Float64Array;
   readonly #high: Float64Array;
 
@@ -80,7 +80,7 @@ export class Shapes {
     }
   }
 
-  /** Cells with at least half as many boxes as the fullest has. `begin` is told how full each is, from 0 to 1. */
+  /** Cells with at least half as many boxes as the fullest has. `begin` gets how full each is, from 0 to 1. */
   hotCells(sink: Sink, begin?: (share: number) => void): void {
     const held = boxesInCells(this.#space);
     const cells = this.#space.structure().slice();
@@ -95,18 +95,18 @@ export class Shapes {
     });
   }
 
-  /** A ray as far as it gets: the box that it hits, and the normal there. */
+  /** A ray up to its hit, the box that it hits, and the normal there. */
   ray(sink: Sink, ray: readonly number[]): void {
     const dimensions = this.#dimensions;
     const origin = ray.slice(0, dimensions);
     const way = ray.slice(dimensions, 2 * dimensions);
     const [maxDistance = Infinity] = ray.slice(2 * dimensions);
-    // Every number of the ray is checked there.
+    // That checks every number of the ray.
     const asked = [...origin, ...way, { maxDistance }] as unknown as Parameters<BroadPhase<2>['rayCast']>;
     const hit = (this.#space as unknown as BroadPhase<2>).rayCast(...asked);
     const reach = this.#reach(origin);
     const distance = hit?.distance ?? (maxDistance < Infinity ? maxDistance : 2 * reach);
-    const length = Math.hypot(...way) || 1; // a ray may have no direction: it is a point
+    const length = Math.hypot(...way) || 1; // a ray without a direction is a point
     const end = origin.map((value, axis) => value + (way[axis] / length) * distance);
     sink.line(origin, end);
     if (!hit) return;
@@ -118,7 +118,7 @@ export class Shapes {
     if (box) sink.box(box, 0);
   }
 
-  /** How far it is across all that is finite, and a point. */
+  /** The diameter of the finite bounds, enlarged by a point. */
   #reach(point: readonly number[]): number {
     const sides = point.map((value, axis) => Math.max(value, this.#high[axis]) - Math.min(value, this.#low[axis]));
     return Math.hypot(...sides);
@@ -144,7 +144,7 @@ function centre(box: Float64Array): Float64Array {
   return Float64Array.from({ length: half }, (_, axis) => box[axis] + (box[half + axis] - box[axis]) / 2);
 }
 
-/** @throws TypeError or RangeError where a ray is no list of so many numbers */
+/** @throws TypeError or RangeError if a ray is not a list of the right number of numbers */
 export function checkRay(where: string, ray: unknown, dimensions: 2 | 3): asserts ray is readonly number[] {
   const least = 2 * dimensions;
   if (Array.isArray(ray) && (ray.length === least || ray.length === least + 1)) return;

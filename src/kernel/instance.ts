@@ -1,40 +1,40 @@
-// One instance of the kernel, which is one space: its functions, views of its memory, and what to do when that ends.
-// Growing memory cuts views off: their length is then 0, and they are made again.
+// One instance of the kernel, which is one space: its functions, views of its memory, and recovery when memory runs
+// out. Growing memory detaches views: their length is then 0, and they are made again.
 import type { Dimensions } from '../dimensions.ts';
-import { ioLength, type KernelExports, statsLength } from '../generated/abi.ts';
+import { ioLength, type KernelExports, ringHead, statsLength } from '../generated/abi.ts';
 import { instantiate } from './load.ts';
-import { Ring, ringHead } from './ring.ts';
+import { Ring } from './ring.ts';
 
-/** A number of views kept, so that pair counts seen lately make no garbage. */
+/** How many views are cached, so that recent pair counts make no garbage. */
 const viewsKept = 256;
-/** Through how many worlds a ray or a way may lead, where they wrap around: each costs a search. */
+/** The most worlds that a ray or a sweep may cross if the world wraps around: each costs a search. */
 const mostWorlds = 1000;
 
 export class KernelInstance {
   readonly dimensions: Dimensions;
   /** Numbers in a box. */
   readonly width: number;
-  /** The size of the world, where it wraps around. */
+  /** The size of the world if it wraps around. */
   readonly wrap: readonly number[] | undefined;
-  /** How far a ray or a way may lead: without an end, but where the world wraps around. */
+  /** How far a ray or a sweep may go: unlimited unless the world wraps around. */
   readonly farthest: number;
   /** Whether boxes that only touch overlap. */
   readonly touching: boolean;
-  /** The kernel as it is, without what waits in the ring. */
+  /** The kernel's functions, without flushing the ring first. */
   exports: KernelExports;
   readonly ring: Ring;
-  /** The kernel's memory, as `wordView` and `doubleView` have last seen it. */
+  /** The kernel's memory, as of the last call of `wordView`. */
   words = new Uint32Array();
   #doubles = new Float64Array();
   #io = new Float64Array();
-  /** What `boxes()` gave last, while it is in use. */
+  /** The array that `boxes()` returned last, while it is in use. */
   exposed: Float32Array | undefined;
-  /** Whether it may have been written since the last update: then growing memory must not cut it off unnoticed. */
+  /** Whether it may have been written since the last update: then detaching it by growing memory must be noticed. */
   exposedIsOpen = false;
-  /** The number of the technique that was asked for. */
+  /** The number of the selected technique. */
   technique = 0;
   readonly events: boolean;
-  // Views kept: of pairs by how many they are, of the two arrays in which boxes are staged in turns, of the counters.
+  // Cached views: of pairs by their count, of the two arrays in which boxes are staged in turns, of the counters.
   #pairViews: Uint32Array[][] = [];
   #stagedViews: (Float32Array | Float64Array)[] = [];
   #stats = new Float64Array();
@@ -53,7 +53,7 @@ export class KernelInstance {
     this.exports.open_space(dimensions);
   }
 
-  /** The kernel, which knows of all that was set: whoever calls it cannot forget to tell it. */
+  /** The kernel's functions, after flushing the ring, so that no caller can forget that. */
   get kernel(): KernelExports {
     if (this.ring.next !== ringHead) this.ring.flush();
     return this.exports;
@@ -68,7 +68,7 @@ export class KernelInstance {
     return this.exports === disposed;
   }
 
-  /** Lets go of the memory at once. Any call after this throws. */
+  /** Releases the memory at once. Any call after this throws. */
   dispose(): void {
     this.exports = disposed;
     this.ring.close();
@@ -84,7 +84,7 @@ export class KernelInstance {
     this.technique = technique;
   }
 
-  /** Takes a box away; returns whether there was one. */
+  /** Removes a box; returns whether there was one. */
   remove(id: number): boolean {
     if (!this.exposedIsOpen) this.exposed = undefined;
     try {
@@ -102,7 +102,7 @@ export class KernelInstance {
     this.exposed = undefined;
   }
 
-  /** A box that cannot wait: it may fail, or a view of the boxes is open that has to show it. */
+  /** Flushes a box that cannot wait: adding it may fail, or an open view of the boxes has to show it. */
   takeNow(): void {
     if (!this.exposedIsOpen) this.exposed = undefined;
     this.ring.flush();
@@ -147,14 +147,14 @@ export class KernelInstance {
     return view;
   }
 
-  /** A view of pairs in the kernel's memory, from among those made before for the same list if possible. */
+  /** A view of pairs in the kernel's memory, from the cache for this list if possible. */
   pairView(list: number, address: number, count: number): Uint32Array {
     this.#pairViews[list] ??= [];
     const views = this.#pairViews[list]!;
-    // A WebAssembly address is signed to JavaScript, and 0 where there was never a pair: then any other will do.
+    // A WebAssembly address is signed in JavaScript, and 0 if there was never a pair: then any other will do.
     const at = address >>> 0 || 4;
     let view = views[count % viewsKept];
-    // A view that was cut off stands at 0. To ask the memory for its buffer takes as long as all the rest.
+    // A detached view has the offset 0. Asking the memory for its buffer would take as long as all the rest.
     if (view?.byteOffset !== at || view.length !== 2 * count) {
       view = new Uint32Array(this.kernel.memory.buffer, at, 2 * count);
       views[count % viewsKept] = view;
@@ -162,7 +162,7 @@ export class KernelInstance {
     return view;
   }
 
-  /** After an exception out of the kernel: makes the space usable again and says what was wrong. */
+  /** After an exception from the kernel: makes the space usable again, and throws an error that says what was wrong. */
   recover(error: unknown, where: string): never {
     if ((error as Error | undefined)?.name !== 'RuntimeError') throw error;
     this.kernel.__stack_pointer.value = this.#stackTop;

@@ -13,7 +13,7 @@ interface DecoderExports {
   decode(count: number, prefixes: number, length: number): void;
 }
 
-/** How many axes boxes may have in this build, the default first. */
+/** The dimensions that this build supports, the default first. */
 export const builtDimensions = kernel.dimensions;
 
 let module: WebAssembly.Module | undefined;
@@ -41,19 +41,19 @@ export function init(source: WebAssembly.Module | BufferSource): void {
   techniques = 0;
 }
 
-/** The module, if it is a kernel of this library: else what was there before stays. */
+/** Checks that a module is a kernel of this library; if not, the previous one stays. */
 function checked(module: WebAssembly.Module): WebAssembly.Module {
   if (WebAssembly.Module.exports(module).some(({ name }) => name === 'open_space')) return module;
   throw new TypeError("init: got a module that is not a kernel, expected that of 'broadphase/kernel.wasm'");
 }
 
-/** A fresh kernel with memory of its own. */
+/** A new instance of the kernel, with its own memory. */
 export function instantiate(): KernelExports {
   module ??= compile(read(kernel));
   return new WebAssembly.Instance(module).exports as unknown as KernelExports;
 }
 
-/** Which techniques the kernel has: a bit for each. */
+/** The techniques of the kernel: a bit for each. */
 export function builtTechniques(): number {
   techniques ||= instantiate().techniques();
   return techniques;
@@ -88,7 +88,7 @@ export function read({
   decoder,
   size,
 }: Record<'alphabet' | 'order' | 'text' | 'decoder', string> & { size: number }): Uint8Array<ArrayBuffer> {
-  const made = compile(digits(decoder)); // first: it says so where there is no WebAssembly
+  const made = compile(digits(decoder)); // first, since it throws the right error if there is no WebAssembly
   const { exports } = new WebAssembly.Instance(made);
   const { memory, given, decode } = exports as unknown as DecoderExports;
   const at = given();
@@ -113,7 +113,7 @@ export function read({
   return new Uint8Array(memory.buffer, end, size);
 }
 
-/** The bytes that stand as two hexadecimal digits each. */
+/** Decodes bytes of two hexadecimal digits each. */
 function digits(text: string): Uint8Array<ArrayBuffer> {
   return Uint8Array.from({ length: text.length / 2 }, (_, k) => Number.parseInt(text.slice(2 * k, 2 * k + 2), 16));
 }

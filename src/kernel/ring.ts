@@ -1,27 +1,24 @@
-// Boxes that were set and wait to be taken by the kernel, in its memory: see kernel/boxes/ring.hpp. Why: a call into
-// WebAssembly for each box would take several times as long as writing it.
-// A box may wait where taking it cannot fail: its id is in the space, or the next one that there is room for.
+// Boxes that were set and wait in the kernel's memory until it takes them: see kernel/boxes/ring.hpp. A call into
+// WebAssembly for each box would take several times as long as writing it. A box may wait if taking it cannot fail: its
+// id is in the space, or is the next one that there is room for.
+import { ringCapacity, ringHead } from '../generated/abi.ts';
 import type { KernelInstance } from './instance.ts';
 
-/** Numbers at the beginning of the ring, in which the kernel says what may wait there; then the boxes begin. */
-export const ringHead = 3;
-/** How many boxes it holds. */
-const capacity = 512;
-/** Behind the last word of any memory. */
+/** An index beyond the last word of any memory. */
 const nowhere = 2 ** 30;
 
 export class Ring {
   readonly #instance: KernelInstance;
   /** Numbers in a box. */
   readonly width: number;
-  /** Of each box that waits its id, then its numbers. */
+  /** For each box that waits, its id, then its numbers. */
   numbers = new Float64Array();
-  /** Where the next one goes. */
+  /** Where the next box goes. */
   next = ringHead;
-  /** The ids below this are in the space, once all that wait are taken; 0 where that is not known. */
+  /** All ids below this are in the space, once waiting boxes are taken; 0 if that is not known. */
   dense = 0;
   #room = 0;
-  /** Where the kernel's table of pages of ids stands among its words: see kernel/boxes/ids.hpp. */
+  /** The index of the kernel's table of id pages in its memory: see kernel/boxes/ids.hpp. */
   #pages = nowhere;
 
   constructor(instance: KernelInstance) {
@@ -29,7 +26,7 @@ export class Ring {
     this.width = instance.width;
   }
 
-  /** Whether there is a box of this id; false also where only the kernel can say. */
+  /** Whether there is a box of this id; also false if only the kernel knows. */
   knows(id: number): boolean {
     if (id < this.dense) return true;
     const page = this.#page(id);
@@ -48,18 +45,18 @@ export class Ring {
     return true;
   }
 
-  /** The page of ids that an id is in. Where growing memory has cut the view off nothing is found. */
+  /** The page of an id. If growing memory has detached the view, nothing is found. */
   #page(id: number): number {
     return this.#instance.words[this.#pages + 2 * (id >>> 12)]!;
   }
 
-  /** Nothing is known any more of what may wait: to be called after what adds boxes or takes them away. */
+  /** Forgets which boxes may wait: called after anything that adds or removes boxes. */
   forget(): void {
     this.dense = this.#room = 0;
     this.#pages = nowhere;
   }
 
-  /** The kernel takes what waits. */
+  /** Lets the kernel take the boxes that wait. */
   flush(): void {
     const instance = this.#instance;
     const count = (this.next - ringHead) / (this.width + 1);
@@ -80,14 +77,14 @@ export class Ring {
     }
   }
 
-  /** The ring is full, or was cut off as memory grew; gives where the next box goes. */
+  /** Called when the ring is full, or was detached as memory grew; returns where the next box goes. */
   drain(): number {
     if (this.next !== ringHead) this.flush();
     if (this.numbers.length === 0) this.#open();
     return ringHead;
   }
 
-  /** What waits is lost, with the memory it stands in. */
+  /** Drops the boxes that wait, with the memory they are in. */
   close(): void {
     this.next = ringHead;
     this.numbers = new Float64Array();
@@ -99,7 +96,7 @@ export class Ring {
     this.numbers = new Float64Array(
       exports.memory.buffer,
       exports.ring_address(),
-      ringHead + capacity * (this.width + 1),
+      ringHead + ringCapacity * (this.width + 1),
     );
   }
 }

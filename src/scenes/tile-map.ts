@@ -8,7 +8,7 @@ const tileSize = 16;
 /** From tile to tile: a quarter of a unit more than a tile, exact in float32 in any world. */
 const pitch = 16.25;
 const walkerSize = 12;
-/** Walkers turn at random once in so many frames. */
+/** Walkers turn at random once in this many frames, on average. */
 const framesPerTurn = 40;
 
 export class TileMap extends BoxScene {

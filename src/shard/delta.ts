@@ -1,4 +1,4 @@
-// What one zone tells another at an exchange.
+// The message of one zone to another at an exchange.
 import { badValue, checkBox } from '../errors.ts';
 
 /**
@@ -6,9 +6,9 @@ import { badValue, checkBox } from '../errors.ts';
  * zone must arrive in order, and none may be lost.
  */
 export interface Delta {
-  /** The zone that tells. */
+  /** The sender. */
   from: number;
-  /** The zone that is told. */
+  /** The receiver. */
   to: number;
   /** The boxes that changed. */
   ids: Uint32Array;
@@ -21,10 +21,10 @@ export interface Delta {
 /** The minima, then the maxima. */
 export type Box = readonly number[];
 
-/** What is told of one box: nothing if it is gone, else its box, and behind it the one before if it comes into sight. */
+/** How many boxes follow for one id: none if it is gone, else its box, and the previous one if it comes into sight. */
 export type Told = readonly [id: number, ...boxes: Box[]];
 
-/** What `changes` says, by how many boxes follow. */
+/** Values of `changes`, by the number of boxes that follow. */
 const changeOf = [16, 0, 1];
 
 export const pack = (from: number, to: number, told: readonly Told[]): Delta => ({
@@ -35,7 +35,7 @@ export const pack = (from: number, to: number, told: readonly Told[]): Delta => 
   boxes: Float64Array.from(told.flatMap(([, ...boxes]) => boxes.flat())),
 });
 
-/** Throws for what is no delta for this zone: it comes from elsewhere, over a network. */
+/** Throws unless this is a delta for this zone, since it may have come over a network. */
 export function unpack({ to, ids, changes, boxes }: Delta, zone: number, dimensions: 2 | 3): Told[] {
   if (to !== zone) badValue('update: delta.to', to, `${zone}, this zone`);
   if (changes.length !== ids.length) badValue('update: delta.changes.length', changes.length, `${ids.length}`);

@@ -1,9 +1,9 @@
-// One zone of a world that is cut: the boxes it owns, the ghosts of others that reach into it, and a space of both.
-// Idea: a zone's space holds all that the zone sees, so it finds every pair the zone must report, and some more, which
-// are left out (Zones.reporterOf). For events the space must also know where at the update before everything was that
-// it sees now. So a box that enters brings its earlier box along, and is put there first, in an update of its own; a box
-// that leaves stays for one update more. What began and ended is then what the space itself says, wrapped worlds too.
-// Cost: that of the space, a look at each box that changed per exchange, two look-ups per pair.
+// One zone of a world cut into zones: the boxes it owns, ghosts of others that extend into it, and a space of both.
+// Idea: a zone's space has all boxes that the zone sees. So it finds every pair the zone must report, and some more,
+// which are left out (Zones.reporterOf). For events, the space must also know where every box it sees was at the
+// previous update. So a box that enters comes with its previous box, and is put there first, in an update of its own. A
+// box that leaves stays for one more update. The events are then those of the space itself, in wrapped worlds too.
+// Cost: that of the space, one check per changed box and exchange, two look-ups per pair.
 import type { BroadPhase } from 'broadphase';
 import { badValue, checkBox } from '../errors.ts';
 import { type Box, type Delta, pack, type Told, unpack } from './delta.ts';
@@ -21,10 +21,10 @@ export interface ShardOptions {
 interface Seen {
   readonly id: number;
   box: Box;
-  /** As of the last update; empty: there was no such box. */
+  /** Its box as of the last update; empty: there was none. */
   before: Box;
   owner: number;
-  /** The zones that see it; if this one owns it, as they have been told. */
+  /** The zones that see it; if this one owns it, as of the last exchange. */
   seers: readonly number[];
 }
 
@@ -66,15 +66,15 @@ export class Shard {
   ended = new Uint32Array();
   readonly #entered: (id: number) => void;
   readonly #seen = new Map<number, Seen>();
-  /** What was taken away since the last update; there may be another with that id by now. */
+  /** Boxes removed since the last update; their ids may be in use again. */
   readonly #gone = new Map<number, Seen>();
-  /** What has changed since the last update. */
+  /** Boxes changed since the last update. */
   readonly #changed = new Set<Seen>();
-  /** What was set or deleted since the last exchange. */
+  /** Boxes set or deleted since the last exchange. */
   readonly #untold = new Set<Seen>();
-  /** What each zone is told at the next exchange. */
+  /** The changes to send to each zone at the next exchange. */
   readonly #told: readonly Told[][];
-  /** As of the last update, and as of the last exchange. */
+  /** The zones as of the last update, and as of the last exchange. */
   #zones: Zones;
   #nextZones: Zones;
 
@@ -92,12 +92,12 @@ export class Shard {
     if (!this.#told[zone]) badValue('zone', zone, `an integer from 0 to ${zones.count - 1}`);
     if (space.dimensions !== zones.dimensions) badValue('space.dimensions', space.dimensions, `${zones.dimensions}`);
     if (space.size > 0) badValue('space.size', space.size, 'an empty space');
-    void space.began; // throws where there are no events
+    void space.began; // throws if events are off
     this.zone = zone;
     this.space = space;
     this.#zones = this.#nextZones = zones;
     this.#entered = options.entered ?? (() => {});
-    if (options.state) this.update([options.state]).update(); // the second one, so that nothing has begun
+    if (options.state) this.update([options.state]).update(); // the second update, so that no pair has begun
   }
 
   /**
@@ -202,11 +202,11 @@ export class Shard {
   update(deltas: readonly Delta[] = []): this {
     const told = deltas.flatMap((delta) => unpack(delta, this.zone, this.space.dimensions));
     this.taken.length = 0;
-    // What is gone comes first: another zone may have added a box with that id.
+    // Removals first: another zone may have added a box with that id.
     for (const [id, box] of told) if (!box) this.#remove(id);
     const entering = told.filter(([id, , before]) => before && !this.#seen.has(id));
     for (const [id, box] of told) if (box) this.#receive(id, box);
-    // First where it was at the update before, so that the space knows what overlapped then.
+    // First to where it was at the previous update, so that the space knows what overlapped then.
     for (const [id, , before] of entering) {
       this.#seen.get(id)!.before = before;
       this.#place(id, before);
@@ -224,7 +224,7 @@ export class Shard {
     for (const seen of this.#changed) {
       seen.before = seen.box;
       if (seen.seers.includes(this.zone)) continue;
-      // It has left, and what ended with that is known.
+      // It has left, and the pairs that ended with it are recorded.
       this.space.delete(seen.id);
       this.#seen.delete(seen.id);
     }
@@ -286,7 +286,7 @@ export class Shard {
     return pack(this.zone, this.zone, all);
   }
 
-  /** Where a box, which may be new here, is from the next update on. */
+  /** Sets where a box, which may be new here, is from the next update on. */
   #move(id: number, box: Box): Seen {
     const seen = this.#seen.get(id) ?? { id, box, before: [], owner: this.zone, seers: [this.zone] };
     seen.box = box;
@@ -304,7 +304,7 @@ export class Shard {
     if (seen.before.length > 0) this.#gone.set(id, seen);
   }
 
-  /** Tells the other zones what is new of a box that this zone owns. */
+  /** Collects the changes of a box that this zone owns for the other zones. */
   #tell(seen: Seen): void {
     const { id, box, before, seers: known } = seen;
     seen.owner = this.#nextZones.ownerOf(box);
@@ -334,7 +334,7 @@ export class Shard {
     if (isNew) this.#entered(id);
   }
 
-  /** Those pairs that this zone reports. A box without a place came into sight since, or has left. */
+  /** The pairs that this zone reports. A box without a previous or present box has entered since, or has left. */
   #reported(pairs: Uint32Array, zones: Zones, placeOf: (id: number) => Box | undefined) {
     const own = new Uint32Array(pairs.length);
     let length = 0;

@@ -1,8 +1,8 @@
-// How a world is cut into zones: who owns a box, who must see it, and who reports a pair.
-// Idea: a zone sees every box that reaches into it. Two boxes that overlap share the point whose coordinates are the
-// larger of their two lower corners, so the zone with that point sees both, and it alone reports the pair. That point is
-// never computed, only chosen, so all processes agree on it bit for bit.
-// In a wrapped world a lower corner is taken modulo the world, which may round; zones see a little further for it.
+// How a world is cut into zones: which zone owns a box, which ones must see it, and which one reports a pair. Idea: a
+// zone sees every box that extends into it. Two boxes that overlap share the point whose coordinates are the larger of
+// their two lower corners, so the zone with that point sees both, and it alone reports the pair. That point is chosen
+// from given numbers, never computed, so all processes agree on it bit for bit. In a wrapped world, a lower corner is
+// taken modulo the world, which may round; so zones see a little further.
 import { badValue, checkWrap } from '../errors.ts';
 
 const names = ['x', 'y', 'z'] as const;
@@ -22,19 +22,19 @@ export interface ZonesOptions {
   wrap?: readonly number[];
 }
 
-/** How far a lower corner may be off, which is rounded in a world that wraps around: this part of the world. */
+/** The rounding error of a lower corner in a world that wraps around, relative to the world. */
 const slack = 2 ** -48;
 
-/** One axis, cut or not. */
+/** One axis, whether it is cut or not. */
 interface Cut {
   axis: number;
   /** Where each zone begins. */
   starts: readonly number[];
-  /** From a zone to the next one along this axis. */
+  /** The difference of the numbers of neighbouring zones along this axis. */
   stride: number;
-  /** The size of the world, or 0 where it does not wrap around. */
+  /** The size of the world, or 0 if it does not wrap around. */
   world: number;
-  /** How much further than a box the zones are that must see it. */
+  /** Zones within this distance of a box must see it. */
   reach: number;
 }
 
@@ -126,7 +126,7 @@ export class Zones {
     let zone = 0;
     for (const { axis, starts, stride, world } of this.#cuts) {
       const [low, other] = [a[axis], b[axis]];
-      // The lower corner of a, if it lies in b; else that of b, which then lies in a.
+      // Along each axis, the lower bound of a if it lies in b; else that of b, which then lies in a.
       const lies = isWithin(low, other, b[axis + this.dimensions], slack * world, world);
       zone += stride * zoneAt(starts, modulo(lies ? low : other, world));
     }
@@ -141,13 +141,13 @@ function zoneAt(starts: readonly number[], at: number): number {
   return zone;
 }
 
-/** Whether a coordinate lies between two others, or that near to them: around the world where that wraps. */
+/** Whether a coordinate lies between two others, or within a distance of them, also around a wrapped world. */
 function isWithin(at: number, low: number, high: number, near: number, world: number): boolean {
   if (world === 0) return at >= low - near && at <= high + near;
   return !(modulo(modulo(at, world) - modulo(low, world) + near, world) > high - low + 2 * near);
 }
 
-/** A coordinate in a world that wraps around: from 0 to below its size, rounded; 0 for what has no lower end. */
+/** A coordinate in a world that wraps around: from 0 to below its size, rounded; 0 for -Infinity. */
 function modulo(at: number, world: number): number {
   if (world === 0) return at;
   const rest = at % world;

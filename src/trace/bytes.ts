@@ -1,11 +1,11 @@
-// A buffer to write bytes to that grows, and a cursor over bytes that never leaves them.
+// A growing buffer to write bytes to, and a cursor that reads bytes within their bounds.
 import { TraceError } from './format.ts';
 
 export class ByteWriter {
   bytes = new Uint8Array(1024);
   length = 0;
 
-  /** Makes room for `count` bytes more. */
+  /** Makes room for `count` more bytes. */
   reserve(count: number): void {
     if (this.length + count <= this.bytes.length) return;
     const grown = new Uint8Array(Math.max(2 * this.bytes.length, this.length + count));
@@ -18,7 +18,7 @@ export class ByteWriter {
     this.bytes[this.length++] = value;
   }
 
-  /** Seven bits a byte, lowest first; the top bit says that more follow. */
+  /** Seven bits per byte, lowest first; the top bit says that more follow. */
   varint(value: number): void {
     this.reserve(5);
     while (value > 127) {
@@ -28,7 +28,7 @@ export class ByteWriter {
     this.bytes[this.length++] = value;
   }
 
-  /** 32 bits, lowest byte first, written at a place. */
+  /** Writes 32 bits at a place, lowest byte first. */
   putUint32(at: number, value: number): void {
     for (let k = 0; k < 4; k++) this.bytes[at + k] = value >>> (8 * k);
   }
@@ -37,7 +37,7 @@ export class ByteWriter {
 export const uint32At = (bytes: Uint8Array, at: number): number =>
   (bytes[at] | (bytes[at + 1] << 8) | (bytes[at + 2] << 16) | (bytes[at + 3] << 24)) >>> 0;
 
-/** Reads the body of one frame. What is wrong is reported with the frame and its place in the file. */
+/** Reads the body of one frame. Errors name the frame and the place in the file. */
 export class Cursor {
   at = 0;
   readonly bytes: Uint8Array;
@@ -58,7 +58,7 @@ export class Cursor {
     throw new TraceError(what, this.#frame, this.#offset + this.at);
   }
 
-  /** Before anything of that size is made or read. */
+  /** Checks that this many bytes are left, before anything of that size is allocated or read. */
   need(count: number, what: string): void {
     if (count > this.left) this.fail(`${what} would take ${count} bytes, and the frame has ${this.left} left`);
   }

@@ -91,7 +91,7 @@ export function compare(source: FrameSource, options: CompareOptions = {}): Comp
   });
 }
 
-/** A number that is the same for the same pairs in any order, and hardly ever for others. */
+/** A hash of the pairs that does not depend on their order. */
 export function pairsDigest(pairs: Uint32Array): number {
   let low = 0;
   let high = pairs.length;

@@ -1,5 +1,5 @@
 // CRC-32 as in gzip and PNG (polynomial 0xedb88320): finds every flipped bit and every burst of up to 32.
-// Four tables, four bytes a step: about a gigabyte a second.
+// Four tables, four bytes per step: about a gigabyte per second.
 
 const tables = Array.from({ length: 4 }, () => new Uint32Array(256));
 for (let byte = 0; byte < 256; byte++) {
@@ -15,7 +15,7 @@ for (let byte = 0; byte < 256; byte++) {
 }
 const [last, third, second, first] = tables;
 
-/** The checksum of bytes `from` … `to - 1`, going on from that of the bytes before. */
+/** The checksum of bytes `from` … `to - 1`, continuing that of earlier bytes. */
 export function crc32(bytes: Uint8Array, from: number, to: number, before = 0): number {
   let c = ~before;
   let at = from;

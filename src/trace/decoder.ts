@@ -1,6 +1,6 @@
-// Reads the bodies of frames, one after the other. A body is looked through before anything is made of it: memory is
-// taken only for boxes whose numbers are there, at most some 100 bytes for each byte of the file. Time goes with the bytes
-// too: of what stays as it was nothing is touched, however many boxes there are.
+// Reads the bodies of frames, one after the other. A body is validated before it is used, so memory is allocated only
+// for boxes whose numbers are there, at most about 100 bytes for each byte of the file. Time is proportional to the
+// bytes too: unchanged boxes are not touched.
 import { Cursor } from './bytes.ts';
 import { doublesFlag, type Frame, frameKind, marks, maxBoxes, ruleBits, rulesFlag, worldBits } from './format.ts';
 import { predict, takeDistance } from './numbers.ts';
@@ -8,28 +8,28 @@ import { all, grown, IdSet, TraceState } from './state.ts';
 
 export class FrameDecoder {
   readonly #state: TraceState;
-  /** The ids of all boxes, and how many of them are not their place. */
+  /** The ids of all boxes, and how many of them differ from their place. */
   readonly #taken = new IdSet();
   #named = 0;
-  /** How many boxes have a rule of their own, a group, a reach. */
+  /** How many boxes have a rule, a group, a reach. */
   #ruled = 0;
   #grouped = 0;
   #reaching = 0;
-  /** The boxes once more as float32. */
+  /** The same boxes as float32. */
   #floats = new Float32Array();
-  /** Where boxes changed in the last frame: from, until, from, until, … */
+  /** The runs of boxes that changed in the last frame: from, until, from, until, … */
   #runs: number[] = [];
   #index = 0;
-  /** What may be set in the first byte of a frame. */
+  /** The flags that may be set in the first byte of a frame. */
   readonly #flags: number;
   readonly #wraps: boolean;
   /** Whether boxes that only touch are pairs. */
   readonly touching: boolean;
-  /** The size of the world, where it wraps around: once the first frame is read. */
+  /** The size of the world if it wraps around; known once the first frame is read. */
   wrap: readonly number[] | undefined;
 
   /**
-   * @param version of the trace: older ones know less
+   * @param version of the trace: older ones have fewer features
    * @param world what kind it is: see `worldBits`
    */
   constructor(dimensions: 2 | 3, version: number, world: number) {
@@ -46,9 +46,9 @@ export class FrameDecoder {
 
   /**
    * The next frame; `undefined` at the end of the trace.
-   * @param body its bytes, whose checksum was right
+   * @param body its bytes, whose checksum was verified
    * @param offset where they begin in the file, for messages
-   * @throws TraceError where they do not describe a frame
+   * @throws TraceError if they do not describe a frame
    */
   decode(body: Uint8Array, offset: number): Frame | undefined {
     const cursor = new Cursor(body, this.#index, offset);
@@ -108,7 +108,7 @@ export class FrameDecoder {
     return { index: this.#index++, count, ids, rules, groups, reaches, wrap, touching, boxes, changed };
   }
 
-  /** Boxes from this place on go. */
+  /** Removes the boxes from this place on. */
   #release(from: number): void {
     const { groups, count } = this.#state;
     for (let place = from; place < count; place++) {
@@ -117,7 +117,7 @@ export class FrameDecoder {
     }
   }
 
-  /** Adds to the counts of what boxes have of their own, or takes away. */
+  /** Adjusts the counts of rules, groups and reaches. */
   #countRule(place: number, more: 1 | -1): void {
     const { rules, groups, reaches } = this.#state;
     if (isOwn(rules, place)) this.#ruled += more;
@@ -137,7 +137,7 @@ export class FrameDecoder {
     this.#named += Number(id !== place);
   }
 
-  /** Makes room for so many boxes, with their ids. */
+  /** Makes room for `count` boxes, with their ids. */
   #readIds(cursor: Cursor, at: number, count: number): void {
     const state = this.#state;
     const kept = Math.min(state.count, count);
@@ -182,7 +182,7 @@ export class FrameDecoder {
     }
   }
 
-  /** Brings `was` up to this frame and `before` up to the one before it; boxes that are new were at rest. */
+  /** Updates `was` to this frame and `before` to the previous one; new boxes count as at rest before. */
   #readNumbers(cursor: Cursor, runsAt: number, sizesAt: number, doubles: boolean, had: number): void {
     const { was, before, width, count } = this.#state;
     const { bytes } = cursor;
@@ -201,7 +201,7 @@ export class FrameDecoder {
       changed.push(box, end);
       for (; box < end; box++) {
         const at = box * width;
-        // What stands in `before` is needed no more once the prediction is made: the new number takes its place.
+        // After the prediction, the number in `before` is no longer needed: the new one replaces it.
         for (let k = 0; k < width; k++) {
           const size = k % 2 === 0 ? bytes[sizes] & 15 : bytes[sizes++] >> 4;
           if (size > largest) cursor.fail(`a number of box ${box} has ${size} bytes, expected at most ${largest}`);
@@ -222,7 +222,7 @@ export class FrameDecoder {
         }
       }
     }
-    // What changed in the frame before, and not in this one, rests.
+    // Boxes that changed in the previous frame, and not in this one, are now at rest.
     const last = this.#runs;
     for (let k = 0, next = 0; k < last.length; k += 2) {
       for (let place = last[k]; place < Math.min(last[k + 1], count); place++) {
@@ -239,13 +239,13 @@ export class FrameDecoder {
   }
 }
 
-/** Whether the box at this place has a rule of its own. */
+/** Whether the box at this place has a rule. */
 const isOwn = (rules: Uint32Array, place: number): boolean =>
   rules[3 * place] !== all || rules[3 * place + 1] !== all || rules[3 * place + 2] !== 0;
 
 const knownBits = ruleBits.still | ruleBits.filter | ruleBits.off | ruleBits.group | ruleBits.reach;
 
-/** A double that is a reach. */
+/** Reads a reach. */
 function readReach(cursor: Cursor): number {
   for (let k = 0; k < 8; k++) reachBytes[k] = cursor.byte('a reach');
   const [reach] = reachNumber;
@@ -256,7 +256,7 @@ function readReach(cursor: Cursor): number {
 const reachNumber = new Float64Array(1);
 const reachBytes = new Uint8Array(reachNumber.buffer);
 
-/** Looks whether a list of new ids is sound. */
+/** Validates a list of new ids. */
 function skipIds(cursor: Cursor, count: number): void {
   const renamed = cursor.varint('the number of new ids', count);
   cursor.need(2 * renamed, 'the new ids');
@@ -268,7 +268,7 @@ function skipIds(cursor: Cursor, count: number): void {
   }
 }
 
-/** Looks whether a list of new rules is sound. */
+/** Validates a list of new rules. */
 function skipRules(cursor: Cursor, count: number): void {
   const changed = cursor.varint('the number of new rules', count);
   cursor.need(2 * changed, 'the new rules');
@@ -287,7 +287,7 @@ function skipRules(cursor: Cursor, count: number): void {
   }
 }
 
-/** Looks whether the runs of changed boxes are sound; returns how many boxes they hold. */
+/** Validates the runs of changed boxes; returns how many boxes they hold. */
 function skipRuns(cursor: Cursor, count: number, had: number): number {
   const runs = cursor.varint('the number of runs', count);
   cursor.need(2 * runs, 'the runs of changed boxes');

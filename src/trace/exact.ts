@@ -1,5 +1,5 @@
-// The exact answer, without the kernel: what a replay is checked against. Sorts along one axis and sweeps, in doubles.
-// A set of pairs is a sorted Float64Array with one number a pair: the smaller id times 2^24, plus the larger.
+// The exact pairs, computed without the kernel, to check a replay. Sorts along one axis and sweeps, in doubles. A set
+// of pairs is a sorted Float64Array with one number per pair: the smaller id times 2^24, plus the larger.
 import type { Own, World } from '../watch.ts';
 import { marks } from './format.ts';
 
@@ -80,12 +80,12 @@ function wrappedPairs(
   return Float64Array.from(keys).sort();
 }
 
-/** Whether some whole number of worlds, added to the one, makes the two overlap; what reaches all around meets all. */
+/** Whether the two overlap if one is shifted by some whole number of worlds. A box that covers the world meets all. */
 function wrapsOver(aMin: number, aMax: number, bMin: number, bMax: number, size: number, closed: boolean): boolean {
   const most = (bMax - aMin) / size;
   const least = (bMin - aMax) / size;
-  if (!(Number.isFinite(most) && Number.isFinite(least))) return true; // without an end: it reaches all around
-  // Whole numbers lie between the two; exactly where doubles may have been rounded over one.
+  if (!(Number.isFinite(most) && Number.isFinite(least))) return true; // infinite: it covers the world
+  // Whether an integer lies between the two; computed exactly if rounding may have crossed one.
   const rounded = 1e-12 + 1e-15 * ((Math.abs(aMin) + Math.abs(aMax) + Math.abs(bMin) + Math.abs(bMax)) / size);
   const sure = (x: number) => Math.abs(x - Math.round(x)) > rounded && Math.abs(x) < 1e9;
   if (sure(most) && sure(least)) return Math.ceil(least) <= Math.floor(most);
@@ -97,7 +97,7 @@ function wrapsOver(aMin: number, aMax: number, bMin: number, bMax: number, size:
 
 const floorOf = (a: bigint, b: bigint): bigint => (a >= 0n || a % b === 0n ? a / b : a / b - 1n);
 
-/** A double in units of the smallest there is. */
+/** A double in units of the smallest positive one. */
 function whole(x: number): bigint {
   const bits = new BigUint64Array(Float64Array.of(x).buffer)[0]!;
   const exponent = (bits >> 52n) & 0x7ffn;
@@ -106,7 +106,7 @@ function whole(x: number): bigint {
   return x < 0 ? -size : size;
 }
 
-/** The pairs [a, b, a, b, …] as such a set; a pair given twice is there twice. */
+/** The pairs [a, b, a, b, …] as a sorted set, in which duplicates remain. */
 export function pairKeys(pairs: ArrayLike<number>): Float64Array {
   return Float64Array.from({ length: pairs.length / 2 }, (_, k) => key(pairs[2 * k], pairs[2 * k + 1])).sort();
 }
@@ -121,7 +121,7 @@ export interface Difference {
   pair: [number, number];
 }
 
-/** What is wrong with the pairs `found`; `undefined` where nothing is. */
+/** How the pairs `found` differ from those expected; `undefined` if they do not. */
 export function differenceOf(found: Float64Array, expected: Float64Array): Difference | undefined {
   let missing = 0;
   let extra = 0;
@@ -152,20 +152,20 @@ function mayMeet(rules: ArrayLike<number>, a: number, b: number): boolean {
   return filtered && !off && !(rules[a + 2] & rules[b + 2] & marks.still);
 }
 
-/** Boxes larger by their reaches. */
+/** Boxes enlarged by their reaches. */
 const grownBy = (reaches: ArrayLike<number>, boxes: ArrayLike<number>, dimensions: number): Float64Array =>
   Float64Array.from(boxes, (x, k) => {
     const reach = reaches[Math.floor(k / (2 * dimensions))];
     return k % (2 * dimensions) < dimensions ? x - reach : x + reach;
   });
 
-/** Whether two boxes are of one group. */
+/** Whether two boxes are in the same group. */
 const areOne = (groups: ArrayLike<number> | undefined, a: number, b: number): boolean =>
   groups !== undefined && groups[a] !== 0 && groups[a] === groups[b];
 
 const key = (a: number, b: number): number => (a < b ? a * idLimit + b : b * idLimit + a);
 
-/** The axis along which the boxes lie furthest apart, counted in their usual extent. */
+/** The axis along which the boxes are spread furthest, measured in their usual extent. */
 function longestAxis(boxes: ArrayLike<number>, dimensions: number): number {
   const width = 2 * dimensions;
   const count = boxes.length / width;

@@ -2,43 +2,45 @@
 
 import type { Own, World } from '../watch.ts';
 
-/** Like PNG's: not text, and broken visibly by whatever changes line ends. */
+/** As in PNG: not text, and any change of line ends breaks it visibly. */
 export const magic = Uint8Array.of(0x89, 0x42, 0x50, 0x54, 0x0d, 0x0a, 0x1a, 0x0a);
 
-/** The version that is written, and the newest that can be read. */
+/** The version written, which is also the newest that can be read. */
 export const formatVersion = 2;
 
-/** Magic, version (2 bytes), dimensions, what kind of world, checksum of those twelve. */
+/** Magic, version (2 bytes), dimensions, kind of world, checksum of those twelve bytes. */
 export const headerBytes = 16;
 
 /** Before the body of each frame: its length and its checksum. */
 export const frameHeaderBytes = 8;
 
-/** What a frame is: the low four bits of its first byte. */
+/** The kind of a frame: the low four bits of its first byte. */
 export const frameKind = { end: 0, snapshot: 1, changes: 2 } as const;
 
 /** Set in the first byte of a frame whose numbers are doubles. */
 export const doublesFlag = 0x10;
 
-/** Set in the first byte of a frame in which rules change: who may meet whom. Since version 2. */
+/** Set in the first byte of a frame in which rules change. Since version 2. */
 export const rulesFlag = 0x20;
 
 /**
- * What kind of world, as bits: that it wraps around, and the first frame has its size; that boxes that only touch are no
- * pairs. Readers refuse bits of which they know nothing.
+ * The kind of world, as bits: it wraps around, and the first frame has its size; boxes that only touch are not pairs.
+ * Readers refuse unknown bits.
  */
 export const worldBits = { wraps: 1, apart: 2 } as const;
 
-/** What a rule says: that a box is static, that a layer and a mask follow, that it is off, that its group and that its reach follow. */
+/**
+ * The bits of a rule: the box is static; a layer and a mask follow; it is off; its group follows; its reach follows.
+ */
 export const ruleBits = { still: 1, filter: 2, off: 4, group: 8, reach: 16 } as const;
 
-/** What the third number of a rule says: that a box is static, and that it is off. */
+/** The bits of the third number of a rule: the box is static; it is off. */
 export const marks = { still: 1, off: 2 } as const;
 
-/** Ids, and so boxes, end here. */
+/** The number of ids, and so the largest number of boxes. */
 export const maxBoxes = 2 ** 24;
 
-/** No body is longer: every box new, in 3D, all numbers doubles of 8 bytes, its id and its rule. */
+/** The longest possible body: every box new, in 3D, with all numbers as doubles of 8 bytes, its id and its rule. */
 export const maxBodyBytes = maxBoxes * (6 * 8 + 3 + 10 + 16 + 5 + 8) + 64 + 24;
 
 /**
@@ -75,7 +77,9 @@ export interface Frame extends Own, World {
   readonly count: number;
   /** The id of each box, all different; `undefined` if they are 0 … count - 1. */
   readonly ids: Uint32Array | undefined;
-  /** Layer, mask, and flags of each box: 1 if it is static, plus 2 if it is off. Absent if no box has a rule of its own. */
+  /**
+   * Layer, mask, and flags of each box: 1 if it is static, plus 2 if it is off. Absent if no box has a rule.
+   */
   readonly rules?: Uint32Array | undefined;
   /** Minima then maxima of each box: as float32 if that represents all of them exactly. */
   readonly boxes: Float32Array | Float64Array;

@@ -9,7 +9,7 @@ import { type OpenOptions, openTrace } from './reader.ts';
 /** Gzipped files that are larger than this when unpacked are refused, unless more is allowed: 1 GiB. */
 const maxUnpackedBytes = 2 ** 30;
 
-/** No recording has more frames: ones without boxes take no bytes, and would go on for ever. */
+/** The limit for frames: frames without boxes take no bytes, so their number could be anything. */
 const maxEmptyFrames = 1e6;
 
 /**
@@ -53,7 +53,7 @@ const isRecording = (bytes: Uint8Array) => bytes.length >= 4 && uint32At(bytes, 
 
 /**
  * The frames of a raw recording, unpacked from gzip.
- * @throws TraceError where it is none, or holds what is no box
+ * @throws TraceError if it is not one, or holds something that is not a box
  *
  * @example
  * importRecording(new Uint8Array(2)); // throws TraceError

@@ -1,22 +1,21 @@
-// How the numbers of a box that changed are written: each as its distance, counted in representable numbers, from a
-// prediction that reader and writer make alike. A minimum is expected to go on as fast as in the frame before, a
-// maximum to keep its distance from the minimum: of a box in steady motion little more than zeros is left.
-// Arithmetic in doubles is the same on every machine, so predictions are; bits are compared as integers, so that
-// nothing is lost, the sign of a zero included.
+// How the numbers of a changed box are written: each as its distance, counted in representable numbers, from a
+// prediction that reader and writer both make. A minimum is expected to keep its speed, a maximum to keep its distance
+// from the minimum. So a box in steady motion leaves little more than zeros. Arithmetic in doubles is the same on every
+// machine, and so are predictions. Bits are compared as integers, so nothing is lost, not even the sign of a zero.
 
 const float = new Float32Array(1);
 const floatBits = new Int32Array(float.buffer);
 const double = new Float64Array(1);
 const doubleBits = new Int32Array(double.buffer);
-/** Where the halves of a double lie. */
+/** The order of the halves of a double. */
 const low = new Uint8Array(Uint16Array.of(1).buffer)[0] === 1 ? 0 : 1;
 const high = 1 - low;
 
-/** Bits as integers that grow with the number they stand for; its own inverse. */
+/** Maps the bits of numbers to integers in the same order; its own inverse. */
 const ordered = (bits: number): number => bits ^ ((bits >> 31) & 0x7fffffff);
 
 /**
- * What number `k` of a box is expected to be.
+ * The predicted number `k` of a box.
  * @param was the box in the frame before, at `at` in the array
  * @param before the box two frames ago, at the same place
  * @param now the numbers before `k`, at the same place
@@ -68,7 +67,7 @@ export function putDistance(bytes: Uint8Array, at: number, value: number, expect
   return size;
 }
 
-/** The number at that distance, read from `size` bytes, from `expected`. */
+/** The number at the distance from `expected` that is read from `size` bytes. */
 export function takeDistance(bytes: Uint8Array, at: number, size: number, expected: number, doubles: boolean): number {
   let restLow = 0;
   let restHigh = 0;

@@ -60,7 +60,7 @@ export class Trace implements FrameSource {
     const decoder = new FrameDecoder(dimensions, version, world);
     try {
       const bodies = checkedBodies(bytes, checksum);
-      // Decoded once here, so that what goes through the frames later never meets an error.
+      // Decoded once here, so that no later iteration meets an error.
       for (const { body, offset } of bodies) if (decoder.decode(body, offset)) frames++;
     } catch (error) {
       if (!(options.salvage && error instanceof TraceError)) throw error;
@@ -71,7 +71,7 @@ export class Trace implements FrameSource {
     this.touching = decoder.touching;
   }
 
-  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  /** Frameworks that wrap objects in proxies, such as Vue, leave objects alone whose name here is not `Object`. */
   get [Symbol.toStringTag](): string {
     return 'Trace';
   }
@@ -89,8 +89,8 @@ export class Trace implements FrameSource {
 }
 
 /**
- * Opens a trace: checks the file, and gives its frames as often as wanted.
- * @throws TraceError where it is truncated, corrupted, newer than this reader, or no trace
+ * Opens a trace: checks the file, and gives its frames any number of times.
+ * @throws TraceError if it is truncated, corrupted, newer than this reader, or not a trace
  *
  * @example
  * const space = new BroadPhase();
@@ -104,7 +104,7 @@ export function openTrace(bytes: Uint8Array | ArrayBuffer, options?: OpenOptions
   return new Trace(bytesOf(bytes) ?? new Uint8Array(), options);
 }
 
-/** A frame of a stream, which says how many axes its boxes have. */
+/** A frame of a stream, with its dimensions. */
 export interface StreamedFrame extends Frame {
   /** 2 or 3. */
   readonly dimensions: 2 | 3;
@@ -167,7 +167,7 @@ function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; version: number; wo
   return { dimensions, version, world, checksum };
 }
 
-/** The bodies of all frames, the end's included, each after its checksum was found right. */
+/** The bodies of all frames, including the end, each after its checksum was verified. */
 function* checkedBodies(bytes: Uint8Array, checksum: number): Generator<{ body: Uint8Array; offset: number }> {
   let at = headerBytes;
   for (let index = 0; ; index++) {
@@ -218,7 +218,10 @@ class ChunkQueue {
     this.#source = source[Symbol.asyncIterator]();
   }
 
-  /** So many bytes; `undefined` where the stream ends before. Takes memory only for what has arrived. */
+  /**
+   * Returns `length` bytes, or `undefined` if the stream ends before. Allocates memory only for bytes that have
+   * arrived.
+   */
   async take(count: number): Promise<Uint8Array | undefined> {
     while (this.bytesLeft < count) {
       const { done, value } = await this.#source.next();
@@ -258,6 +261,6 @@ export async function* chunksOf(stream: ReadableStream<Uint8Array>): AsyncGenera
       yield value;
     }
   } finally {
-    await reader.cancel().catch(() => {}); // nothing is lost: whoever stops early wants no more
+    await reader.cancel().catch(() => {}); // errors do not matter: the caller wants no more
   }
 }

@@ -1,12 +1,12 @@
-// Records a BroadPhase in a running game: after each update the boxes as they stand are compared with those of the
-// update before, so that it does not matter by which calls they came to be there. Each frame leaves at once as one
-// piece of bytes: whatever happens to the game, what was recorded before is safe.
+// Records a BroadPhase in a running game. After each update, the boxes are compared with those of the previous one, so
+// it does not matter by which calls they changed. Each frame is written at once as one chunk of bytes: whatever happens
+// to the game, earlier frames are safe.
 import type { BroadPhase } from 'broadphase';
 import { badValue, checkOptions } from '../errors.ts';
 import { type Watcher, watch } from '../watch.ts';
 import { TraceWriter } from './writer.ts';
 
-/** What a recording needs of a Node stream. */
+/** The parts of a Node stream that a recording uses. */
 export interface NodeSink {
   /** Takes some bytes, and calls back when they are written or lost. */
   write(bytes: Uint8Array, done: (error?: Error | null) => void): unknown;
@@ -14,9 +14,9 @@ export interface NodeSink {
   end(done: () => void): unknown;
   /** Listens for errors, and for the end. */
   on(event: 'error' | 'close', listener: (error?: Error) => void): unknown;
-  /** Whether it accepts no more bytes, if it says so. */
+  /** Whether it accepts no more bytes, if it has this property. */
   readonly writableEnded?: boolean;
-  /** Whether it was destroyed, if it says so. */
+  /** Whether it was destroyed, if it has this property. */
   readonly destroyed?: boolean;
 }
 
@@ -53,7 +53,7 @@ export class Recording {
     if (typeof space?.[watch] !== 'function') badValue('record', space, 'a BroadPhase', true);
     checkOptions('record', options, ['to']);
     this.#sink = openSink(options.to, (error) => this.#fail(error));
-    // Attached last: where anything fails, the space is as it was.
+    // Attached last, so that the space is unchanged if anything fails.
     try {
       const { wrap, touching } = space[watch]((...frame) => this.#record(frame));
       this.#space = space;
@@ -66,7 +66,7 @@ export class Recording {
     }
   }
 
-  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  /** Frameworks that wrap objects in proxies, such as Vue, leave objects alone whose name here is not `Object`. */
   get [Symbol.toStringTag](): string {
     return 'Recording';
   }
@@ -82,7 +82,7 @@ export class Recording {
   }
 
   /**
-   * How many bytes that made.
+   * The number of bytes recorded.
    *
    * @example
    * record(new BroadPhase()).byteLength; // → 16
@@ -153,7 +153,7 @@ export class Recording {
     if (this.fault !== undefined) throw this.fault;
   }
 
-  /** Whatever goes wrong with a frame ends the recording, not the game. */
+  /** An error in a frame ends the recording, not the game. */
   #record(frame: Parameters<Watcher>): void {
     try {
       this.#write(this.#writer.frame(...frame));
@@ -181,8 +181,8 @@ export class Recording {
 /**
  * Records every `update()` of a space from now on, the first as a snapshot.
  *
- * @throws Error where the space is being recorded already; TypeError for other than a space, and where `to` is no
- *   stream or a locked one; what the stream throws. The space is as before.
+ * @throws Error if the space is being recorded already; TypeError if it is not a space, or if `to` is not a stream or
+ * is locked; whatever the stream throws. The space is as before.
  *
  * @example
  * const space = new BroadPhase();
@@ -198,9 +198,9 @@ export function record(space: BroadPhase<2 | 3>, options?: RecordOptions): Recor
 interface Sink {
   write(bytes: Uint8Array): void;
   close(): Promise<void>;
-  /** Lets go of it, where recording has not begun. */
+  /** Releases the stream if recording has not begun. */
   drop(): void;
-  /** What was written, where it is kept in memory. */
+  /** The bytes written, if they are kept in memory. */
   kept?: Uint8Array[];
 }
 

@@ -4,7 +4,7 @@ import { type Difference, differenceOf, exactPairs, pairKeys } from './exact.ts'
 import { type Frame, type FrameSource, marks, worldOf } from './format.ts';
 import { all } from './state.ts';
 
-/** What the last frame left in a space: a copy, since frames are views. */
+/** The last frame played into a space: a copy, since frames are views. */
 interface Applied {
   count: number;
   ids: Uint32Array | undefined;
@@ -16,9 +16,9 @@ interface Applied {
 const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
 
 /**
- * Puts the boxes of a frame into a space in place of all others, in the order they had when they were recorded, so
- * that the pairs come in the same order too; and who may meet whom. `update()` is the caller's. Between one frame and
- * the next nobody else changes the space: it is told only what is new, as a game would tell it.
+ * Replaces the boxes and rules of a space by those of a frame, in their recorded order, so that pairs come in the same
+ * order too. The caller calls `update()`. Nothing else may change the space between two frames: only differences are
+ * set, as in a game.
  *
  * @example
  * const space = new BroadPhase();
@@ -34,7 +34,7 @@ const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
 export function applyFrame(space: BroadPhase<2 | 3>, frame: Frame): void {
   const { ids, boxes, count } = frame;
   let before = applied.get(space);
-  // Boxes with ids of their own stand in the order in which they were set, so that other ids begin anew.
+  // Boxes with explicit ids are in the order in which they were set, so if ids differ, the space is filled again.
   if (!before || !sameIds(before.ids, ids) || (ids && space.size !== count)) {
     space.clear();
     before = { count: 0, ids: ids?.slice(), rules: undefined, groups: undefined, reaches: undefined };
@@ -62,7 +62,7 @@ export function applyFrame(space: BroadPhase<2 | 3>, frame: Frame): void {
   before.count = count;
 }
 
-/** Gives each box the number it has of its own where that is another than before; without one it is 0. */
+/** Sets the number of each box (group or reach) if it differs from before; the default is 0. */
 function applyEach(
   { ids, count }: Frame,
   now: ArrayLike<number> | undefined,
@@ -104,7 +104,7 @@ function sameIds(a: Uint32Array | undefined, b: Uint32Array | undefined): boolea
   return true;
 }
 
-/** How a space is set up to play frames into: its dimensions come from them. */
+/** Options of a space to play frames into, which determine its dimensions. */
 export type ReplayOptions = Omit<BroadPhaseOptions, 'dimensions'>;
 
 /** The time and the results of one update of a replay. */
@@ -166,11 +166,14 @@ export function* replay(source: FrameSource, options: ReplayOptions = {}, verify
   space.dispose();
 }
 
-/** Engines compile anew what has run for a while: it runs for so many milliseconds, and updates, before it is timed. */
+/**
+ * Engines recompile code that has run for a while, so it runs for this many milliseconds, and updates, before it is
+ * timed.
+ */
 const warmUpTime = 30;
 const warmUpUpdates = 50;
 
-/** Empties a space, and makes techniques that keep their structure let go of it. */
+/** Empties a space, so that techniques drop the structure they retain. */
 function startOver(space: BroadPhase<2 | 3>): void {
   applied.delete(space);
   space.clear();
@@ -178,8 +181,8 @@ function startOver(space: BroadPhase<2 | 3>): void {
 }
 
 /**
- * Readies a space for a first frame, whose update then starts from nothing.
- * @param cold whether the space has not run yet: it then plays the frame a few times
+ * Prepares a space for a first frame, whose update then starts from nothing.
+ * @param cold whether the space has not run yet: then the frame is played a few times
  */
 export function begin(space: BroadPhase<2 | 3>, frame: Frame, cold: boolean): void {
   const begun = performance.now();
@@ -192,8 +195,8 @@ export function begin(space: BroadPhase<2 | 3>, frame: Frame, cold: boolean): vo
 }
 
 /**
- * Plays one frame and gives the milliseconds of its update. What stood in the space before must be the frame before
- * it: a technique that keeps its structure has nothing to do where nothing moved, and much where all did.
+ * Plays one frame, and returns the milliseconds of its update. The space must have the previous frame, since the time
+ * of techniques that retain structure depends on how much has moved.
  */
 export function timeUpdate(space: BroadPhase<2 | 3>, frame: Frame): number {
   applyFrame(space, frame);

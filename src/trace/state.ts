@@ -1,4 +1,4 @@
-// What writer and reader both remember of the frames before, grown and carried on in the same way by both.
+// The state of earlier frames that writer and reader both keep, and update in the same way.
 
 /** The layer and the mask of a box that has no filter. */
 export const all = 0xffffffff;
@@ -8,20 +8,20 @@ export class TraceState {
   count = 0;
   /** Whether any id differs from its place. */
   named = false;
-  /** Whether any box has a rule of its own; only then there are rules. */
+  /** Whether any box has a rule; otherwise `rules` is unused. */
   ruled = false;
   rules = new Uint32Array();
   /** Whether any box has a group. */
   grouped = false;
-  /** Of each box, as long as there are rules. */
+  /** Per box, while there are rules. */
   groups = new Uint32Array();
-  /** Whether any box has a reach; and of each box, as long as there are rules. */
+  /** Whether any box has a reach; and the reach per box, while there are rules. */
   reaching = false;
   reaches = new Float64Array();
-  /** Whether `rules` are kept: from the first one on. */
+  /** Whether `rules` are stored: from the first one on. */
   #keepsRules = false;
   ids = new Uint32Array();
-  /** The boxes of the frame before, and of the one before that. */
+  /** The boxes of the previous frame, and of the one before that. */
   was = new Float64Array();
   before = new Float64Array();
 
@@ -29,13 +29,13 @@ export class TraceState {
     this.width = 2 * dimensions;
   }
 
-  /** A snapshot starts from nothing. */
+  /** Resets everything, for a snapshot. */
   forget(): void {
     this.resize(0);
     this.named = this.ruled = this.grouped = this.reaching = false;
   }
 
-  /** For as many boxes: new ones have their place as id, and zeros. */
+  /** Changes the number of boxes: new ones have their place as id, and zeros as numbers. */
   resize(count: number): void {
     const { width, count: had } = this;
     if (count > this.ids.length) {
@@ -54,8 +54,8 @@ export class TraceState {
   }
 
   /**
-   * What stands in `before` by now was the frame that is becoming the one before.
-   * @param had how many boxes were there already: new ones begin at rest
+   * Swaps the frames: `before`, which has been overwritten with the new frame, becomes `was`.
+   * @param had the number of boxes before: new ones count as at rest
    */
   turn(had: number): void {
     const { was, before, width, count } = this;
@@ -64,14 +64,14 @@ export class TraceState {
     if (count > had) was.set(before.subarray(had * width, count * width), had * width);
   }
 
-  /** Makes room for rules, where there were none. */
+  /** Makes room for rules, if there were none. */
   startRules(): void {
     if (this.#keepsRules) return;
     this.#keepsRules = true;
     this.#meetAll(0, this.count);
   }
 
-  /** Looks whether any box has a rule of its own, a group, or a reach. */
+  /** Determines whether any box has a rule, a group, or a reach. */
   lookAtRules(): void {
     if (!this.#keepsRules) return;
     const { rules, groups, reaches, count } = this;
@@ -82,7 +82,7 @@ export class TraceState {
     if (this.reaching) this.reaching = reaches.subarray(0, count).some((reach) => reach !== 0);
   }
 
-  /** Places from `had` on have no rule of their own. */
+  /** Places from `had` on get the default rule. */
   #meetAll(had: number, count: number): void {
     if (count > this.groups.length) {
       this.rules = grown(this.rules, new Uint32Array(3 * this.ids.length));
@@ -98,17 +98,17 @@ export class TraceState {
   }
 }
 
-/** All numbers of an array in a longer one. */
+/** Copies an array into a longer one. */
 export function grown<Numbers extends Uint32Array | Float32Array | Float64Array>(from: Numbers, to: Numbers): Numbers {
   to.set(from);
   return to;
 }
 
-/** A set of ids, one bit each: only as large as the largest needs. */
+/** A set of ids, one bit each, as large as the largest id requires. */
 export class IdSet {
   #bits = new Uint32Array(64);
 
-  /** Whether it was not in yet. */
+  /** Adds an id; returns whether it was new. */
   add(id: number): boolean {
     const at = id >>> 5;
     if (at >= this.#bits.length)

@@ -12,9 +12,9 @@ export interface Summary {
   min: number;
   /** The arithmetic mean. */
   mean: number;
-  /** Half of them do not exceed it. */
+  /** Half of the numbers do not exceed it. */
   median: number;
-  /** 95 of 100 do not exceed it. */
+  /** 95 % of the numbers do not exceed it. */
   p95: number;
   /** The largest. */
   max: number;
@@ -27,13 +27,13 @@ export function summarize(values: Iterable<number>): Summary {
   return { min: at(0), mean, median: at(0.5), p95: at(0.95), max: at(1) };
 }
 
-/** How many values lie from `from` to below `to`. */
+/** A bin of a histogram: values from `from` to below `to`. */
 export interface Bin {
   /** The least value in it. */
   from: number;
-  /** What its values are below. */
+  /** All values in it are below this. */
   to: number;
-  /** How many there are. */
+  /** The number of values. */
   count: number;
 }
 

@@ -2,8 +2,8 @@
 // parameters of those that have any, one after the other, and lets the best run against each other, and against `auto`,
 // on all frames.
 //
-// Machines are noisy, so every time is the fastest of several, candidates take turns, and what is far behind the best
-// is given up early. Whether a technique looks at a parameter at all is found by trying: its counters change.
+// Machines are noisy, so every time is the fastest of several, candidates take turns, and those far behind the best are
+// dropped early. Whether a technique uses a parameter at all is found by trying: its counters change.
 import { BroadPhase, type TechniqueName } from 'broadphase';
 import type { World } from '../watch.ts';
 import { type Frame, type FrameSource, worldOf } from './format.ts';
@@ -37,8 +37,8 @@ export interface Candidate {
 export type Parameter = 'cellSize' | 'margin';
 
 /**
- * From where to where each is searched, in quarters of a doubling from the typical box: cells from a quarter of it to
- * 256 of it, margins from a 64th to four.
+ * The range of each, in quarters of a doubling, relative to the typical box: cells from 1/4 to 256 times its size,
+ * margins from 1/64 to 4 times.
  */
 const searched: readonly { parameter: Parameter; least: number; most: number }[] = [
   { parameter: 'cellSize', least: -8, most: 32 },
@@ -77,7 +77,7 @@ export interface CurvePoint {
   ms: number;
 }
 
-/** What is in a frame that counts. */
+/** A frame that counts. */
 export interface TunedFrame {
   /** Its place in the trace, from 0. */
   index: number;
@@ -111,21 +111,24 @@ export interface Tuned {
   code: string;
 }
 
-/** Frames are kept in memory while tuning, up to so many bytes; of longer traces, windows. */
+/** The most bytes of frames to keep in memory while tuning; of longer traces, windows are kept. */
 const keptBytes = 2 ** 27;
 const windows = 4;
 
-/** The first look is at so many frames and the one before them, from the middle: in as many passes as fit in so many milliseconds, within limits. */
+/**
+ * Screening uses this many frames from the middle, and the one before them, in as many passes as fit in this many
+ * milliseconds, within limits.
+ */
 const screenFrames = 11;
 const screenTime = 40;
 const screenPasses = { least: 3, most: 20 };
 
-/** What is this many times slower than the best so far, or than its technique's best, is given up in the middle. */
+/** Candidates this many times slower than the best so far, or than the best of their technique, are stopped early. */
 const hopeless = { atAll: 20, ofTechnique: 4 };
 
 /**
- * Finalists are at most this much slower than the best at first sight, no more than this many, and no more than this
- * many of one technique: on a few frames a setting may look better than it is on all.
+ * Finalists: at most this much slower than the best in screening, at most this many, and at most this many of one
+ * technique, since a setting may look better on a few frames than on all.
  */
 const closeEnough = 1.5;
 const mostFinalists = 6;
@@ -134,12 +137,15 @@ const leastPasses = 3;
 const mostPasses = 25;
 
 /**
- * Below this, being faster than `auto` is not worth an option that may not suit the next level; nor below so many times
- * the noise, by which `auto` differs from itself.
+ * A gain over `auto` below this share is not worth an option that may not suit the next level; nor is one below this
+ * many times the noise, which is the difference of two runs of `auto`.
  */
 const worthwhile = 1.03;
 export const timesNoise = 2;
-/** Milliseconds a frame: less is no reason for an option; and not, a 160th of one at 60 Hz, to load 'broadphase/all'. */
+/**
+ * Milliseconds per frame: a smaller gain does not justify an option; nor, below 1/160 of a frame at 60 Hz, loading
+ * 'broadphase/all'.
+ */
 const worthAnOption = 0.01;
 const worthLoading = 0.1;
 
@@ -147,7 +153,7 @@ const worthLoading = 0.1;
  * Finds the technique, cell size and margin that suit these frames best: tries all techniques on a few frames, searches
  * the parameters of those that have any, and lets the best run against each other and against `auto` on all frames.
  *
- * @throws RangeError where there are no frames
+ * @throws RangeError if there are no frames
  *
  * @example
  * const space = new BroadPhase();
@@ -167,7 +173,7 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
 
   const { screened, curves } = screenAll(techniques, few, dimensions, exhaustive, progress);
   const close = closest(screened);
-  // A second `auto`, at the other end of the turns, says what the machine's other work makes of equals.
+  // A second `auto`, at the other end of the turns, measures the noise of the machine.
   const twin: Candidate = { technique: 'auto' };
   const ran = runFinal([twin, ...close], dimensions, frames, seconds, (done) => progress?.('final', done, 1));
   const second = ran.find(({ candidate }) => candidate === twin)!.measured;
@@ -188,7 +194,7 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
   };
 }
 
-/** Runs every technique on few frames, with each value of its parameters that is worth a try; fastest first. */
+/** Screens every technique on a few frames, with each value of its parameters that is worth trying; fastest first. */
 function screenAll(
   techniques: readonly TechniqueName[],
   few: readonly Frame[],
@@ -232,7 +238,7 @@ function screenAll(
   return { screened, curves };
 }
 
-/** Those that run on all frames, of all that were screened, fastest first; `auto` is among them. */
+/** Selects the finalists, which run on all frames, fastest first; `auto` is always among them. */
 function closest(screened: readonly Screened[]): Candidate[] {
   const close: Candidate[] = [];
   for (const { ms, ...candidate } of screened) {
@@ -245,17 +251,19 @@ function closest(screened: readonly Screened[]): Candidate[] {
 }
 
 const byTime = (a: { ms: number }, b: { ms: number }) => a.ms - b.ms;
-/** Whether a finalist is worth being asked for by name. */
+/** Whether a finalist is worth recommending instead of `auto`. */
 const isWorth = ({ technique, ms }: Measured, auto: Measured, noise: number) =>
   auto.ms.mean / ms.mean >= Math.max(worthwhile, 1 + timesNoise * noise) &&
   auto.ms.mean - ms.mean >= (isLean(technique) ? worthAnOption : worthLoading);
 
 const isAuto = ({ technique }: Candidate) => technique === 'auto';
 
-/** Three digits are enough, and what is measured is what is recommended. */
+/** Rounds to three digits, so that the value measured is the value recommended. */
 const rounded = (value: number) => Number(value.toPrecision(3));
 
-/** Copies of all frames, or of evenly spaced windows of successive ones: techniques that keep state need those. */
+/**
+ * Copies of all frames, or of evenly spaced windows of successive frames, which techniques that retain structure need.
+ */
 function keepFrames(source: FrameSource): Frame[] {
   const kept: Frame[] = [];
   let allowed = source.frames;
@@ -279,8 +287,8 @@ function keepFrames(source: FrameSource): Frame[] {
 }
 
 /**
- * Whether a frame does not follow from the one before it in the list. It is played, so that those after it have what
- * they follow from, but does not count, unless there are no others.
+ * Whether the previous frame of a frame is missing in the list. Such a frame is played, for those after it, but does
+ * not count, unless there are no others.
  */
 function leads(frames: readonly Frame[], k: number): boolean {
   return k === 0 || frames[k].index !== frames[k - 1].index + 1;
@@ -293,8 +301,8 @@ function counted<T>(frames: readonly Frame[], values: readonly T[]): T[] {
 }
 
 /**
- * Mean milliseconds a frame; given up where it is clear that it will be above `limit`, and was so twice, since once may
- * have been the machine's doing. Frames differ, and a frame cannot be timed again alone: so only their sum decides.
+ * Mean milliseconds per frame. Stops early if the mean is certain to exceed `limit`, in two passes, since one may be
+ * noise. Frames differ, and a frame cannot be timed again on its own, so only their sum counts.
  */
 function measure(candidate: Candidate, dimensions: 2 | 3, frames: readonly Frame[], limit: number): number {
   const space = new BroadPhase({ ...worldOf(frames[0]), ...candidate, dimensions });
@@ -320,7 +328,7 @@ function measure(candidate: Candidate, dimensions: 2 | 3, frames: readonly Frame
 
 const meanOf = (times: readonly number[]) => times.reduce((sum, ms) => sum + ms, 0) / times.length;
 
-/** Whether another value of a parameter changes what the technique counts, on some frames. */
+/** Whether another value of a parameter changes the technique's counters, on some frames. */
 export function heeds(
   candidate: Candidate,
   parameter: Parameter,
@@ -346,15 +354,15 @@ export function heeds(
   return counters[0] !== counters[1];
 }
 
-/** The longest side of the box in the middle of all, by size. */
+/** The median of the boxes' longest sides. */
 export function typicalSide(frame: Pick<Frame, 'boxes'>, dimensions: 2 | 3): number {
   const sides = longestSides(frame.boxes, dimensions).filter((side) => side > 0 && Number.isFinite(side));
   return percentile(sides.sort(), 0.5) || 1;
 }
 
 /**
- * Finds a low point of the cost over a parameter, counted in quarters of a doubling from the typical box: first by
- * doublings, as far as it gets better or not much worse, then closer around the best.
+ * Finds a minimum of the cost over a parameter, in quarters of a doubling relative to the typical box: first by
+ * doublings, while the cost improves or hardly worsens, then in finer steps around the best.
  */
 function searchSteps(costAt: (steps: number) => number, least: number, most: number): void {
   const tried = new Map<number, number>();
@@ -382,7 +390,7 @@ function searchSteps(costAt: (steps: number) => number, least: number, most: num
   }
 }
 
-/** All against all, taking turns, until the time is over; fastest first. */
+/** Runs all finalists in turns until the time is over; fastest first. */
 function runFinal(
   candidates: readonly Candidate[],
   dimensions: 2 | 3,
@@ -425,7 +433,7 @@ function describeFrames(frames: readonly Frame[], dimensions: 2 | 3): Tuned['fra
   });
 }
 
-/** The techniques of `import 'broadphase'`; for the others the code to paste imports from 'broadphase/all'. */
+/** The techniques of `import 'broadphase'`; for others, the code to paste imports from 'broadphase/all'. */
 const lean: readonly TechniqueName[] = ['auto', 'brute-force', 'strip-sweep', 'incremental'];
 export const isLean = (technique: TechniqueName): boolean => lean.includes(technique);
 

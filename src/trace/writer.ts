@@ -1,4 +1,4 @@
-// Writes traces: frames in, bytes out, nothing kept but the last two frames. Where the bytes go is the caller's.
+// Writes traces: frames in, bytes out. It keeps only the last two frames; the caller stores the bytes.
 import { isFloat64Array } from '../values.ts';
 import type { Own } from '../watch.ts';
 import { ByteWriter } from './bytes.ts';
@@ -20,8 +20,8 @@ import { predict, putDistance } from './numbers.ts';
 import { all, IdSet, TraceState } from './state.ts';
 
 /**
- * Turns frames into the bytes of a trace. A file is `header()`, then `frame()` for each frame, then `end()`; the
- * bytes of each are the caller's to keep.
+ * Turns frames into the bytes of a trace. A file is `header()`, then `frame()` for each frame, then `end()`; the caller
+ * keeps the bytes of each.
  *
  * @example
  * const writer = new TraceWriter(2);
@@ -37,7 +37,7 @@ export class TraceWriter {
   readonly #state: TraceState;
   readonly #out = new ByteWriter();
   #checksum = 0;
-  /** Where boxes that changed begin and end, of this frame. */
+  /** The runs of changed boxes in this frame. */
   readonly #runs: number[] = [];
   readonly #renamed: number[] = [];
   readonly #reruled: number[] = [];
@@ -46,7 +46,7 @@ export class TraceWriter {
   readonly #touching: boolean;
 
   /**
-   * @param wrap the size of the world along each axis, where it wraps around
+   * @param wrap the size of the world along each axis, if it wraps around
    * @param touching whether boxes that only touch are pairs
    * @throws RangeError for other than 2 or 3 dimensions
    */
@@ -60,7 +60,7 @@ export class TraceWriter {
     this.#state = new TraceState(dimensions);
   }
 
-  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  /** Frameworks that wrap objects in proxies, such as Vue, leave objects alone whose name here is not `Object`. */
   get [Symbol.toStringTag](): string {
     return 'TraceWriter';
   }
@@ -86,10 +86,11 @@ export class TraceWriter {
    * One frame. `header()` must have been called before.
    * @param boxes minima then maxima, box after box
    * @param ids the id of each box; left out: 0, 1, 2, …
-   * @param rules layer, mask, and marks of each box: 2 among them where it is off, any other where it is static; left out: none has a rule of its own
-   * @param own the group of each box, 0 where it is in none, and how far it reaches; left out: all are 0
-   * @throws RangeError for a box that is none, for an id twice or out of range, and where lengths do not fit: nothing
-   *   is written then
+   * @param rules layer, mask, and marks of each box (2: it is off; any other: it is static); left out: no box has a
+   * rule
+   * @param own the group of each box, 0 if it is in none, and how far it reaches; left out: all are 0
+   * @throws RangeError for a bad box, for an id that is out of range or there twice, and if lengths do not fit: nothing
+   * is written then
    *
    * @example
    * const writer = new TraceWriter(2);
@@ -143,7 +144,7 @@ export class TraceWriter {
   }
 
   /**
-   * The end of the file: says that nothing is missing. More frames may follow all the same, in place of it.
+   * The end of the file, which shows that nothing is missing. More frames may still be written, in place of it.
    *
    * @example
    * const writer = new TraceWriter(2);
@@ -164,7 +165,7 @@ export class TraceWriter {
     return out;
   }
 
-  /** Length and checksum in front; the checksum goes on from that of the frame before. */
+  /** Adds length and checksum in front; the checksum continues that of the previous frame. */
   #seal(): Uint8Array<ArrayBuffer> {
     const out = this.#out;
     out.putUint32(0, out.length - frameHeaderBytes);
@@ -173,7 +174,7 @@ export class TraceWriter {
     return out.bytes.slice(0, out.length);
   }
 
-  /** The places whose ids differ from the frame before. */
+  /** The places whose ids differ from the previous frame. */
   #findIds(ids: ArrayLike<number> | undefined): readonly number[] {
     const state = this.#state;
     const changed = this.#renamed;
@@ -199,7 +200,7 @@ export class TraceWriter {
     state.named = ids !== undefined;
   }
 
-  /** The places whose rules differ from the frame before. */
+  /** The places whose rules differ from the previous frame. */
   #findRules(rules: Uint32Array | undefined, { groups, reaches }: Own): readonly number[] {
     const state = this.#state;
     const changed = this.#reruled;
@@ -208,7 +209,7 @@ export class TraceWriter {
     state.startRules();
     const were = state.rules;
     for (let place = 0, k = 0; place < state.count; place++, k += 3) {
-      // Where rules end, they become those of everybody.
+      // If there are no rules any more, all become the default.
       const same = rules
         ? were[k] === rules[k] && were[k + 1] === rules[k + 1] && were[k + 2] === marksOf(rules[k + 2])
         : were[k] === all && were[k + 1] === all && were[k + 2] === 0;
@@ -253,7 +254,7 @@ export class TraceWriter {
     }
   }
 
-  /** Where the boxes differ from the frame before; returns how many do. All that are new count. */
+  /** Finds the boxes that differ from the previous frame; returns how many. All new ones count. */
   #findRuns(boxes: Float32Array | Float64Array, had: number): number {
     const { was, width, count } = this.#state;
     const runs = this.#runs;
@@ -275,14 +276,14 @@ export class TraceWriter {
     return changed;
   }
 
-  /** How many bytes each number has, two to a byte; then the bytes. */
+  /** The number of bytes of each number, two in a byte; then these bytes. */
   #writeNumbers(boxes: Float32Array | Float64Array, changed: number, doubles: boolean): void {
     const { was, before, width } = this.#state;
     const out = this.#out;
     const runs = this.#runs;
     out.reserve(changed * width * (doubles ? 8.5 : 4.5) + 8);
     const { bytes } = out;
-    const now = boxes as Float64Array; // only read, and both read the same
+    const now = boxes as Float64Array; // only read, which is the same for both types
     let sizes = out.length;
     let at = sizes + (changed * width) / 2;
     for (let run = 0; run < runs.length; run += 2) {
@@ -300,10 +301,10 @@ export class TraceWriter {
   }
 }
 
-/** Marks as they are kept, of marks as a space has them. */
+/** Converts the marks of a space to those of a trace. */
 const marksOf = (given: number): number => (given & ~marks.off ? marks.still : 0) | (given & marks.off);
 
-/** One number for each box, if any. */
+/** Checks that there is one number per box, if any. */
 function checkOwn(name: string, numbers: ArrayLike<number> | undefined, count: number): void {
   if (numbers && numbers.length !== count) throw new RangeError(`trace: ${numbers.length} ${name} for ${count} boxes`);
 }

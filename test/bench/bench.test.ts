@@ -169,7 +169,7 @@ describe('documents', () => {
       '## Cold',
       '## Scenes',
       '### Techniques',
-      '## Questions',
+      '## Queries',
       '## Native libraries, side by side',
     ]);
     expect(page).toContain('of commit abc1234');
@@ -207,7 +207,7 @@ describe('documents', () => {
     expect(adviceOf(row(0.1, 0.01, 0.01, 0.01))).toBe('fifteen lines');
     expect(adviceOf(row(0.2, 0.1, 0.01, 0.01))).toBe('sort and sweep');
     expect(adviceOf(row(0.2, 0.2, 0.1, 0.01))).toBe('grid in a Map');
-    expect(adviceOf(row(2, 2, 2, 1))).toBe('this');
+    expect(adviceOf(row(2, 2, 2, 1))).toBe('`broadphase`');
   });
 
   test('two records are compared by what changed beyond the noise, the worst first', () => {

@@ -48,7 +48,7 @@ describe('the frames of a race', () => {
     expect(difference([wrong], fast)).toMatchObject({ frame: wrong.frames[5], exact: fast.pairs[11] });
   });
 
-  test('a slow one plays the frame before each that it is timed in, and few others', () => {
+  test('a slow contender plays the frame before each timed one, and few others', () => {
     const parts = Array.from({ length: 8 }, (_, k) => partOf(plan.warmUp + k, plan, 4));
     expect(parts).toEqual(['no', 'no', 'along', 'timed', 'no', 'no', 'along', 'timed']);
     expect(partOf(0, plan, 4)).toBe('along');

@@ -73,7 +73,7 @@ test('every link within the article has somewhere to go, and every note a way ba
   }
 });
 
-test('figures wait until they are near', async ({ page }) => {
+test('figures start only when they are near the viewport', async ({ page }) => {
   await page.goto('/article/');
   await expect(page.locator('h1')).toBeVisible();
   await expect(page.locator('#fig-14')).not.toHaveAttribute('data-state');

@@ -91,7 +91,7 @@ test('motions are a table, with the goals', async ({ page }) => {
   await expect(part.getByRole('region', { name: 'Goals' })).toContainText('1 of 2; the worst: 0.90x (flock 2D');
 });
 
-test('a file that is none is refused in words', async ({ page }) => {
+test('a file that is not a result is refused with a message', async ({ page }) => {
   await page.goto('/bench/');
   await page.getByLabel('Your own results').setInputFiles({ name: 'a.json', mimeType: '', buffer: Buffer.from('{}') });
   await expect(page.locator('#note')).toContainText('a.json was not read: these are no results');

@@ -7,7 +7,7 @@ import { expect, test } from '@playwright/test';
 const dist = fileURLToPath(new URL('../../site/dist/', import.meta.url));
 const readme = readFileSync(fileURLToPath(new URL('../../README.md', import.meta.url)), 'utf8');
 /** Anchors that scripts make when the page runs. */
-const made = /^(article\/index\.html#fig-\d+|questions\/index\.html#\w+)$/;
+const made = /^(article\/index\.html#fig-\d+|queries\/index\.html#\w+)$/;
 
 test('no link within the site is dead, and none leaves the path that the site stands under', () => {
   const pages = readdirSync(dist, { recursive: true, encoding: 'utf8' }).filter((file) => file.endsWith('.html'));

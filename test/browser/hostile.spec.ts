@@ -28,7 +28,7 @@ const values = [
 ];
 const names = ['boxes', 'scene', 'technique', 'cell', 'show', 'rate', 'frame', 'view', 'box', 'race', 'renderer'];
 
-for (const path of ['', 'article/', 'lab/', 'bench/', 'narrow-phase/', 'questions/']) {
+for (const path of ['', 'article/', 'lab/', 'bench/', 'narrow-phase/', 'queries/']) {
   test(`no address breaks /${path}`, async ({ page }) => {
     test.setTimeout(240_000);
     const done = watch(page);

@@ -44,7 +44,7 @@ const alive: Record<string, (page: Page) => Promise<void>> = {
   '/lab/': (page) => counts(page, 'frame'),
   '/lab/?race=auto,quadtree&boxes=500': (page) =>
     expect(page.locator('#race-note')).toContainText('all find the same', patient),
-  '/questions/': async (page) => {
+  '/queries/': async (page) => {
     await counts(page, 'time');
     await moves(page, '#view');
   },

@@ -75,7 +75,7 @@ describe('help and wrong command lines', () => {
     [['replay', small, '--technique', 'magic'], 'no magic, expected one of brute-force'],
     [['replay', small, '--technique', 'auto,auto'], 'expected one name'],
     [['replay', small, '--cell-size', '-1'], '--cell-size'],
-    [['replay', small, '--cell-size', '1,2,3'], '2 with commas'],
+    [['replay', small, '--cell-size', '1,2,3'], '2 separated by commas'],
     [['replay', small, '--frames', '3..9'], 'from 0 to 5'],
     [['compare', small, '--passes', '0'], '--passes is 0'],
     [['tune', small, '--seconds', 'long'], '--seconds is long'],
@@ -89,7 +89,7 @@ describe('help and wrong command lines', () => {
   });
 });
 
-describe('files that are none', () => {
+describe('files that are not traces', () => {
   test('one that is not there: code 4', async () => {
     expect(await run('info', file('nowhere'))).toMatchObject({ code: 4, err: expect.stringContaining('cannot read') });
     expect(await run('convert', small, file('no/where'))).toMatchObject({ code: 4 });

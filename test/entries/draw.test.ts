@@ -217,7 +217,7 @@ describe('drawSpace', () => {
     expect(calls.filter((call) => call === 'stroke red').length).toBe(2);
   });
 
-  test('draws no more than it is told', () => {
+  test('draws only what the options ask for', () => {
     const { calls, ctx } = fakeContext();
     drawSpace(ctx, space(), { boxes: false, pairs: false });
     expect(calls.filter((call) => /^(rect|lineTo)/.test(call))).toEqual([]);

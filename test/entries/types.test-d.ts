@@ -48,7 +48,7 @@ space2.set(1, 0, 0, 1, '1');
 // @ts-expect-error: a way of two numbers in 3D
 space3.setSwept(1, 0, 0, 0, 1, 1, 1, 5, 5);
 
-// So have the questions.
+// So have the queries.
 space2.queryBox(0, 0, 1, 1, { mask: 1 });
 space3.queryBox(0, 0, 0, 1, 1, 1, { mask: 1 });
 space2.queryPoint(0, 0);

@@ -10,3 +10,7 @@ test('each function that the kernel exports stands in the interface of TypeScrip
   const listed = [...abi().matchAll(/^ {2}(\w+)\(/gm)].map(([, name]) => name);
   expect(listed.sort()).toEqual(exported.map(({ name }) => name).sort());
 });
+
+test('the module of TypeScript is the one that is made of the kernel as it is', () => {
+  expect(readFileSync(fileURLToPath(new URL('../../src/generated/abi.ts', import.meta.url)), 'utf8')).toBe(abi());
+});

@@ -144,4 +144,35 @@ describe('the house', () => {
   test('has a map of at most 130 lines', () => {
     expect(texts.get('ARCHITECTURE.md')!.split('\n').length).toBeLessThanOrEqual(131);
   });
+
+  test('has a glossary of at most 30 rows, with each word once', () => {
+    const glossary = texts.get('CONTRIBUTING.md')!.split('## Glossary')[1]!;
+    const rows = [...glossary.matchAll(/^\| ([^|]+) \| [^|]+ \|$/gm)].slice(2).map(([, words]) => words!);
+    const words = rows.flatMap((row) => row.split(', '));
+    expect(rows.length).toBeGreaterThan(20);
+    expect(rows.length).toBeLessThanOrEqual(30);
+    expect(words.filter((word, k) => words.indexOf(word) !== k)).toEqual([]);
+  });
+
+  test('lists each decision, on a page with its context and what was rejected', () => {
+    const pages = tracked.filter((file) => /^docs\/decisions\/\d{4}-[\w-]+\.md$/.test(file)).sort();
+    const listed = [...texts.get('docs/decisions/README.md')!.matchAll(/\]\((\d{4}-[\w-]+\.md)\)/g)];
+    expect(listed.map(([, name]) => `docs/decisions/${name}`)).toEqual(pages);
+    expect(pages.map((file) => Number(/\d{4}/.exec(file)![0]))).toEqual(pages.map((_, k) => k + 1));
+    const parts = ['## Context', '## Decision', '## Rejected'];
+    expect(pages.filter((file) => parts.some((part) => !texts.get(file)!.includes(`\n${part}\n`)))).toEqual([]);
+  });
+
+  test('decides by counts of work: the kernel has no constant in units of time, and no clock', () => {
+    const timed = /constexpr.*\/\/.*\b(?:ns|us|ms|nanoseconds|microseconds|milliseconds)\b|<(?:chrono|ctime)>/;
+    const found = code
+      .filter((file) => /^kernel\/(?!test)/.test(file))
+      .flatMap((file) =>
+        texts
+          .get(file)!
+          .split('\n')
+          .flatMap((line, k) => (timed.test(line) ? `${file}:${k + 1}` : [])),
+      );
+    expect(found).toEqual([]);
+  });
 });

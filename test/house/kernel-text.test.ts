@@ -24,7 +24,7 @@ const moduleOf = (functions: number[][], before: number[] = [], behind: number[]
   ]);
 const anyBytes = (maxLength: number) => fc.array(fc.nat(255), { maxLength });
 
-test('any bytes beside the code come back', () => {
+test('any bytes around the code come back', () => {
   const few = fc.array(fc.constantFrom(0, 1, 128, 255));
   fc.assert(
     fc.property(fc.oneof(anyBytes(2000), few), anyBytes(20), (before, behind) => {
@@ -34,7 +34,7 @@ test('any bytes beside the code come back', () => {
   );
 });
 
-test('every byte has its character or its two, whatever is frequent', () => {
+test('every byte has its one or two characters, whichever bytes are frequent', () => {
   for (let first = 0; first < 256; first += 5) {
     const bytes = Array.from({ length: 1024 }, (_, k) => (k < 256 ? k : first + (k % 100)) & 255);
     const wasm = moduleOf([[0, 0x0b]], bytes);
@@ -80,7 +80,7 @@ test('instructions of every form come back', () => {
   );
 });
 
-test('an instruction that nobody knows is told when the kernel is built', () => {
+test('an unknown instruction is an error when the kernel is built', () => {
   expect(() => inline(moduleOf([[0, 0x1c, 0x0b]]))).toThrow('unknown opcode 0x1c');
 });
 

@@ -1,4 +1,4 @@
-// The layers of the kernel, as ARCHITECTURE.md draws them: no include goes up, none goes round, and only the policy
+// The layers of the kernel, as ARCHITECTURE.md draws them: no include goes up or in a circle, and only the policy
 // names a technique.
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -28,7 +28,7 @@ const arrows: Arrow[] = files.flatMap((from) =>
 
 const places = (of: Arrow[]) => of.map(({ from, line, to }) => `kernel/${from}:${line} includes ${to}`);
 
-test('the kernel stands on its floors alone', () => {
+test('the kernel has only these layers', () => {
   const rooms = readdirSync(kernel, { withFileTypes: true })
     .filter((entry) => entry.isDirectory() && entry.name !== 'test')
     .map((entry) => entry.name);
@@ -38,7 +38,7 @@ test('the kernel stands on its floors alone', () => {
   expect(arrows.length).toBeGreaterThan(80);
 });
 
-test('includes name a file by its floor', () => {
+test('includes name a file by its layer', () => {
   expect(places(arrows.filter(({ to }) => !files.includes(to)))).toEqual([]);
 });
 
@@ -46,7 +46,7 @@ test('no include goes up', () => {
   expect(places(arrows.filter(({ from, to }) => floorOf(to) > floorOf(from)))).toEqual([]);
 });
 
-test('no include goes round', () => {
+test('no include is circular', () => {
   const left = new Map(files.map((file) => [file, arrows.filter(({ from }) => from === file)]));
   for (let gone = -1; gone !== 0; ) {
     const before = left.size;
@@ -56,7 +56,7 @@ test('no include goes round', () => {
   expect(places([...left.values()].flat())).toEqual([]);
 });
 
-test('floors lean on few others', () => {
+test('layers depend on few others', () => {
   const between = new Set(
     arrows
       .filter(({ from, to }) => floorOf(from) !== floorOf(to))
@@ -65,7 +65,7 @@ test('floors lean on few others', () => {
   expect(between.size, 'arrows from floor to floor').toBeLessThanOrEqual(35);
 });
 
-test('only the policy names a technique, and what is kept names strip sweep', () => {
+test('only the policy names a technique, and coherence names strip sweep', () => {
   const list = readFileSync(join(kernel, 'space/techniques.hpp'), 'utf8');
   const known = [...list.matchAll(/IfBuilt<Technique::(\w+), (\w+)<D>>/g)];
   expect(known.length).toBeGreaterThan(10);

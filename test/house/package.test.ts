@@ -17,6 +17,6 @@ test('nothing runs when the package is installed', () => {
   }
 });
 
-test('only what was built is published, and what changed', () => {
+test('only the build and the changelog are published', () => {
   expect(manifest.files).toEqual(['dist', 'CHANGELOG.md']);
 });

@@ -18,7 +18,7 @@ test('names each address that is missing or a placeholder', () => {
   expect(placeholders({ ...real, homepage: 'https://broadphase.invalid/' })).toEqual(['homepage']);
 });
 
-test('what stands outside package.json has no address of its own', () => {
+test('files other than package.json have no address of their own', () => {
   const texts = ['README.md', 'SECURITY.md', 'CODE_OF_CONDUCT.md', 'CONTRIBUTING.md'].map((file) =>
     readFileSync(path(file), 'utf8'),
   );

@@ -24,11 +24,11 @@ const uses = [
   'boxes, update and pairs',
   'setAll and update',
   'delete, has, set and update',
-  'questions with out',
+  'queries with out',
 ];
 
 /** Whose answers do not depend on the technique. */
-const usesOfAuto = ['many questions in a call, with out', 'pairs with another space'];
+const usesOfAuto = ['many queries in a call, with out', 'pairs with another space'];
 
 let results: Result[] = [];
 

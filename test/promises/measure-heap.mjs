@@ -35,7 +35,7 @@ const uses = {
     space.update();
     return space.size;
   },
-  'questions with out': (space, { objects }) => {
+  'queries with out': (space, { objects }) => {
     setEach(space, objects);
     space.update();
     // Often enough that the engine finds it worth compiling.
@@ -45,7 +45,7 @@ const uses = {
     }
     return near.out[0];
   },
-  'many questions in a call, with out': (space, { floats }) => {
+  'many queries in a call, with out': (space, { floats }) => {
     space.boxes(count).set(floats);
     space.update();
     askMany(space, floats);
@@ -60,7 +60,7 @@ const uses = {
   },
 };
 
-const usesOfAuto = ['many questions in a call, with out', 'pairs with another space'];
+const usesOfAuto = ['many queries in a call, with out', 'pairs with another space'];
 
 const others = { 2: { level: new BroadPhase() }, 3: { level: new BroadPhase({ dimensions: 3 }) } };
 

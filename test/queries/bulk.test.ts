@@ -1,4 +1,4 @@
-// Many questions in one call: each is answered as by a look at every box, whatever the order inside.
+// Many queries in one call: each is answered as by a look at every box, whatever the order inside.
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
@@ -18,7 +18,7 @@ type Call = (...given: unknown[]) => Many;
 const ascending = (ids: Iterable<number>) => [...ids].sort((a, b) => a - b);
 const idsOf = ({ ids, offsets }: Many, k: number) => [...ids.subarray(offsets[k], offsets[k + 1])];
 
-/** The hits of a question, as the reference has them. */
+/** The hits of a query, as the reference has them. */
 function hitsOf(answer: Many, k: number, dimensions: number): Ranked[] {
   const ranks = answer.distances ?? answer.times!;
   return idsOf(answer, k).map((id, n) => {
@@ -79,21 +79,21 @@ class Scene {
 
 const cases = [2, 3].flatMap((d) => [true, false].map((single) => [d as 2 | 3, single] as const));
 describe.each(cases)('in %iD, of float32 (%s)', (dimensions, single) => {
-  test('each question is answered as by a look at every box', { tags: 'long' }, () => {
+  test('each query is answered as by a look at every box', { tags: 'long' }, () => {
     const seed = Number(process.env.SEED ?? 41);
     console.info(`seed ${seed}`);
     const scene = new Scene(dimensions, single, seed);
     const call = scene.space as unknown as Record<string, Call>;
     const kept: Record<string, Many> = {};
-    const ask = (name: string, questions: number[][], options: object, k?: number) => {
-      const numbers = questions.flat();
+    const ask = (name: string, queries: number[][], options: object, k?: number) => {
+      const numbers = queries.flat();
       const given = scene.random() < 0.5 ? numbers : new Float64Array(numbers);
       const rest = k === undefined ? [] : [k];
       const fresh = call[name]!(given, ...rest, options);
       kept[name] = call[name]!(given, ...rest, { ...options, out: kept[name] });
-      expect(kept[name].offsets.subarray(0, questions.length + 1), name).toEqual(fresh.offsets);
+      expect(kept[name].offsets.subarray(0, queries.length + 1), name).toEqual(fresh.offsets);
       expect(kept[name].ids.subarray(0, fresh.ids.length), name).toEqual(fresh.ids);
-      expect(fresh.offsets.length).toBe(questions.length + 1);
+      expect(fresh.offsets.length).toBe(queries.length + 1);
       expect(fresh.offsets.at(-1)).toBe(fresh.ids.length);
       return fresh;
     };
@@ -180,7 +180,7 @@ test.each(cases)(
   },
 );
 
-test('boxes without an end are near to each other where they meet', () => {
+test('infinite boxes that meet have distance 0', () => {
   const space = new BroadPhase();
   space.set(0, Infinity, 0, Infinity, 1).set(1, 5, 0, Infinity, 1).set(2, -Infinity, 3, 0, 4).update();
   const { of, ids, offsets, distances } = space.nearestsOfAll(1);
@@ -190,7 +190,7 @@ test('boxes without an end are near to each other where they meet', () => {
   expect([...distances]).toEqual([0, 0, Math.sqrt(29)]);
 });
 
-test('a box that is off has no neighbours and is none', () => {
+test('a box that is off has no neighbours and is not one', () => {
   const space = new BroadPhase();
   for (let id = 0; id < 4; id++) space.set(id, 10 * id, 0, 10 * id + 1, 1);
   space.setEnabled(1, false).update();
@@ -218,33 +218,29 @@ describe('what is refused', () => {
     [
       'NaN',
       () => space.queryBoxes([0, 0, 1, 1, 0, Number.NaN, 1, 1], { out }),
-      'queryBoxes: question 1: minY: got NaN, expected a number',
+      'queryBoxes: query 1: minY: got NaN, expected a number',
     ],
     [
       'a string',
       () => space.queryPoints([0, 0, 1, '2' as never]),
-      'queryPoints: question 1: y: got "2", expected a number',
+      'queryPoints: query 1: y: got "2", expected a number',
     ],
     [
       'a box inside out',
       () => space.queryBoxes([2, 0, 1, 1]),
-      'queryBoxes: question 0: minX: got 2, expected no more than maxX, which is 1',
+      'queryBoxes: query 0: minX: got 2, expected no more than maxX, which is 1',
     ],
     [
       'an infinite point',
       () => space.nearests([0, Infinity], 1),
-      'nearests: question 0: y: got Infinity, expected a finite number',
+      'nearests: query 0: y: got Infinity, expected a finite number',
     ],
     [
       'a radius',
       () => space.queryCircles([0, 0, -1]),
-      'queryCircles: question 0: radius: got -1, expected a number, at least 0',
+      'queryCircles: query 0: radius: got -1, expected a number, at least 0',
     ],
-    [
-      'a centre',
-      () => space.queryCircles([0, Number.NaN, 1]),
-      'queryCircles: question 0: y: got NaN, expected a number',
-    ],
+    ['a centre', () => space.queryCircles([0, Number.NaN, 1]), 'queryCircles: query 0: y: got NaN, expected a number'],
     ['k', () => space.nearests([0, 0], 0), 'nearests: k: got 0, expected an integer from 1 on, or Infinity'],
     [
       'too few to ignore',
@@ -265,7 +261,7 @@ describe('what is refused', () => {
     [
       'a way',
       () => space.sweeps([0, 0, 1, 1, Infinity, 0]),
-      'sweeps: question 0: dx: got Infinity, expected a finite number',
+      'sweeps: query 0: dx: got Infinity, expected a finite number',
     ],
   ];
   test.each(bad)('%s', (_, call, message) => {

@@ -91,7 +91,7 @@ describe(`pairs with another space (SEED=${seed})`, () => {
     expect(keys(first)).toEqual(['3 3', '3 4', '3 5', '3 6']);
   });
 
-  test('a snapshot that is put back is seen', () => {
+  test('a restored snapshot is recorded', () => {
     const level = new BroadPhase().set(1, 0, 0, 9, 9).update();
     const movers = new BroadPhase().set(7, 0, 0, 1, 1).update();
     const saved = movers.snapshot();
@@ -117,7 +117,7 @@ describe(`pairs with another space (SEED=${seed})`, () => {
     expect(() => gone.pairsWith(space)).toThrow('this BroadPhase was disposed');
   });
 
-  test('a large space that was changed before it was asked says so, and is whole after', () => {
+  test('a large space that was changed before its first query throws, and is intact after', () => {
     const boxes = Array.from({ length: 4 * 20_000 }, (_, k) => (k >> 2) + (k & 2 ? 1 : 0));
     const level = new BroadPhase().setAll(boxes).update();
     const movers = new BroadPhase().set(7, 0, 0, 0.5, 0.5).update();

@@ -1,4 +1,4 @@
-// Every question against a look at every box: after any calls, by any technique, in every recorded scene.
+// Every query against a look at every box: after any calls, by any technique, in every recorded scene.
 import { BroadPhase, type QueryOptions } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
@@ -9,24 +9,27 @@ import { setBox } from '../support/set-box.ts';
 
 // Among the model's calls are those that switch to any technique.
 describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
-  test.each([1, 2, 3, 4, 5, 6])('answers by what the last update saw, after any sequence of calls, seed %i', (seed) => {
-    const model = new Modelled({ dimensions }, seed);
-    const asker = new Asker(model.space, model.random, 60);
-    asker.everything(new Map());
-    for (let round = 0; round < 15; round++) {
-      for (let call = 0; call < 30; call++) model.step();
-      model.space.update();
-      const seen = copyOf(model.entries);
-      for (let call = 0; call < 3; call++) {
-        for (let k = 0; k < 4; k++) asker.everything(seen);
-        // Seen no sooner than with the next update.
-        for (let k = 0; k < 5; k++) model.step();
+  test.each([1, 2, 3, 4, 5, 6])(
+    'answers with the boxes of the last update, after any sequence of calls, seed %i',
+    (seed) => {
+      const model = new Modelled({ dimensions }, seed);
+      const asker = new Asker(model.space, model.random, 60);
+      asker.everything(new Map());
+      for (let round = 0; round < 15; round++) {
+        for (let call = 0; call < 30; call++) model.step();
+        model.space.update();
+        const seen = copyOf(model.entries);
+        for (let call = 0; call < 3; call++) {
+          for (let k = 0; k < 4; k++) asker.everything(seen);
+          // Seen no sooner than with the next update.
+          for (let k = 0; k < 5; k++) model.step();
+        }
       }
-    }
-  });
+    },
+  );
 });
 
-// Few questions an update, so that the index keeps its order while boxes drift, come and go.
+// Few queries an update, so that the index keeps its order while boxes drift, come and go.
 describe.each([2, 3] as const)('among many boxes in %d dimensions', (dimensions) => {
   test.each([1, 2, 3, 4, 5, 6])('answers while most of them move, seed %i', { tags: 'long' }, (seed) => {
     const model = new Modelled({ dimensions }, seed, anyPlace, 200, 700);
@@ -167,14 +170,14 @@ describe('a visitor', () => {
   });
 });
 
-describe.each([2, 3] as const)('bad questions in %d dimensions', (dimensions) => {
+describe.each([2, 3] as const)('bad queries in %d dimensions', (dimensions) => {
   const space = new BroadPhase({ dimensions });
   const ask = space as unknown as Loose;
   const axes = Array.from({ length: dimensions });
   const point = axes.map(() => 0);
   const box = [...point, ...point.map(() => 1)];
   const round = dimensions === 2 ? 'queryCircle' : 'querySphere';
-  const questions: [string, number[]][] = [
+  const queries: [string, number[]][] = [
     ['queryBox', box],
     ['queryPoint', point],
     [round, [...point, 1]],
@@ -184,7 +187,7 @@ describe.each([2, 3] as const)('bad questions in %d dimensions', (dimensions) =>
     ['nearest', [...point, 1]],
   ];
 
-  test.each(questions)('%s', (name, good) => {
+  test.each(queries)('%s', (name, good) => {
     for (let at = 0; at < good.length; at++) {
       for (const bad of ['1', null, {}, 1n]) {
         expect(() => ask[name](...good.with(at, bad as unknown as number))).toThrow(TypeError);
@@ -216,7 +219,7 @@ describe.each([2, 3] as const)('bad questions in %d dimensions', (dimensions) =>
 
   test('infinite points, ways and directions, and minima above maxima', () => {
     for (const name of ['queryPoint', 'nearest', round, 'rayCast', 'rayCastAll']) {
-      const good = questions.find(([each]) => each === name)![1];
+      const good = queries.find(([each]) => each === name)![1];
       expect(() => ask[name](...good.with(0, Infinity))).toThrow('expected a finite number');
     }
     expect(() => ask.rayCast(...point, ...point.with(0, -Infinity))).toThrow('directionX: got -Infinity');
@@ -225,7 +228,7 @@ describe.each([2, 3] as const)('bad questions in %d dimensions', (dimensions) =>
     expect(() => ask.sweep(...box.with(0, 2), ...point)).toThrow('minX: got 2');
   });
 
-  test('a negative radius, and numbers of neighbours that are none', () => {
+  test('a negative radius, and bad numbers of neighbours', () => {
     expect(() => ask[round](...point, -1)).toThrow(`${round}: radius: got -1`);
     for (const k of [0, -1, 1.5, Number.NaN]) expect(() => ask.nearest(...point, k)).toThrow(`nearest: k: got ${k}`);
   });
@@ -297,7 +300,7 @@ test('no sweep meets what begins infinitely far away, however far it goes', () =
   expect(space.sweep(0, -0.1, 1, 0, 1e300, 1e308)).toBeUndefined();
 });
 
-test('the first question sees what the last update saw, whatever was written in place since', () => {
+test('the first query sees what the last update saw, whatever was written in place since', () => {
   const space = new BroadPhase();
   const boxes = space.boxes(1);
   boxes.set([0, 0, 1, 1]);

@@ -1,4 +1,4 @@
-// Questions in worlds that wrap around. What is in a box is compared with whole numbers without a limit; the others with
+// Queries in worlds that wrap around. What is in a box is compared with whole numbers without a limit; the others with
 // a look at copies of every box, moved by whole worlds. SEED=… runs a failure again, RUNS=… runs more.
 import { BroadPhase } from 'broadphase';
 import fc from 'fast-check';
@@ -84,7 +84,7 @@ class Copied extends Modelled {
     return !(box[axis + this.wrap.length]! - box[axis]! < this.wrap[axis]!);
   }
 
-  /** A question or a box that is as long as the world has no end. */
+  /** A query or a box that is as long as the world has no end. */
   around(box: readonly number[]): number[] {
     const d = this.wrap.length;
     return box.map((x, k) => (this.isFull(box, k % d) ? (k < d ? -Infinity : Infinity) : x));
@@ -233,7 +233,7 @@ class Copied extends Modelled {
     for (const [k, { normal }] of found.entries()) expect(expected[k]!.normals).toContainEqual(normal);
   }
 
-  question(): void {
+  query(): void {
     const ask = this.space as unknown as Loose;
     const d = this.wrap.length;
     const point = this.point();
@@ -330,10 +330,10 @@ describe(`what is near and ahead, in a world that wraps around (SEED=${seed})`, 
     for (let round = 0; round < runs(12); round++) {
       for (let n = scene.pick(3, 40); n > 0; n--) scene.step();
       scene.update();
-      for (let n = 0; n < 12; n++) scene.question();
+      for (let n = 0; n < 12; n++) scene.query();
       scene.many();
       for (let n = 0; n < 3; n++) scene.step();
-      for (let n = 0; n < 3; n++) scene.question();
+      for (let n = 0; n < 3; n++) scene.query();
     }
   });
 });

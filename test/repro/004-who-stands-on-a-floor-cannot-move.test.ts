@@ -110,7 +110,7 @@ describe('a ray from a touch', () => {
     const diagonal = new BroadPhase().set(0, 0, 0, 10, 10).set(1, 10, 10, 20, 20).update();
     expect(diagonal.rayCast(5, 15, 1, -1)?.distance).toBeCloseTo(Math.sqrt(50));
   });
-  test('a visitor hears of the same', () => {
+  test('a visitor gets the same answers', () => {
     const heard: unknown[] = [];
     space.rayCastAll(0, 5, 0, 1, { visit: (...hit) => heard.push(hit) });
     space.sweep(-5, 0, 0, 5, 0, 9, { visit: (...hit) => heard.push(hit) });

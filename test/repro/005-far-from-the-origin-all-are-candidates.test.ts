@@ -58,7 +58,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     });
   });
 
-  test('a world that jumps, grows and comes back is followed, and told in its own numbers', () => {
+  test('a world that jumps, grows and comes back is followed, and its boxes keep their numbers', () => {
     const space = new BroadPhase({ dimensions, technique: 'strip-sweep' });
     for (const name of ['at 1e10', 'in two clusters 1e12 apart', 'at 1.7e12, as milliseconds do', 'at 1e10']) {
       const boxes = world(dimensions, places[name]!);

@@ -25,7 +25,7 @@ test('what is written by the view counts instead of the double that was set befo
   expect(space.validate().get(0, [])).toEqual([0.3, 0.3, 0.7, 0.7]);
 });
 
-test('a bad number that is written over a double is named, and mended by the next', () => {
+test('a bad number written over a double is named, and a good one repairs it', () => {
   const space = new BroadPhase();
   const boxes = space.boxes(2);
   space.set(1, 0.1, 0.1, 0.2, 0.2).update();
@@ -39,7 +39,7 @@ test('a bad number that is written over a double is named, and mended by the nex
   expect(boxes.length).toBe(8);
 });
 
-test('a view that memory cuts off between boxes() and update() is never written to unnoticed', () => {
+test('writing to a view that growing memory detached between boxes() and update() is noticed', () => {
   const space = new BroadPhase();
   const view = space.boxes(2);
   for (let id = 2; view.length > 0; id++) space.set(id, id, 0, id, 0);

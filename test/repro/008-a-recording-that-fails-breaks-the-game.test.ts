@@ -37,7 +37,7 @@ describe('record() that is refused leaves the space as it was', () => {
     expect(recording.frames).toBe(1);
   });
 
-  test('a space that is recorded already: the stream stays free, the first recording goes on', () => {
+  test('a space that is already recorded: the stream stays unlocked, the first recording continues', () => {
     const mine = space();
     const first = record(mine);
     const to = new WritableStream<Uint8Array>();
@@ -79,7 +79,7 @@ describe('a stream that fails later ends the recording, and says so', () => {
     await expect(recording.stop()).rejects.toThrow('closed');
   });
 
-  test('it throws in the midst of an update', async () => {
+  test('it throws in the middle of an update', async () => {
     let calls = 0;
     const to = { ...throws, write: () => void (++calls > 2 && throws.write()) };
     const mine = space();
@@ -106,7 +106,7 @@ test('what was recorded before the fault is there', () => {
   expect(openTrace(recording.bytes()).frames).toBe(1);
 });
 
-test('a visitor that throws, disposes or asks leaves the space in order', () => {
+test('a visitor that throws, disposes the space or makes queries leaves the space intact', () => {
   const mine = space().update();
   const enough = () => {
     throw new Error('enough');

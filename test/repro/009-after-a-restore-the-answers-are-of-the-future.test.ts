@@ -1,5 +1,5 @@
 // After `restore` pairs and answers were those of the frames that had been taken back, until the next update: games that
-// ask first ran out of step. And the very first question saw boxes as they were, later ones as of the last update.
+// ask first ran out of step. And the very first query saw boxes as they were, later ones as of the last update.
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 
@@ -27,7 +27,7 @@ const guess = (space: BroadPhase) => {
 };
 
 describe.each([true, false])('whether it was asked before: %s', (asks) => {
-  test('a space that guessed and went back answers as one that never guessed', () => {
+  test('a space that rolled back a prediction answers like one that never predicted', () => {
     const [never, rolled] = [make(), make()];
     for (const space of [never, rolled]) start(space);
     const saved = rolled.snapshot();
@@ -53,7 +53,7 @@ test.each<[string, (space: BroadPhase) => void]>([
   ['setAll', (space) => space.setAll([7, 7, 8, 8])],
   ['boxes', (space) => space.boxes(2).fill(3)],
   ['setFilter', (space) => space.setFilter(0, 8, 8)],
-])('the first question after %s sees what later ones see: the last update', (_, change) => {
+])('the first query after %s sees what later ones see: the last update', (_, change) => {
   const [early, late] = [make(), make()];
   for (const space of [early, late]) start(space);
   const expected = answers(early);
@@ -65,7 +65,7 @@ test.each<[string, (space: BroadPhase) => void]>([
   expect(answers(late)).toEqual(answers(early));
 });
 
-test('a large space that was never asked says so rather than seeing another world', () => {
+test('a large space that was never queried throws instead of answering from other boxes', () => {
   const space = new BroadPhase().setAll(Float32Array.from({ length: 4 * 20_000 }, (_, k) => -1 - (k >> 2))).update();
   space.set(0, 5, 5, 6, 6);
   expect(() => space.queryPoint(0, 0)).toThrow('queryPoint: boxes have changed since the last update');

@@ -83,7 +83,7 @@ test('the command converts, cuts and describes it', async () => {
   expect(said).toContain('in a world of 32 × 20 that wraps around');
 });
 
-test('a recording of another world is what it was, and older readers refuse what they know nothing of', () => {
+test('the kind of world is recorded, and readers refuse unknown kinds', () => {
   expect(recorded(2, undefined).bytes[11]).toBe(0);
   expect(recorded(2, [32, 20]).bytes[11]).toBe(1); // they expect a 0 there
   expect(openTrace(recorded(2, undefined).bytes).wrap).toBeUndefined();

@@ -43,7 +43,7 @@ describe('an option that there is not', () => {
   });
 });
 
-describe('findPairs speaks of itself', () => {
+describe('errors of findPairs name findPairs', () => {
   test.each<[() => unknown, string]>([
     [() => findPairs([0, 0, 1]), 'findPairs: length: got 3'],
     [() => findPairs([0, 0, 1, Number.NaN]), 'findPairs: maxY of box 0 is NaN'],

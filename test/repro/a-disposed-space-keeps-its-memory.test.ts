@@ -18,7 +18,7 @@ function used(space: BroadPhase): WeakRef<object> {
   return new WeakRef(space.structure().buffer);
 }
 
-test('a space that was disposed of lets go of its memory, although it is held', async () => {
+test('a disposed space releases its memory, although it is still referenced', async () => {
   const space = new BroadPhase({ events: true });
   const memory = used(space);
   space.dispose();

@@ -44,7 +44,7 @@ describe('what would be lost is refused before the work', () => {
     }
   });
 
-  test('a report or a copy in place of the recording itself, by whatever name', async () => {
+  test('a report or a copy that would overwrite the recording, by any name', async () => {
     const before = readFileSync(small);
     symlinkSync(small, file('link.trace'));
     for (const path of [small, file('link.trace'), join(folder, '.', 'small.trace')]) {
@@ -58,7 +58,7 @@ describe('what would be lost is refused before the work', () => {
     expect(readFileSync(small)).toEqual(before);
   });
 
-  test('a check of what can be written leaves nothing behind', async () => {
+  test('checking whether a file can be written leaves nothing behind', async () => {
     mkdirSync(file('out'));
     expect(await run(['convert', small, file('out/a.bin')])).toMatchObject({ code: 0 });
     expect(await run(['tune', file('nowhere'), '--report', file('out/report.html')])).toMatchObject({ code: 4 });
@@ -133,7 +133,8 @@ describe('its own words', () => {
       const { out } = await run(argv, columns, columns);
       const table = out.split('\n\n').find((part) => part.includes('─'))!;
       for (const line of table.split('\n').slice(0, 3)) expect(line.length, line).toBeLessThanOrEqual(columns);
-      if (argv[0] === 'replay') expect(out).toMatch(/not shown, for lack of room: .*memory; --json has all/);
+      if (argv[0] === 'replay')
+        expect(out).toMatch(/not shown, as the terminal is too narrow: .*memory; --json has all/);
     }
     expect((await run(['replay', small], columns)).out).toContain('memory');
   });

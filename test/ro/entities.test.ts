@@ -110,7 +110,7 @@ describe.each(techniques)('entities that come and go, with %s', (_, make) => {
     expect(world.entities[0].getAABB()).toEqual({ min: [0, 0], max: [10, 10] });
   });
 
-  test('a technique alone refuses a box that is none, an id that is none, and an id that is taken', () => {
+  test('a technique alone refuses a bad box, a bad id, and an id in use', () => {
     const technique = make();
     const box = (_roId: number, min: [number, number], max: [number, number]) =>
       ({ _roId, getAABB: () => ({ min, max }) }) as ro.Entity;

@@ -56,7 +56,7 @@ describe('the screen', () => {
     expect([canvas.width, canvas.height]).toEqual([400, 300]);
   });
 
-  test('refuses a scale that is none, and a canvas without a context', () => {
+  test('refuses a bad scale, and a canvas without a context', () => {
     const canvas = new FakeCanvas(400, 300);
     expect(() => new ro.Screen(canvas.asElement(), 0)).toThrow('scale is 0, expected a finite number above 0');
     expect(() => new ro.Screen(canvas.asElement(), Number.NaN)).toThrow('scale is NaN');

@@ -67,7 +67,7 @@ describe('setAll and boxes', () => {
     expect(pairsOf(space)).toEqual([]);
   });
 
-  test('doubles are taken as doubles where floats were staged before', () => {
+  test('doubles are taken as doubles if floats were staged before', () => {
     // The memory of the first setAll comes back for the second: as many numbers, at the same place, of another kind.
     const space = new BroadPhase({ dimensions: 3 });
     space.setAll(Float32Array.from({ length: 24 }, () => 1));

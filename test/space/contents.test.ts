@@ -99,7 +99,7 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
     }
   });
 
-  test('a restored space goes on as the one that was not interrupted, its order too', () => {
+  test('a restored space continues like the original, in the same order', () => {
     const flat = Array.from({ length: 2 * dimensions }, () => 1);
     const space = new BroadPhase({ dimensions });
     for (const id of [9, 3, 7, 5, 100]) setBox(space, id, flat);
@@ -152,7 +152,7 @@ test('boxes may be deleted and added while keys are walked, and ids have to be i
   }
 });
 
-test('pairs are walked as they were, whatever happens meanwhile', () => {
+test('a loop over pairs sees those at its start, whatever changes meanwhile', () => {
   const space = new BroadPhase().setAll(Array.from({ length: 4 }, () => [0, 0, 1, 1]).flat()).update();
   const seen: number[][] = [];
   for (const pair of space.eachPair()) {

@@ -105,7 +105,7 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
   const unit = Array.from({ length: 2 * dimensions }, (_, k) => (k < dimensions ? 0 : 1));
   const all = (space: BroadPhase<2 | 3>) => ascending((space as unknown as Loose).queryBox!(...unit) as number[]);
 
-  test('answers are those of the last update, and nobody is found where all are off', () => {
+  test('answers are those of the last update, and nothing is found if all boxes are off', () => {
     const space = new BroadPhase({ dimensions });
     for (let id = 0; id < 20; id++) setBox(space, id, unit);
     space.update();
@@ -130,7 +130,7 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
     expect(all(fresh)).toEqual([3]);
   });
 
-  test('a box that is off can be set, in all ways, and keeps what it was told', () => {
+  test('a box that is off can be set in all ways, and keeps the new numbers', () => {
     const space = new BroadPhase({ dimensions, events: true });
     setBox(space, 0, unit);
     setBox(space, 1, unit);

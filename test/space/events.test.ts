@@ -150,7 +150,7 @@ describe('a box that is deleted', () => {
     expect(events(space)).toEqual([[], []]);
   });
 
-  test('by setAll, boxes or clear is deleted all the same', () => {
+  test('by setAll, boxes or clear counts as deleted', () => {
     for (const remove of [
       (space: BroadPhase<2 | 3>) => space.setAll([]),
       (space: BroadPhase<2 | 3>) => space.boxes(0),
@@ -179,7 +179,7 @@ test('bad boxes refused by update leave the events as they were', () => {
   expect(Array.from(space.update().began)).toEqual([]);
 });
 
-test('events, ids and arrays that are none are refused', () => {
+test('bad options, ids and arrays are refused', () => {
   const space = new BroadPhase().set(0, 0, 0, 1, 1).update();
   expect(() => space.began).toThrow('events: true');
   expect(() => space.ended).toThrow('events: true');

@@ -31,7 +31,7 @@ describe.each(combinations)('%s in %d dimensions', (technique, dimensions) => {
     }
   });
 
-  test('finds the wanted pairs with more kinds of filters than it keeps account of', () => {
+  test('finds the right pairs with more kinds of filters than it has classes', () => {
     const model = new Modelled({ technique, dimensions }, 7);
     for (let id = 0; id < 400; id++) {
       model.set(id);

@@ -125,7 +125,7 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
     expect([space.groupOf(0), space.groupOf(1), space.update().pairCount]).toEqual([0, 0, 1]);
   });
 
-  test('costs no test within a group while what was found is kept', () => {
+  test('costs no tests within a group while candidates are retained', () => {
     const space = new BroadPhase({ dimensions });
     for (let id = 0; id < 2000; id++) {
       const at = 4 * Math.floor(id / 20); // twenty in one place

@@ -148,7 +148,7 @@ test('where all move, what is found is kept, through bounces, new boxes, and a c
   expect(kept).toBeGreaterThan(100);
 });
 
-describe.each([2, 3] as const)('a few boxes creep, each as it likes, %i dimensions', (dimensions) => {
+describe.each([2, 3] as const)('a few boxes creep, each in its own direction, %i dimensions', (dimensions) => {
   test.each([250, 400, 800])('what is found among %i boxes is kept', (count) => {
     const random = createRandom(count);
     const world = 10 * (count / 0.2) ** (1 / dimensions);
@@ -260,7 +260,7 @@ test('a box that jumps beside one that turns is not reported twice', () => {
 });
 
 test.each([2, 3] as const)(
-  'a box at rest that jumps leaves nothing behind where others move, %i dimensions',
+  'a box at rest that jumps leaves no pairs behind, %i dimensions',
   { tags: 'long' },
   (dimensions) => {
     const random = createRandom(7);
@@ -296,7 +296,7 @@ test.each([2, 3] as const)(
 );
 
 test.each([2, 3] as const)(
-  'a world that rests and jumps in turns is answered by new lists as seldom as they pay, %i dimensions',
+  'a world that alternately rests and jumps builds new lists only as often as they pay, %i dimensions',
   (dimensions) => {
     const random = createRandom(11);
     const count = 3000;
@@ -449,7 +449,7 @@ test('what is kept of a world at rest is given up while more and more boxes begi
     else givenUp += Number(reason.includes('full rebuild'));
   }
   expect(atRest, 'updates answered from what is kept').toBeGreaterThan(50);
-  expect(givenUp, 'updates answered anew').toBeGreaterThan(10);
+  expect(givenUp, 'updates with a full rebuild').toBeGreaterThan(10);
 });
 
 test('auto says what it chose and why', () => {

@@ -145,7 +145,7 @@ describe('with 64 MiB of memory', () => {
     expect(many.validate().size).toBe(1_000_000);
   });
 
-  test.each([2, 3] as const)('boxes are added one by one until memory ends, in %d dimensions', (dimensions) => {
+  test.each([2, 3] as const)('boxes are added one by one until memory runs out, in %d dimensions', (dimensions) => {
     const space = new BroadPhase({ dimensions });
     const add = (id: number) =>
       dimensions === 2 ? space.set(id, id, 0, id + 0.1, 1) : space.set(id, id, 0, 0, id + 0.1, 1, 1);
@@ -300,7 +300,7 @@ describe('views of memory', () => {
     space.update().validate();
   });
 
-  test('of pairs are made anew when memory has grown', () => {
+  test('of pairs are renewed when memory has grown', () => {
     const space = new BroadPhase().setAll([0, 0, 1, 1, 1, 1, 2, 2]).update();
     const { pairs } = space;
     expect(Array.from(pairs)).toEqual([0, 1]);
@@ -312,9 +312,9 @@ describe('views of memory', () => {
     expect(space.stats.pairs).toBe(1);
   });
 
-  // What a game does with its pairs: boxes come and go meanwhile, and questions are asked.
+  // What a game does with its pairs: boxes come and go meanwhile, and queries are asked.
   test.each([2, 3] as const)(
-    'of pairs stay while a few boxes are added and questions asked, in %d dimensions',
+    'of pairs stay while a few boxes are added and queries asked, in %d dimensions',
     { tags: 'long' },
     (dimensions) => {
       const calls: ((space: BroadPhase<2 | 3>, count: number) => unknown)[] = [

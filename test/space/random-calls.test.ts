@@ -5,13 +5,13 @@ import { BroadPhase } from 'broadphase';
 import fc from 'fast-check';
 import { describe, test } from 'vitest';
 import { runs, seed } from '../support/runs.ts';
-import { badChanges, badQuestions } from './random-calls/bad-calls.ts';
+import { badChanges, badQueries } from './random-calls/bad-calls.ts';
 import { changes, rules, saves } from './random-calls/changes.ts';
 import type { Model } from './random-calls/model.ts';
-import { manyQuestions, questions } from './random-calls/questions.ts';
+import { manyQueries, queries } from './random-calls/queries.ts';
 
 const numRuns = runs(150);
-const sources = [changes, rules, questions, manyQuestions, saves, badChanges, badQuestions];
+const sources = [changes, rules, queries, manyQueries, saves, badChanges, badQueries];
 
 describe(`every method in any order (SEED=${seed})`, () => {
   test.each([2, 3] as const)('keeps a space true to the model, in %d dimensions', (dimensions) => {

@@ -1,4 +1,4 @@
-// Boxes that reach beyond themselves: in pairs as if they were larger, in questions as they are. SEED=… runs the same
+// Boxes that reach beyond themselves: in pairs as if they were larger, in queries as they are. SEED=… runs the same
 // sequences again.
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';

@@ -56,7 +56,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     }
   });
 
-  test('who is there and how many is known at once, whatever waits', () => {
+  test('has and size are right at once, even if boxes wait in the ring', () => {
     const random = createRandom(dimensions);
     for (const first of [0, 1, 4095, 70_000]) {
       const space = new BroadPhase({ dimensions });
@@ -83,7 +83,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     }
   });
 
-  test('boxes that wait are taken though memory grows in between', () => {
+  test('boxes that wait in the ring are taken even if memory grows', () => {
     const space = new BroadPhase({ dimensions });
     const point = (x: number) => Array<number>(2 * dimensions).fill(x);
     for (let id = 0; id < 100; id++) setBox(space, id, point(id));
@@ -99,7 +99,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     expect(space.get(5, [])).toEqual(point(9));
   });
 
-  test('the first question sees the last update, the outermost cells and the invariants what was set since', () => {
+  test('the first query sees the last update; cells and invariants include boxes set since', () => {
     const point = (x: number) => Array<number>(dimensions).fill(x);
     const space = new BroadPhase({ dimensions, technique: 'incremental' });
     for (let id = 0; id < 500; id++) setBox(space, id, [...point(id), ...point(id + 1)]);
@@ -115,7 +115,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     space.validate();
   });
 
-  test('boxes that are set by turns in place and one by one', () => {
+  test('boxes that are set alternately in place and one by one', () => {
     const random = createRandom(dimensions);
     const space = new BroadPhase({ dimensions });
     const count = 30;
@@ -135,7 +135,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     }
   });
 
-  test('all are set in each frame, and only those that are somewhere else have changed', () => {
+  test('all boxes are set in each frame, and only those that moved count as changed', () => {
     const random = createRandom(dimensions);
     const space = new BroadPhase({ dimensions });
     const count = 1000;
@@ -153,7 +153,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     }
   });
 
-  test('one that is set to and fro between two updates stays a pair of what it touches', () => {
+  test('a box that is moved away and back between two updates keeps its pairs', () => {
     const space = new BroadPhase({ dimensions });
     const here = Array(2 * dimensions).fill(5);
     const there = Array(2 * dimensions).fill(50);

@@ -89,35 +89,32 @@ function play(space: BroadPhase<2 | 3>, calls: readonly Call[]): Uint32Array {
 }
 
 describe(`a restored space (SEED=${seed})`, () => {
-  test.each(combinations)(
-    'goes on as the one that was not interrupted: %s in %d dimensions',
-    (technique, dimensions) => {
-      const numbers = fc.record({ seed: fc.nat(), before: fc.nat(60), after: fc.nat(40), lost: fc.nat(40) });
-      const property = fc.property(numbers, ({ seed, before, after, lost }) => {
-        const options = { technique, dimensions, events: true } as const;
-        const [history, future, taken] = [before, after + 1, lost].map((count, k) =>
-          randomCalls(count, dimensions, seed + k),
-        );
-        const [untouched, rolled] = [new BroadPhase(options), new BroadPhase(options)];
-        play(untouched, history);
-        play(rolled, history);
-        const saved = rolled.snapshot();
-        untouched.snapshot(); // from the first one on, pairs come in an order that no update before shows in
-        const expected = play(untouched, future);
-        expectSameWords(play(rolled, future), expected, 'after a snapshot');
+  test.each(combinations)('continues like the original: %s in %d dimensions', (technique, dimensions) => {
+    const numbers = fc.record({ seed: fc.nat(), before: fc.nat(60), after: fc.nat(40), lost: fc.nat(40) });
+    const property = fc.property(numbers, ({ seed, before, after, lost }) => {
+      const options = { technique, dimensions, events: true } as const;
+      const [history, future, taken] = [before, after + 1, lost].map((count, k) =>
+        randomCalls(count, dimensions, seed + k),
+      );
+      const [untouched, rolled] = [new BroadPhase(options), new BroadPhase(options)];
+      play(untouched, history);
+      play(rolled, history);
+      const saved = rolled.snapshot();
+      untouched.snapshot(); // from the first one on, pairs come in an order that no update before shows in
+      const expected = play(untouched, future);
+      expectSameWords(play(rolled, future), expected, 'after a snapshot');
 
-        play(rolled, taken);
-        expectSameWords(play(rolled.restore(saved), future), expected, 'rolled back');
-        const other = new BroadPhase(options);
-        play(other, taken);
-        expectSameWords(play(other.restore(saved).validate(), future), expected, 'from elsewhere');
-        expectSameWords(play(new BroadPhase(options).restore(saved), future), expected, 'a fresh space');
-        expect(Buffer.compare(rolled.restore(saved).snapshot(), saved)).toBe(0);
-        expect(rolled.size).toBe(new BroadPhase(options).restore(saved).size);
-      });
-      fc.assert(property, { seed, numRuns });
-    },
-  );
+      play(rolled, taken);
+      expectSameWords(play(rolled.restore(saved), future), expected, 'rolled back');
+      const other = new BroadPhase(options);
+      play(other, taken);
+      expectSameWords(play(other.restore(saved).validate(), future), expected, 'from elsewhere');
+      expectSameWords(play(new BroadPhase(options).restore(saved), future), expected, 'a fresh space');
+      expect(Buffer.compare(rolled.restore(saved).snapshot(), saved)).toBe(0);
+      expect(rolled.size).toBe(new BroadPhase(options).restore(saved).size);
+    });
+    fc.assert(property, { seed, numRuns });
+  });
 
   test.each(combinations)(
     'replays a recorded scene: %s in %d dimensions',
@@ -152,7 +149,7 @@ describe(`a restored space (SEED=${seed})`, () => {
 
 const bytesOf = (array: Uint32Array) => new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
 
-test('a snapshot is as small as what it says', () => {
+test('a snapshot has only the parts that differ from the default', () => {
   const space = new BroadPhase({ capacity: 5000 });
   expect(space.snapshot().length).toBe(24);
   space.setAll(new Float32Array(4000)).update();
@@ -193,7 +190,7 @@ test('pairs and answers are those of the boxes that were restored', () => {
 describe('events after a restore', () => {
   const events = (space: BroadPhase<2 | 3>) => [Array.from(space.began), Array.from(space.ended)];
 
-  test('are against the pairs of the snapshot, and come again as they came', () => {
+  test('are relative to the pairs of the snapshot, and repeat exactly', () => {
     const space = new BroadPhase({ events: true }).set(1, 0, 0, 2, 2).set(2, 1, 1, 3, 3).update();
     const saved = space.snapshot();
     const next = () => space.set(2, 5, 5, 6, 6).set(3, 0, 0, 1, 1).update();
@@ -229,7 +226,7 @@ describe('events after a restore', () => {
     }
   });
 
-  test('all begin where the snapshot has no pairs, and a space without events takes one that has', () => {
+  test('all pairs begin if the snapshot has none, and a space without events restores one with pairs', () => {
     const plain = new BroadPhase().set(1, 0, 0, 2, 2).set(2, 1, 1, 3, 3).update();
     const space = new BroadPhase({ events: true }).set(5, 0, 0, 2, 2).set(6, 1, 1, 3, 3).update();
     const saved = space.snapshot();
@@ -298,7 +295,7 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     fc.assert(property, { seed, numRuns: 20 * numRuns });
   });
 
-  test('any bytes behind a right checksum: refused, or a space in order', () => {
+  test('any bytes with a correct checksum: refused, or a valid space', () => {
     const saved = full(2).snapshot();
     const property = fc.property(
       fc.array(fc.tuple(fc.nat(saved.length - 1), fc.nat(255)), { minLength: 1, maxLength: 4 }),

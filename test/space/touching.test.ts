@@ -1,4 +1,4 @@
-// Spaces and questions in which boxes that only touch do not overlap. SEED=… runs the same sequences again.
+// Spaces and queries in which boxes that only touch do not overlap. SEED=… runs the same sequences again.
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { exactPairs } from '../../src/trace/exact.ts';
@@ -131,7 +131,7 @@ describe.each(combinations)(`%s in %d dimensions (SEED=${seed})`, (technique, di
 });
 
 describe.each(BroadPhase.techniques)('%s', (technique) => {
-  test.each([0, 0.1])('a box that is nowhere does not overlap what has no end (%d)', (fraction) => {
+  test.each([0, 0.1])('a box at infinity does not overlap an infinite box (%d)', (fraction) => {
     const space = new BroadPhase({ technique, touching: false });
     for (let id = 2; id < 20; id++) space.set(id, 10 * id, 0, 10 * id + 9 + fraction, 1);
     space.set(0, Infinity, 0, Infinity, 9).set(1, 300, 3, Infinity, 5);
@@ -141,7 +141,7 @@ describe.each(BroadPhase.techniques)('%s', (technique) => {
   });
 });
 
-describe.each([2, 3] as const)('questions in %d dimensions', (dimensions) => {
+describe.each([2, 3] as const)('queries in %d dimensions', (dimensions) => {
   test.each([
     ['doubles', undefined, true],
     ['float32', whole, true],

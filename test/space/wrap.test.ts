@@ -121,21 +121,21 @@ describe(`in a world that wraps around (SEED=${seed})`, { tags: 'long' }, () => 
     expect(space.set(1, 2e-17, 0, 0.5, 1).update().pairCount).toBe(0);
   });
 
-  test('a ray goes once around, or as far as it is told; too far is refused by name', () => {
+  test('a ray goes once around, or up to its limit; too large a limit is refused by name', () => {
     const space = new BroadPhase({ wrap: [100, 50] }).set(1, 10, 10, 20, 20).update();
     expect(space.rayCast(50, 15, 1, 0)).toEqual({ id: 1, distance: 60, normal: [-1, 0] });
     expect(space.rayCast(50, 5, 1, 0.5)).toEqual(space.rayCast(-50, 105, 1, 0.5));
     expect(space.rayCast(50, 25, 1, 0)).toBeUndefined();
     expect(space.rayCastAll(15, 0, 0, 1, { maxDistance: 300 })).toEqual([{ id: 1, distance: 10, normal: [0, -1] }]);
     expect(space.sweep(50, 12, 52, 14, 70, 0)?.time).toBe(58 / 70);
-    const most = 'expected at most 50000, since each world on the way costs a search';
+    const most = 'expected at most 50000, since each world on the path costs a search';
     expect(() => space.rayCast(0, 0, 1, 0, { maxDistance: 1e9 })).toThrow(
       `rayCast: maxDistance: got 1000000000, ${most}`,
     );
     expect(() => space.rayCasts([0, 0, 1, 0], { maxDistance: 1e9 })).toThrow('rayCasts: maxDistance: got 1000000000');
-    expect(() => space.sweep(0, 0, 1, 1, 0, -1e9)).toThrow(`sweep: the way: got -1000000000, ${most}`);
+    expect(() => space.sweep(0, 0, 1, 1, 0, -1e9)).toThrow(`sweep: the motion: got -1000000000, ${most}`);
     expect(() => space.sweeps([0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 1e9])).toThrow(
-      'sweeps: question 1: the way: got 1000000000',
+      'sweeps: query 1: the motion: got 1000000000',
     );
   });
 

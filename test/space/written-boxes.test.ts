@@ -70,7 +70,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     expect(little, 'updates answered from what is kept').toBeGreaterThan(40);
   });
 
-  test('a bad box among those that move and are kept is found, and nothing is lost', () => {
+  test('a bad box among moved boxes with retained structure is found, and nothing is lost', () => {
     const count = 800;
     const width = 2 * dimensions;
     const random = createRandom(dimensions);
@@ -263,7 +263,7 @@ describe.each([2, 3] as const)('in %i dimensions', (dimensions) => {
     expect(space.pairCount).toBe(1);
   });
 
-  test('a box alone that is written in place is where it was written, or is bad', () => {
+  test('a single box written in place is where it was written, or is named as bad', () => {
     const space = new BroadPhase({ dimensions, technique: 'incremental' });
     const found = (x: number) =>
       (dimensions === 2 ? space.queryBox(x, 0, x, 0) : space.queryBox(x, 0, 0, x, 0, 0)).length;

@@ -1,4 +1,4 @@
-// Asks a space every question, at random places, and compares the answers with a look at every box.
+// Asks a space every query, at random places, and compares the answers with a look at every box.
 import type { BroadPhase, RayHit } from 'broadphase';
 import { expect } from 'vitest';
 import { type Asked, ahead, type Entries, inBox, inCircle, inPlanes, near, type Ranked } from './query-reference.ts';
@@ -11,7 +11,7 @@ export const ascending = (ids: readonly number[]) => ids.toSorted((a, b) => a - 
 const hitOf = (name: string, { id, rank, normal }: Ranked) =>
   name === 'sweep' ? { id, time: rank, normal } : { id, distance: rank, normal };
 
-/** Asks a space every question there is, at random places, and compares. */
+/** Asks a space every query there is, at random places, and compares. */
 export class Asker {
   readonly #space: BroadPhase<2 | 3>;
   readonly #ask: Loose;

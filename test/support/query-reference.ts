@@ -1,4 +1,4 @@
-// The answers to every question, in doubles, by looking at every box: what the queries are compared with.
+// The answers to every query, in doubles, by looking at every box: what the queries are compared with.
 import { type Entry, touches } from './model.ts';
 
 export type Entries = ReadonlyMap<number, Entry>;

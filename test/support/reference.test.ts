@@ -28,7 +28,7 @@ test('ids stand for the boxes they are given for', () => {
   expect(referencePairs(boxes, 2, [2 ** 24 - 1, 4, 7])).toEqual(keysOf([7, 2 ** 24 - 1]));
 });
 
-test('a difference is told in words', () => {
+test('a difference is described in words', () => {
   const keys = (...pairs: number[]) => keysOf(pairs);
   expect(firstDifference(keys(0, 1), keys(0, 1))).toBeUndefined();
   expect(firstDifference(keys(), keys(0, 1))).toMatch('[0, 1] is missing');
@@ -36,7 +36,7 @@ test('a difference is told in words', () => {
   expect(firstDifference(keys(0, 1, 0, 1), keys(0, 1))).toMatch('[0, 1] is there twice');
 });
 
-test('pairs are compared with a set the first time, the second and the third', () => {
+test('the first three sets of pairs are all compared', () => {
   const space = (...pairs: number[]) => ({ pairs: Uint32Array.from(pairs), pairCount: pairs.length / 2 });
   const far = 2 ** 24 - 1;
   for (let before = 0; before < 3; before++) {

@@ -171,7 +171,7 @@ describe('errors say where', () => {
     expect(openTrace(cut.subarray(0, -1), { salvage: true }).frames).toBe(1);
   });
 
-  test('frames that are missing, exchanged or repeated are found, and bytes after the end', () => {
+  test('missing, exchanged or repeated frames are detected, and bytes after the end', () => {
     const writer = new TraceWriter(2);
     const [header, first, second] = [writer.header(), writer.frame(two[0].boxes), writer.frame(two[1].boxes)];
     const end = writer.end();
@@ -218,7 +218,7 @@ describe('errors say where', () => {
     ['a float of seven bytes', [1, 1, 0, 1, 0, 1, 7, 0, 1, 2, 3, 4, 5, 6, 7], 'has 7 bytes'],
     ['an empty run', [1, 1, 0, 1, 1, 0], 'empty run'],
     ['a run past the end', [1, 1, 0, 1, 1, 1], 'up to 2 of 1'],
-    ['a box that is none', [1, 1, 0, 1, 0, 1, 1, 1, 2, 1], 'which is not a box'],
+    ['a bad box', [1, 1, 0, 1, 0, 1, 1, 1, 2, 1], 'which is not a box'],
     ['bytes left over', [1, 0, 0, 0, 9], '1 bytes too many'],
     ['an end that counts wrongly', [0, 3], 'the end frame counts 3 frames, but 0'],
   ])('%s', (_, body, message) => {

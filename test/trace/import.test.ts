@@ -61,7 +61,7 @@ test('what the raw layout cannot hold is refused', () => {
   expect(importRecording(exportRecording(traceOf()))).toMatchObject({ frames: 0 });
 });
 
-test('recordings that are none are refused with a place', () => {
+test('bad recordings are refused, with the place of the error', () => {
   const raw = (dimensions: number, count: number, frames: number, ...numbers: number[]) =>
     new Uint8Array([
       ...new Uint8Array(Int32Array.of(0x424f5841, dimensions, count, frames).buffer),

@@ -139,7 +139,7 @@ test('a space is recorded once at a time, from record to stop', async () => {
   expect(again.frames).toBe(1);
 });
 
-test('who may meet whom is recorded, and replayed: only what changes is told again', () => {
+test('filters and static boxes are recorded and replayed: only changes are set again', () => {
   const space = new BroadPhase();
   const recording = record(space);
   space.setAll([0, 0, 4, 4, 1, 1, 5, 5, 2, 2, 6, 6]).update(); // nobody has a rule yet

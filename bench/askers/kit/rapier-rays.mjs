@@ -1,7 +1,7 @@
 // What the adapters share that ask rapier's query pipeline: colliders without bodies, whose groups meet nobody, so that
 // a step does little more than to bring what rays are cast in up to date. It computes in float32, from centres and
 // half sizes.
-import { reach } from '../../harness/questions.mjs';
+import { reach } from '../../harness/queries.mjs';
 
 /** Member of group 0, meeting none. */
 const nobody = 0x00010000;

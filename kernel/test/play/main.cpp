@@ -1,5 +1,5 @@
-// Makes the calls of tapes (test/promises/determinism/tape.ts) on a space, as test/promises/determinism/play.ts does, and prints the hash
-// of all that it answers: `play TECHNIQUE TAPE`, repeated. The kernel alone must answer as the package does.
+// Makes the calls of tapes (test/promises/determinism/tape.ts) on a space, as test/promises/determinism/play.ts does,
+// and prints the hash of all answers: `play TECHNIQUE TAPE`, repeated. The kernel alone must answer like the package.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>

@@ -1,4 +1,4 @@
-// The part of DuckDB's Node API that the join uses. The package is no dependency: who joins files installs it.
+// The part of DuckDB's Node API that the join uses. The package is not a dependency: users who join files install it.
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -34,7 +34,7 @@ export interface DuckDB {
 export class MissingPackage extends Error {}
 
 /**
- * Finds the package beside this one, or else in the project in whose folder the command runs.
+ * Finds the package beside this one, or else in the project of the current folder.
  * @throws MissingPackage that says how to install it
  */
 export function loadDuckDB(): DuckDB {
@@ -52,8 +52,8 @@ export function loadDuckDB(): DuckDB {
   );
 }
 
-/** A text as SQL has it. */
+/** A text as an SQL literal. */
 export const quoted = (text: string): string => `'${text.replaceAll("'", "''")}'`;
 
-/** The name of a column as SQL has it. */
+/** The name of a column as an SQL identifier. */
 export const named = (column: string): string => `"${column.replaceAll('"', '""')}"`;

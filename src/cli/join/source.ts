@@ -1,26 +1,26 @@
-// A file of boxes as DuckDB reads it: which columns are the corners, which row is no box, and a sample.
+// A file of boxes, read with DuckDB: which columns are the corners, which row is not a box, and a sample.
 import { stat } from 'node:fs/promises';
 import { corners } from '../../errors.ts';
 import { UsageError } from '../arguments.ts';
 import { FileError } from '../files.ts';
 import { type Connection, named, quoted } from './duckdb.ts';
 
-/** What is in a file is not what it should be. */
+/** The contents of a file are wrong. */
 export class DataError extends Error {}
 
 /** A file of boxes. */
 export interface Source {
   path: string;
   dimensions: 2 | 3;
-  /** SQL: a table with the columns row (counted from 0, a double) and the corners, doubles, or null for what is none. */
+  /** SQL: a table with the columns row (a double, counted from 0) and the corners (doubles; null for anything else). */
   sql: string;
-  /** SQL: the same, with the corners as they stand in the file. */
+  /** SQL: the same, with the corners as they are in the file. */
   raw: string;
-  /** Changes when the file does. */
+  /** A value that changes when the file does. */
   version: string;
 }
 
-/** Runs SQL that reads files of the user; what is wrong with these is no fault of this program. */
+/** Runs SQL that reads files of the user: reports their errors as such, not as faults of this program. */
 export async function reading<Result>(what: string, run: () => Promise<Result>): Promise<Result> {
   try {
     return await run();
@@ -66,8 +66,8 @@ export async function openSource(db: Connection, path: string, columns: string[]
 }
 
 /**
- * Reads a whole file once, and gives how many boxes are in it.
- * @throws DataError that names the first row that is no box
+ * Reads a whole file once, and returns the number of boxes in it.
+ * @throws DataError that names the first row that is not a box
  */
 export async function checkSource(db: Connection, { path, dimensions, sql, raw }: Source): Promise<number> {
   const names = corners[dimensions];
@@ -94,7 +94,7 @@ export async function checkSource(db: Connection, { path, dimensions, sql, raw }
   );
 }
 
-/** Some boxes of a file, flat. */
+/** A sample of the boxes of a file, as a flat array. */
 export async function sampleSource(
   db: Connection,
   { path, dimensions, sql }: Source,

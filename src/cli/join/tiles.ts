@@ -1,5 +1,5 @@
-// Where to cut the boxes into tiles. A tile is a strip of the world: it holds every box that reaches into it, and reports
-// the pairs whose larger lower corner lies in it (the rule of broadphase/shard). So tiles need nothing of each other.
+// Where to cut the boxes into tiles. A tile is a strip of the world: it has every box that overlaps it, and reports the
+// pairs whose larger lower corner lies in it (the rule of broadphase/shard). So tiles are independent of each other.
 
 export interface Tiles {
   /** Along which axis. */
@@ -9,8 +9,9 @@ export interface Tiles {
 }
 
 /**
- * Cuts so that about as many boxes begin in each of so many tiles, along the axis where the fullest of them is emptiest.
- * @param sample some of the boxes, flat
+ * Cuts so that about the same number of boxes begins in each of `tiles` tiles, along the axis with the smallest maximum
+ * of boxes in a tile.
+ * @param sample some of the boxes, as a flat array
  */
 export function chooseTiles(sample: readonly number[], dimensions: 2 | 3, tiles: number): Tiles {
   let best: Tiles = { axis: 0, cuts: [] };
@@ -24,7 +25,7 @@ export function chooseTiles(sample: readonly number[], dimensions: 2 | 3, tiles:
     );
     const wanted = Array.from({ length: tiles - 1 }, (_, k) => lows[Math.floor((lows.length * (k + 1)) / tiles)]);
     const cuts = [...new Set(wanted)].filter(Number.isFinite);
-    // Who has begun before a tile's end and has not ended before its start is in it.
+    // A tile has the boxes that begin before its end and do not end before its start.
     const fullest = [-Infinity, ...cuts].reduce((most, start, k) => {
       const begun = k < cuts.length ? below(lows, cuts[k]) : lows.length;
       return Math.max(most, begun - below(highs, start));
@@ -47,7 +48,7 @@ function below(ascending: Float64Array, value: number): number {
   return low;
 }
 
-/** SQL for the tile of a coordinate: how many cuts are at or below it, by halves. */
+/** SQL for the tile of a coordinate, the number of cuts at or below it: a binary search. */
 export function tileOf(column: string, cuts: readonly number[], from = 0, to = cuts.length): string {
   if (from === to) return String(from);
   const middle = (from + to) >>> 1;

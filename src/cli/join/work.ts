@@ -1,6 +1,6 @@
-// What a join has done so far: a database of DuckDB beside the result. It holds the boxes by tile, the pairs found, and
-// which tiles are done. Pairs of a tile and the mark that it is done are one transaction, so a join that was killed at
-// any time goes on from the tiles that are done.
+// The progress of a join: a DuckDB database beside the result. It holds the boxes by tile, the pairs found, and which
+// tiles are done. The pairs of a tile and its mark "done" are one transaction, so a join that was killed can continue
+// from the tiles that are done.
 import { existsSync, rmSync } from 'node:fs';
 import { corners } from '../../errors.ts';
 import { FileError } from '../files.ts';
@@ -9,16 +9,16 @@ import { checkSource, reading, type Source, sampleSource } from './source.ts';
 import { chooseTiles, type Tiles, tileOf } from './tiles.ts';
 import type { Found, Tile } from './worker.ts';
 
-/** Boxes that are looked at to choose the cuts, at most. */
+/** The largest sample of boxes for choosing the cuts. */
 const sampleSize = 20_000;
-/** Rows in a chunk, as DuckDB has it. */
+/** Rows in a chunk of DuckDB. */
 const chunkRows = 2048;
 
 export interface Plan extends Tiles {
   dimensions: 2 | 3;
   /** Boxes in each file. */
   counts: number[];
-  /** Boxes in each tile, those that reach into it too. */
+  /** Boxes in each tile, including those that begin in other tiles. */
   sizes: number[];
 }
 
@@ -36,7 +36,7 @@ export class Work {
     this.#path = path;
   }
 
-  /** Opens what there is at this path, or makes it. */
+  /** Opens the database at this path, or creates it. */
   static async open(duckdb: DuckDB, path: string, memory: number, threads: number): Promise<Work> {
     const options = {
       memory_limit: `${Math.round(memory / 1e6)}MB`,
@@ -51,7 +51,7 @@ export class Work {
     return new Work(duckdb, instance, await instance.connect(), path);
   }
 
-  /** What was planned when this work began, if it is that of this job. */
+  /** The plan in the database, if it is for this job. */
   async resume(job: string): Promise<Plan | undefined> {
     await this.db.run('create table if not exists job (job varchar, plan varchar)');
     const [row] = (await this.db.runAndReadAll('select job, plan from job')).getRows() as string[][];
@@ -59,14 +59,14 @@ export class Work {
     return this.#planned ? (JSON.parse(row[1]) as Plan) : undefined;
   }
 
-  /** Checks the files, and puts their boxes into tiles of about so many. */
+  /** Checks the files, and puts their boxes into tiles of about `perTile` each. */
   async prepare(job: string, sources: readonly Source[], perTile: number, say: (what: string) => void): Promise<Plan> {
     const { dimensions } = sources[0];
     for (const table of ['job', 'placed', 'pairs', 'done']) await this.db.run(`drop table if exists ${table}`);
     const counts: number[] = [];
     const sample: number[] = [];
     for (const source of sources) {
-      say(`reads ${source.path}`);
+      say(`reading ${source.path}`);
       counts.push(await checkSource(this.db, source));
     }
     const total = counts.reduce((sum, count) => sum + count, 0);
@@ -75,7 +75,7 @@ export class Work {
       if (size > 0) sample.push(...(await sampleSource(this.db, source, size)));
     }
     const tiles = chooseTiles(sample, dimensions, Math.max(1, Math.ceil(total / perTile)));
-    say('puts boxes into tiles');
+    say('sorting boxes into tiles');
     const [low, high] = [corners[dimensions][tiles.axis], corners[dimensions][tiles.axis + dimensions]];
     const both = sources
       .map(({ sql }, colour) => `select ${colour}::utinyint as colour, * from ${sql}`)
@@ -98,17 +98,17 @@ export class Work {
     return plan;
   }
 
-  /** The tiles that are done, and how many pairs they have. */
+  /** The tiles that are done, with their numbers of pairs. */
   async done(): Promise<Map<number, number>> {
     return new Map((await this.db.runAndReadAll('select tile, pairs from done')).getRows() as [number, number][]);
   }
 
-  /** A hand that reads tiles and puts away their pairs, at the same time as others. */
-  async hand(plan: Plan): Promise<Hand> {
-    return new Hand(this.#duckdb, await this.#instance.connect(), plan);
+  /** A connection that reads tiles and stores their pairs, concurrently with others. */
+  async tileStore(plan: Plan): Promise<TileStore> {
+    return new TileStore(this.#duckdb, await this.#instance.connect(), plan);
   }
 
-  /** Writes the result, and removes what was kept. */
+  /** Writes the result, and removes the database. */
   async finish(result: string): Promise<void> {
     const copy = `copy (select a::bigint as a, b::bigint as b from pairs) to ${quoted(result)} (format parquet)`;
     await this.db.run(copy).catch((error: Error) => {
@@ -118,12 +118,12 @@ export class Work {
     this.close();
   }
 
-  /** What was planned is not to be gone on with. */
+  /** Drops the plan, so that no later run continues it. */
   forget(): void {
     this.#planned = false;
   }
 
-  /** Ends the work. What is planned stays, to go on with later; without a plan nothing does. */
+  /** Closes the database. It stays for a later run if it has a plan; otherwise it is removed. */
   close(): void {
     this.db.closeSync();
     this.#instance.closeSync();
@@ -134,8 +134,8 @@ export class Work {
   }
 }
 
-/** One of several that read tiles and put away their pairs. */
-export class Hand {
+/** One of several connections that read tiles and store their pairs. */
+export class TileStore {
   readonly #duckdb: DuckDB;
   readonly #db: Connection;
   readonly #plan: Plan;
@@ -164,12 +164,12 @@ export class Hand {
       colours?.set(chunk.getColumnValues(width + 1) as number[], at);
       at += chunk.rowCount;
     }
-    // What begins at infinity is in the last tile: that has no end.
+    // Boxes that begin at infinity are in the last tile, which is unbounded.
     const [from, to] = [cuts[tile - 1] ?? -Infinity, cuts[tile] ?? Number.NaN];
     return { rows, boxes, colours, axis, from, to };
   }
 
-  /** Puts away the pairs of a tile, all or nothing. Gives how many there are. */
+  /** Stores the pairs of a tile, all or nothing. Returns how many there are. */
   async write(tile: number, pairs: AsyncIterable<Found>): Promise<number> {
     const { DOUBLE, DuckDBDataChunk } = this.#duckdb;
     await this.#db.run('begin transaction');

@@ -1,8 +1,8 @@
-// Finds the pairs of one tile after another, in a thread of its own. It keeps one space, so that its memory is used again.
+// Finds the pairs of one tile after another, in a thread of its own. It reuses one space, and so its memory.
 import { parentPort, workerData } from 'node:worker_threads';
 import { BroadPhase } from 'broadphase';
 
-/** What makes a thread of the command one of these. */
+/** Marks a thread of the command as a worker of the join. */
 export const workerMark = 'broadphase join';
 
 /** A tile to search. */
@@ -11,19 +11,19 @@ export interface Tile {
   rows: Float64Array;
   /** Boxes, interleaved. */
   boxes: Float64Array;
-  /** For each 0 if it is red, 1 if it is blue, where red ones are to meet blue ones; else undefined. */
+  /** Per box 0 for red, 1 for blue, if only pairs of both colours are wanted; else undefined. */
   colours: Uint8Array | undefined;
-  /** Along this axis the tile begins at one number and ends before the other. */
+  /** The tile's axis, where it begins along it, and before what it ends. */
   axis: number;
   from: number;
-  /** NaN: it has no end. */
+  /** NaN: it is unbounded. */
   to: number;
 }
 
-/** Pairs at most that are sent at once: each is two numbers. */
+/** The most pairs in a message: each is two numbers. */
 const pairsPerMessage = 2 ** 17;
 
-/** What comes back, message by message; the last one is marked. */
+/** A message of the result; the last one is marked. */
 export interface Found {
   first: Float64Array;
   second: Float64Array;
@@ -41,7 +41,7 @@ export function serve(): void {
   });
 }
 
-/** The pairs that this tile reports, a message's worth at a time. */
+/** The pairs that this tile reports, split into messages. */
 export function* search(space: BroadPhase, { rows, boxes, colours, axis, from, to }: Tile): Generator<Found> {
   space.setAll(boxes);
   colours?.forEach((colour, k) => {

@@ -2,8 +2,8 @@
 //
 // grid[column][cell] is an array of the entities that overlap that cell; columns and cells that nothing overlaps are
 // not there. An entity is in every cell it overlaps, so two that overlap share one, and may share several: a table of
-// the pairs already tested keeps each test from being made twice. The grid is thrown away and built anew by every
-// update, which saves following each entity from cell to cell.
+// the pairs already tested keeps each test from being made twice. The grid is thrown away and rebuilt by every update,
+// which saves following each entity from cell to cell.
 //
 // Cost: one visit per entity and cell it overlaps, then one look-up per pair in a cell. Wins where entities are about
 // as large as a cell and spread out. Loses where cells are far smaller (many visits, many arrays), far larger (brute
@@ -59,7 +59,7 @@ export class SpatialGrid<E extends Collidable = Entity> extends EntityList<E> {
     this.cellSize = cellSize;
   }
 
-  /** May be set at any time; the next update cuts the world anew. */
+  /** May be set at any time; the next update divides the world again. */
   get cellSize(): CellSize {
     const { x, y } = this.#pxCellSize;
     return x === y ? x : [x, y];

@@ -23,10 +23,10 @@ export const calls = {
   setEnabled: 15, // id, 0 or 1
   setGroup: 16, // id, group
   setReach: 17, // id, distance
-  many: 18, // kind, as kernel/questions/bulk.hpp counts, k, count, numbers of so many questions
+  many: 18, // kind, as kernel/questions/bulk.hpp counts, k, count, numbers of so many queries
 } as const;
 
-/** Numbers of a question of each kind, as kernel/questions/bulk.hpp counts them. */
+/** Numbers of a query of each kind, as kernel/questions/bulk.hpp counts them. */
 export const manyNumbers = {
   2: [2, 4, 6, 4, 4, 2, 3, 0],
   3: [3, 6, 9, 6, 6, 3, 4, 0],
@@ -37,7 +37,7 @@ const extras = { setEnabled: [2, 1], setGroup: [4, 1], setReach: [6, 0.3] } as c
 
 /**
  * A tape of random calls: boxes that touch, move a little, jump, come and go, and are asked about.
- * @param extra what else is done with them, if anything, or `many`: many questions in a call are asked too
+ * @param extra what else is done with them, if anything, or `many`: many queries in a call are asked too
  */
 export function randomTape(
   dimensions: 2 | 3,
@@ -75,16 +75,16 @@ export function randomTape(
       known.set(k, box);
     });
   };
-  /** So many questions of any kind. */
+  /** So many queries of any kind. */
   const askMany = () => {
     const kind = integer(8);
-    const questions = Array.from({ length: kind === 7 ? 0 : integer(40) }, () => {
+    const queries = Array.from({ length: kind === 7 ? 0 : integer(40) }, () => {
       if (manyNumbers[dimensions][kind] === 2 * dimensions && kind > 1) return fresh();
       const way = axes.map(() => integer(80) - 40 + random());
       if (kind === 2) return [...fresh(), ...way];
       return [...axes.map(place), ...(kind === 1 ? way : kind === 6 ? [integer(9)] : [])];
     });
-    tape.push(calls.many, kind, 1 + integer(9), questions.length, ...questions.flat());
+    tape.push(calls.many, kind, 1 + integer(9), queries.length, ...queries.flat());
   };
   for (let n = 0; n < count; n++) {
     if (extra === 'many') {

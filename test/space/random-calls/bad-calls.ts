@@ -77,7 +77,7 @@ export function badChanges(dimensions: 2 | 3): RandomCall[] {
   ];
 }
 
-export function badQuestions(dimensions: 2 | 3): RandomCall[] {
+export function badQueries(dimensions: 2 | 3): RandomCall[] {
   const { aBox, aPoint, aWay } = shapes(dimensions);
   const round = roundOf(dimensions);
 

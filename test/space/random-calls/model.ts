@@ -17,7 +17,7 @@ export interface Model {
   before: Set<number>;
   began: number[];
   ended: number[];
-  /** What questions see: what stood there at the last update, whether or not one was asked before. */
+  /** What queries see: what stood there at the last update, whether or not one was asked before. */
   seen: Map<number, Entry>;
   /** What `boxes()` gave, while its rows stand for the ids 0, 1, 2, …. */
   view: Float32Array | undefined;

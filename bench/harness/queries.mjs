@@ -1,32 +1,35 @@
-// Questions asked between frames: seeded ones about a scene, and the exact answers.
-// In a frame 1,000 questions are asked. Answers are written as pairs are, [id, count + number of the question, …], so
-// that all that compares pairs compares answers. Questions are of float32 numbers, as the boxes are.
+// Queries between frames: seeded ones on a scene, and the exact answers. A frame has 1,000 queries. Answers are written
+// like pairs, [id, count + number of the query, …], so that code that compares pairs compares answers. Queries have
+// float32 numbers, like the boxes.
 import { createRandom } from '../../build/bench/library.mjs';
 
 const asked = 1000;
 /** How wide a queried box is, among boxes 10 wide that fill a quarter of the world: about 20 answers. */
 const width = { 2: 80, 3: 34 };
-/** The share of the world that a large one covers. */
+/** The share of the world that a large query box covers. */
 const share = 0.01;
-/** How many of the nearest are wanted. */
+/** The number of nearest boxes to find. */
 export const most = 10;
 /** How far a ray reaches: nearly all meet something. */
 export const reach = 200;
 
-/** Numbers of a question: a box; a point; a point and a direction. */
+/** Numbers of a query: a box; a point; a point and a direction. */
 const numbers = { queryBox: (d) => 2 * d, nearest: (d) => d, rayCast: (d) => 2 * d };
 
-/** How far from all boxes rays begin: in the frames that are checked none begins in a box, and one box is met first. */
+/**
+ * The distance from all boxes at which rays begin: in the frames that are checked none begins in a box, and the first
+ * box met is unique.
+ */
 const clear = 4;
-/** Of the grid by which such places are found. */
+/** Cells of the grid that finds such places. */
 const cell = 5;
 
-/** Seeded questions about a scene. */
-export function makeQuestions({ asks, question }, scene, seed) {
+/** Seeded queries on a scene. */
+export function makeQueries({ asks, query }, scene, seed) {
   const { dimensions, world } = scene;
-  const isClear = question === 'rayCast' ? clearance(scene) : () => true;
+  const isClear = query === 'rayCast' ? clearance(scene) : () => true;
   const random = createRandom(seed + 0x9e37);
-  const stride = numbers[question](dimensions);
+  const stride = numbers[query](dimensions);
   const list = new Float32Array(stride * asked);
   const side = asks === 'queryLarge' ? world * share ** (1 / dimensions) : width[dimensions];
   for (let at = 0; at < list.length; at += stride) {
@@ -34,29 +37,29 @@ export function makeQuestions({ asks, question }, scene, seed) {
       for (let axis = 0; axis < dimensions; axis++) list[at + axis] = world * random();
     } while (!isClear(list, at));
     for (let axis = 0; axis < dimensions; axis++) {
-      if (question === 'queryBox') list[at + dimensions + axis] = list[at + axis] + side;
-      if (question === 'rayCast') list[at + dimensions + axis] = random() - 0.5;
+      if (query === 'queryBox') list[at + dimensions + axis] = list[at + axis] + side;
+      if (query === 'rayCast') list[at + dimensions + axis] = random() - 0.5;
     }
   }
   return list;
 }
 
-/** Makes a contender of pairs of one that answers questions. `untimed`: it is asked for its answers only. */
-export function asking(asker, item, questions, { dimensions, count }) {
-  const stride = numbers[item.question](dimensions);
+/** Turns a library that answers queries into a contender that finds pairs. `untimed`: only its answers are wanted. */
+export function asking(asker, item, queries, { dimensions, count }) {
+  const stride = numbers[item.query](dimensions);
   let known = false;
   return {
     update(boxes) {
       if (!item.still || !known) asker.update(boxes);
       known = true;
       let answers = 0;
-      for (let at = 0; at < questions.length; at += stride) answers += asker[item.question](questions, at).length;
+      for (let at = 0; at < queries.length; at += stride) answers += asker[item.query](queries, at).length;
       return answers;
     },
     pairs() {
       const pairs = [];
-      for (let at = 0, k = count; at < questions.length; at += stride, k++) {
-        for (const id of asker[item.question](questions, at)) pairs.push(id, k);
+      for (let at = 0, k = count; at < queries.length; at += stride, k++) {
+        for (const id of asker[item.query](queries, at)) pairs.push(id, k);
       }
       return pairs;
     },
@@ -99,7 +102,7 @@ export function lengthOf(q, at, dimensions) {
   return Math.sqrt(sum);
 }
 
-/** Says of a point in the world whether it is clear of all boxes: by cells, all that a box may be near are marked. */
+/** Tests whether a point is clear of all boxes, by a grid in which all cells near a box are marked. */
 function clearance({ dimensions, boxes, count, world }) {
   const side = Math.ceil(world / cell) + 1;
   const taken = new Uint8Array(side ** dimensions);

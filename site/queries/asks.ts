@@ -1,4 +1,4 @@
-// The questions of the page, one each: what it asks of the space, how the answer is marked among the boxes and drawn
+// The queries of the page, one each: what it asks of the space, how the answer is marked among the boxes and drawn
 // above them, and how the call reads. They all aim with the same two points: where the pointer went down, and where it
 // is now.
 import type { BroadPhase, RayHit, SweepHit } from 'broadphase';

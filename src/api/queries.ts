@@ -1,12 +1,12 @@
 // What a space can be asked between two updates: what is there, in view, ahead, near.
 import type {
-  BoxQuestion,
+  BoxQuery,
   Dimensions,
-  NearestQuestion,
-  PointQuestion,
-  RayQuestion,
-  RoundQuestion,
-  SweepQuestion,
+  NearestQuery,
+  PointQuery,
+  RayQuery,
+  RoundQuery,
+  SweepQuery,
 } from '../dimensions.ts';
 import type {
   BoxOptions,
@@ -21,13 +21,13 @@ import type {
 } from '../query-options.ts';
 
 /** What a space can be asked between two updates: what is there, in view, ahead, near. */
-export interface Questions<D extends Dimensions> {
+export interface Queries<D extends Dimensions> {
   /**
    * The ids of the boxes that overlap or touch a box, which may be infinite. The order is arbitrary, but the same until
    * the next update. 2D: `queryBox(minX, minY, maxX, maxY, options?)`, 3D: `queryBox(minX, minY, minZ, maxX, maxY,
    * maxZ, options?)`.
    *
-   * @param question the minima, in the units of your world: any numbers but NaN; then the maxima, not below the minima;
+   * @param query the minima, in the units of your world: any numbers but NaN; then the maxima, not below the minima;
    *   then options, if any
    * @throws as all queries do: see {@link BroadPhase}
    *
@@ -47,13 +47,13 @@ export interface Questions<D extends Dimensions> {
    * space.set(7, 0, 0, 0, 1, 1, 1).update();
    * space.queryBox(1, 1, 1, 2, 2, 2); // → [7]
    */
-  queryBox(...question: BoxQuestion<D, BoxOptions>): number[];
+  queryBox(...query: BoxQuery<D, BoxOptions>): number[];
 
   /**
    * The ids of the boxes that contain or touch a point: as {@link BroadPhase.queryBox}. 2D: `queryPoint(x, y,
    * options?)`, 3D: `queryPoint(x, y, z, options?)`.
    *
-   * @param question the point: finite coordinates; then options, if any
+   * @param query the point: finite coordinates; then options, if any
    *
    * @example
    * const space = new BroadPhase();
@@ -65,11 +65,11 @@ export interface Questions<D extends Dimensions> {
    * space.set(7, 0, 0, 0, 1, 1, 1).update();
    * space.queryPoint(0.5, 0.5, 2); // → []
    */
-  queryPoint(...question: PointQuestion<D, IdsOptions>): number[];
+  queryPoint(...query: PointQuery<D, IdsOptions>): number[];
 
   /**
    * 2D: the ids of the boxes that a circle overlaps or touches: as {@link BroadPhase.queryBox}.
-   * @param question its centre: finite coordinates; its radius: at least 0, in the units of your world; then options, if any
+   * @param query its centre: finite coordinates; its radius: at least 0, in the units of your world; then options, if any
    *
    * @example
    * const space = new BroadPhase();
@@ -77,18 +77,18 @@ export interface Questions<D extends Dimensions> {
    * space.queryCircle(13, 14, 5); // → [7]
    * space.queryCircle(14, 14, 5); // → []
    */
-  queryCircle(...question: D extends 2 ? RoundQuestion<2, IdsOptions> : never): number[];
+  queryCircle(...query: D extends 2 ? RoundQuery<2, IdsOptions> : never): number[];
 
   /**
    * 3D: the ids of the boxes that a sphere overlaps or touches: as {@link BroadPhase.queryBox}.
-   * @param question its centre: finite coordinates; its radius: at least 0, in the units of your world; then options, if any
+   * @param query its centre: finite coordinates; its radius: at least 0, in the units of your world; then options, if any
    *
    * @example
    * const space = new BroadPhase({ dimensions: 3 });
    * space.set(7, 0, 0, 0, 1, 1, 1).update();
    * space.querySphere(2, 0.5, 0.5, 1); // → [7]
    */
-  querySphere(...question: D extends 3 ? RoundQuestion<3, IdsOptions> : never): number[];
+  querySphere(...query: D extends 3 ? RoundQuery<3, IdsOptions> : never): number[];
 
   /**
    * The ids of the boxes that are not wholly behind any of up to eight planes, such as the six of a camera's view, in
@@ -129,7 +129,7 @@ export interface Questions<D extends Dimensions> {
    * corners count. 2D: `rayCast(x, y, directionX, directionY, options?)`, 3D: `rayCast(x, y, z, directionX, directionY,
    * directionZ, options?)`.
    *
-   * @param question the origin of the ray, and its direction: finite numbers; then options, if any
+   * @param query the origin of the ray, and its direction: finite numbers; then options, if any
    * @returns the box, the distance to it in the units of your world, and the normal of the side that was hit
    * @throws as all queries do: see {@link BroadPhase}
    *
@@ -147,13 +147,13 @@ export interface Questions<D extends Dimensions> {
    * space.set(7, 0, 0, 10, 1, 1, 11).update();
    * space.rayCast(0.5, 0.5, 0, 0, 0, 1)?.distance; // → 10
    */
-  rayCast(...question: RayQuestion<D, RayOptions>): RayHit | undefined;
+  rayCast(...query: RayQuery<D, RayOptions>): RayHit | undefined;
 
   /**
    * All boxes that a ray hits, by distance and then by id: as {@link BroadPhase.rayCast}. 2D: `rayCastAll(x, y,
    * directionX, directionY, options?)`, 3D: `rayCastAll(x, y, z, directionX, directionY, directionZ, options?)`.
    *
-   * @param question the origin of the ray, and its direction: finite numbers; then options, if any
+   * @param query the origin of the ray, and its direction: finite numbers; then options, if any
    *
    * @example
    * const space = new BroadPhase();
@@ -165,7 +165,7 @@ export interface Questions<D extends Dimensions> {
    * space.set(7, 0, 0, 10, 1, 1, 11).update();
    * space.rayCastAll(0.5, 0.5, 0, 0, 0, 1, { maxDistance: 5 }); // → []
    */
-  rayCastAll(...question: RayQuestion<D, RayAllOptions>): RayHit[];
+  rayCastAll(...query: RayQuery<D, RayAllOptions>): RayHit[];
 
   /**
    * The first box that a moving box hits, or `undefined`: the swept test for boxes that move too fast to be tested
@@ -175,7 +175,7 @@ export interface Questions<D extends Dimensions> {
    * stops at `x + dx * time` touches, up to rounding, and never ends inside: see the guide to queries. 2D: `sweep(minX,
    * minY, maxX, maxY, dx, dy, options?)`, 3D: `sweep(minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz, options?)`.
    *
-   * @param question the box as it is now: any numbers but NaN; how far it moves along each axis: finite numbers; then
+   * @param query the box as it is now: any numbers but NaN; how far it moves along each axis: finite numbers; then
    *   options, if any
    * @returns the box, the fraction of the motion until they touch, and the normal of the side that was hit
    * @throws as all queries do: see {@link BroadPhase}
@@ -193,14 +193,14 @@ export interface Questions<D extends Dimensions> {
    * space.set(7, 0, 0, 5, 1, 1, 6).update();
    * space.sweep(0, 0, 0, 1, 1, 1, 0, 0, 8)?.time; // → 0.5
    */
-  sweep(...question: SweepQuestion<D, SweepOptions>): SweepHit | undefined;
+  sweep(...query: SweepQuery<D, SweepOptions>): SweepHit | undefined;
 
   /**
    * The ids of the `k` boxes nearest to a point, by the distance to the box, which is 0 inside, and then by id. 2D:
    * `nearest(x, y, k, options?)`, 3D:
    * `nearest(x, y, z, k, options?)`.
    *
-   * @param question a point: finite coordinates; how many boxes: an integer from 1 on, or Infinity for all; then
+   * @param query a point: finite coordinates; how many boxes: an integer from 1 on, or Infinity for all; then
    *   options, if any
    * @returns fewer than k ids if there are no more boxes, or no more within `maxDistance`
    * @throws as all queries do: see {@link BroadPhase}
@@ -219,5 +219,5 @@ export interface Questions<D extends Dimensions> {
    * space.set(7, 0, 0, 0, 1, 1, 1).set(9, 0, 0, 5, 1, 1, 6).update();
    * space.nearest(0, 0, 4, 1); // → [9]
    */
-  nearest(...question: NearestQuestion<D, NearestOptions>): number[];
+  nearest(...query: NearestQuery<D, NearestOptions>): number[];
 }

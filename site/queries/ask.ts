@@ -1,9 +1,9 @@
-// What a question of the page is, what it works with, and what all of them share.
+// What a query of the page is, what it works with, and what all of them share.
 import type { BroadPhase, TechniqueName } from 'broadphase';
 import { hues, shades } from '../shared/groups.ts';
 import type { Pen } from './pen.ts';
 
-/** What a question works with. */
+/** What a query works with. */
 export interface Desk {
   readonly space: BroadPhase<2 | 3>;
   readonly boxes: Float32Array;

@@ -1,4 +1,4 @@
-// More questions of the page: what a camera sees, many rays in one call, the pairs of two spaces, and what a space holds.
+// More queries of the page: what a camera sees, many rays in one call, the pairs of two spaces, and what a space holds.
 import { BroadPhase, type ManyRayHits } from 'broadphase';
 import { type Ask, first, found, join, maskText, short } from './ask.ts';
 

@@ -1,4 +1,4 @@
-// The page of questions as a visitor meets it: every question is asked and answered by mouse, finger and keys.
+// The page of queries as a visitor meets it: every query is asked and answered by mouse, finger and keys.
 import { expect, type Page, test } from '@playwright/test';
 
 let faults: string[] = [];
@@ -15,10 +15,10 @@ test.beforeEach(({ page, baseURL }) => {
 
 test.afterEach(() => expect(faults).toEqual([]));
 
-/** Opens one question, standing still. */
-async function open(page: Page, question: string): Promise<void> {
+/** Opens one query, standing still. */
+async function open(page: Page, query: string): Promise<void> {
   await page.emulateMedia({ reducedMotion: 'reduce' });
-  await page.goto(`/questions/#${question}`);
+  await page.goto(`/queries/#${query}`);
   await expect(page.locator('#call')).not.toBeEmpty();
 }
 
@@ -176,7 +176,7 @@ test('keys move what is asked, and with shift its end', async ({ page }) => {
 });
 
 test('it moves by itself, and stops where asked', async ({ page }) => {
-  await page.goto('/questions/#nearest');
+  await page.goto('/queries/#nearest');
   const text = await call(page).textContent();
   await expect.poll(() => call(page).textContent(), { timeout: 20_000 }).not.toBe(text);
   await page.getByRole('button', { name: 'Pause' }).click();
@@ -191,14 +191,14 @@ test.describe('on a phone', () => {
     const before = await ids(page);
     await page.locator('#view').tap({ position: { x: 60, y: 80 } });
     await expect.poll(() => ids(page)).not.toEqual(before);
-    for (const address of ['/questions/', '/', '/article/', '/lab/', '/bench/']) {
+    for (const address of ['/queries/', '/', '/article/', '/lab/', '/bench/']) {
       await page.goto(address);
       expect(await page.evaluate(() => document.documentElement.scrollWidth), address).toBeLessThanOrEqual(375);
     }
   });
 });
 
-test('a box that has to hold them wholly finds fewer', async ({ page }) => {
+test('a box that must contain boxes wholly finds fewer', async ({ page }) => {
   await open(page, 'box');
   await drag(page, [0.2, 0.2], [0.8, 0.8]);
   await expectFound(page).toBeGreaterThan(50);
@@ -208,7 +208,7 @@ test('a box that has to hold them wholly finds fewer', async ({ page }) => {
   await expect(call(page)).toContainText('{ within: true }');
 });
 
-test('a camera sees what is not behind its planes, and is told what is wholly in view', async ({ page }) => {
+test('a camera sees what is not behind its planes, and which boxes are wholly in view', async ({ page }) => {
   await open(page, 'view');
   await drag(page, [0.05, 0.5], [0.9, 0.5]);
   await expectFound(page).toBeGreaterThan(20);
@@ -259,7 +259,7 @@ test('what broadphase/draw shows of the space is drawn above the boxes', async (
   });
   expect(now).toBeGreaterThan(0.05);
   expect(after).toBeLessThan(0.01); // of a point there is but a dot
-  await page.goto('/questions/#debug');
+  await page.goto('/queries/#debug');
   const told = await call(page).textContent();
   await drag(page, [0.2, 0.2], [0.8, 0.7]);
   await expect(call(page)).not.toHaveText(told!);

@@ -1,4 +1,4 @@
-// Questions in between, which the model answers by looking at every box.
+// Queries in between, which the model answers by looking at every box.
 import type { ManyIds, ManyNearest, ManySweepHits } from 'broadphase';
 import fc from 'fast-check';
 import { expect } from 'vitest';
@@ -6,8 +6,8 @@ import { ahead, inBox, inCircle, near, nearBox } from '../../support/query-refer
 import { ascending, call, on, type RandomCall } from './model.ts';
 import { anId, asked, roundOf, shapes, show } from './values.ts';
 
-/** One question a call. */
-export function questions(dimensions: 2 | 3): RandomCall[] {
+/** One query a call. */
+export function queries(dimensions: 2 | 3): RandomCall[] {
   const { aBox, aPoint, aWay } = shapes(dimensions);
   const round = roundOf(dimensions);
   return [
@@ -62,44 +62,44 @@ export function questions(dimensions: 2 | 3): RandomCall[] {
   ];
 }
 
-/** Many questions in one call. */
-export function manyQuestions(dimensions: 2 | 3): RandomCall[] {
+/** Many queries in one call. */
+export function manyQueries(dimensions: 2 | 3): RandomCall[] {
   const { aBox, aPoint, aWay } = shapes(dimensions);
   return [
     fc
       .tuple(fc.array(fc.tuple(aBox, aPoint, aWay, fc.nat(9)), { maxLength: 6 }), fc.constantFrom(1, 3, 100), asked)
-      .map(([questions, k, { mask }]) =>
-        call(`many questions: ${show([questions.flat(2), k, mask])}`, (model, space) => {
+      .map(([queries, k, { mask }]) =>
+        call(`many queries: ${show([queries.flat(2), k, mask])}`, (model, space) => {
           const options = mask === undefined ? {} : { mask };
           const many = <Answer>(method: string, numbers: number[], ...more: number[]) =>
             on(space)[method](numbers, ...more, options) as Answer & ManyIds;
           const of = ({ ids, offsets }: ManyIds, n: number) => [...ids.subarray(offsets[n], offsets[n + 1])];
           const inBoxes = many(
             'queryBoxes',
-            questions.flatMap(([box]) => box),
+            queries.flatMap(([box]) => box),
           );
           const atPoints = many(
             'queryPoints',
-            questions.flatMap(([, point]) => point),
+            queries.flatMap(([, point]) => point),
           );
           const inCircles = many(
             'queryCircles',
-            questions.flatMap(([, point, , radius]) => [...point, radius]),
+            queries.flatMap(([, point, , radius]) => [...point, radius]),
           );
           const nearests = many<ManyNearest>(
             'nearests',
-            questions.flatMap(([, point]) => point),
+            queries.flatMap(([, point]) => point),
             k,
           );
           const rays = many(
             'rayCasts',
-            questions.flatMap(([, point, way]) => [...point, ...way]),
+            queries.flatMap(([, point, way]) => [...point, ...way]),
           );
           const sweeps = many<ManySweepHits>(
             'sweeps',
-            questions.flatMap(([box, , way]) => [...box, ...way]),
+            queries.flatMap(([box, , way]) => [...box, ...way]),
           );
-          questions.forEach(([box, point, way, radius], n) => {
+          queries.forEach(([box, point, way, radius], n) => {
             expect(ascending(of(inBoxes, n))).toEqual(inBox(model.seen, box, options));
             expect(ascending(of(atPoints, n))).toEqual(inBox(model.seen, [...point, ...point], options));
             expect(ascending(of(inCircles, n))).toEqual(inCircle(model.seen, point, radius, options));

@@ -1,10 +1,10 @@
-// Questions between frames: 1,000 of them a frame, of boxes that stay, and right after an update of all boxes, when most
-// must make an index first. There our update finds all pairs as well, and anew. Boxes move by little, so that no ray comes
-// to begin in a box, of which libraries say different things.
+// Queries between frames: 1,000 per frame, on boxes at rest, and right after an update of all boxes, when most
+// libraries must build an index first. Our update also finds all pairs then, with a full rebuild. Boxes move little, so
+// that no ray comes to begin in a box, for which libraries give different answers.
 import { readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
-export const title = 'Questions: 1,000 a frame';
+export const title = 'Queries: 1,000 a frame';
 
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
 const asked = ['queryBox', 'queryLarge', 'nearest', 'rayCast'];
@@ -18,13 +18,11 @@ export async function rows({ names, counts, dimensions = [2, 3], full }) {
       asked.flatMap((asks) =>
         [true, false].flatMap((still) =>
           wanted.map((count) => {
-            const question = asks === 'queryLarge' ? 'queryBox' : asks;
+            const query = asks === 'queryLarge' ? 'queryBox' : asks;
             const name = `${asks}${d}d${still ? '' : '-moved'}`;
-            const of = { asks, question, still, scene: `uniform${d}d`, speed, dimensions: d, count };
-            const able = askers.filter(
-              ({ dimensions, answers }) => dimensions.includes(d) && answers.includes(question),
-            );
-            return { kind: 'questions', name, ...of, numbers: 'float32', seed: 1, plan, budget: 700, contenders: able };
+            const of = { asks, query, still, scene: `uniform${d}d`, speed, dimensions: d, count };
+            const able = askers.filter(({ dimensions, answers }) => dimensions.includes(d) && answers.includes(query));
+            return { kind: 'queries', name, ...of, numbers: 'float32', seed: 1, plan, budget: 700, contenders: able };
           }),
         ),
       ),
@@ -32,7 +30,7 @@ export async function rows({ names, counts, dimensions = [2, 3], full }) {
     .filter(({ name }) => !names || names.includes(name));
 }
 
-/** Ours is the first. */
+/** Ours comes first. */
 async function askersThereAre() {
   const files = readdirSync(path('../askers'))
     .filter((file) => file.endsWith('.mjs'))

@@ -12,7 +12,7 @@ import type {
 } from '../query-options.ts';
 
 /** Many queries in one call: all their numbers in, all their answers out. */
-export interface ManyQuestions {
+export interface ManyQueries {
   /**
    * The boxes in each of many boxes, as `queryBox` returns them: those of query k are `ids[offsets[k]]` up to
    * `ids[offsets[k + 1] - 1]`. One call for all, without an array for each.

@@ -1,5 +1,5 @@
-// The page of questions: boxes that move, one question asked of them in each frame, and its answer shown among them.
-// Where it aims is dragged, or moved by the arrow keys; which question it is stands in the address.
+// The page of queries: boxes that move, one query asked of them in each frame, and its answer shown among them.
+// Where it aims is dragged, or moved by the arrow keys; which query it is stands in the address.
 import { BroadPhase } from 'broadphase';
 import { Camera } from '../shared/camera.ts';
 import { find, showPlaying } from '../shared/elements.ts';
@@ -72,7 +72,7 @@ function update(): void {
   space.update();
 }
 
-/** Asks the question and draws its answer. */
+/** Asks the query and draws its answer. */
 function answer(): void {
   desk.slots.fill(0);
   const started = performance.now();
@@ -143,7 +143,7 @@ function showScene(): void {
   answerSoon();
 }
 
-/** Everybody meets everybody, but where the question is about just that. */
+/** Everybody meets everybody, but where the query is about just that. */
 function layers(): void {
   space.boxes(scene.count).set(scene.boxes);
   const meets = [0, 0, 0];
