@@ -12,6 +12,8 @@ enum class Asks : u32 { nearest, ray, way, box, within, point, circle, others, m
 
 template <int D> class Bulk {
   static constexpr u32 width = 2 * D;
+  // Answers of a query so far, in the mean: to more, single queries, which take whole subtrees, are faster.
+  static constexpr u32 crowded = 1000;
 
   Buffer<f64> given_;  // numbers of all questions, then of each the id it ignores
   Together<D> together_;
@@ -53,10 +55,11 @@ template <int D> class Bulk {
   SMALL void answer(const Index<D>& index, Question<D> asked, Asks kind, u32 count, u32 most, Hits& best) {
     offsets_.reserve(u64(count) + 1)[0] = 0;
     looks = 0;
-    bool together = !index.world() && (kind == Asks::box || kind == Asks::point || kind == Asks::meeting);
+    bool may = !index.world() && (kind == Asks::box || kind == Asks::point || kind == Asks::meeting), together = false;
     f64 limit = asked.limit;
     for (u32 k = 0, at = 0; k < count; k++) {
       u32 found = offsets_[k], n = k % Together<D>::most;
+      if (n == 0) together = may && found <= u64(k) * crowded;
       if (together && n == 0) ask_together(index, asked, kind, k, count, at = found);
       bool asks = kind == Asks::others ? take_box(index, k, asked) : read(kind, k, asked);
       if (kind != Asks::others) asked.ignored = u32(given_[u64(count) * stride(kind) + k]);

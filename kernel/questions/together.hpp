@@ -1,9 +1,10 @@
-// Where many boxes ask at once: the places of what each touches, in float32.
-// Idea: a batch of questions goes down the index together, level by level. A list holds which question looks at which
-// block; each entry is tested against the block's eight at once, and what it touches is appended to the list of the
-// level below, without a branch: where each question would go on alone, nobody can guess. Lists are followed in parts,
-// so that they have room, and in order, so that each question finds what it finds alone, in the same order.
-// Cost: about half of that of single questions; 19 KB for the lists.
+// Many box queries at once: the places of the boxes that each touches, in float32.
+// Idea: a batch of queries goes down the index together, level by level. A list holds which query visits which block.
+// Each entry is tested against the eight children of its block, and those it touches are appended to the list of the
+// level below. Appending takes no branch, where a single query has an unpredictable branch per child. Lists are
+// processed in parts, which bounds their size, and in order, so each query finds the same boxes in the same order as
+// alone.
+// Cost: about half of that of single queries; 19 KB for the lists.
 #pragma once
 #include "pairs/pairs.hpp"
 #include "questions/question.hpp"
