@@ -22,6 +22,12 @@ inline f32 next_below(f64 x) {
 }
 inline f32 next_above(f64 x) { return -next_below(-x); }
 
+/// The ends of a range in float32, inward, so that each float32 is within as it was; `closed`: the ends are.
+SMALL inline void round_inward(f64 lo, f64 hi, bool closed, f32& to_lo, f32& to_hi) {
+  to_lo = closed ? round_up(lo) : next_above(lo);
+  to_hi = closed ? round_down(hi) : next_below(hi);
+}
+
 /// Two doubles as float32, in the lower lanes: down, or up where `sign` is -0.
 inline f32x4 round_down(f64x2 x, f64x2 sign) {
   f64x2 at = bits<f64x2>(bits<u64x2>(x) ^ bits<u64x2>(sign));

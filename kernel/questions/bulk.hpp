@@ -1,18 +1,22 @@
 // Many queries in one call.
-// Idea: the queries are stored one after the other, as doubles, and run in that order. All answers go into one list,
-// with the end of each query's answers beside it.
-// Cost: that of the single queries, less the calls. Running them in Hilbert order was slower in all but a few cases:
-// see docs/decisions/0011-many-queries.md.
+// Idea: the queries are stored one after the other, as doubles, and answered in that order. All answers go into one
+// list, with the end of each query's answers beside it. Boxes and points go down the index together: see together.hpp.
+// Cost: half of that of single queries, or less, for boxes and points; for others that of the single queries, less the
+// calls. Running them in Hilbert order was slower in all but a few cases: see docs/decisions/0011-many-queries.md.
 #pragma once
 #include "questions/queries.hpp"
+#include "questions/together.hpp"
 
 /// What all the questions of a call are.
 enum class Asks : u32 { nearest, ray, way, box, within, point, circle, others, meeting };
 
 template <int D> class Bulk {
   static constexpr u32 width = 2 * D;
+  // Answers of a query so far, in the mean: to more, single queries, which take whole subtrees, are faster.
+  static constexpr u32 crowded = 1000;
 
   Buffer<f64> given_;  // numbers of all questions, then of each the id it ignores
+  Together<D> together_;
   Buffer<u32> offsets_;  // of each question, where its answers begin; and where those of the last end
 
   static bool has_box(Asks kind) {
@@ -51,13 +55,19 @@ template <int D> class Bulk {
   SMALL void answer(const Index<D>& index, Question<D> asked, Asks kind, u32 count, u32 most, Hits& best) {
     offsets_.reserve(u64(count) + 1)[0] = 0;
     looks = 0;
+    bool may = !index.world() && (kind == Asks::box || kind == Asks::point || kind == Asks::meeting), together = false;
     f64 limit = asked.limit;
-    for (u32 k = 0; k < count; k++) {
+    for (u32 k = 0, at = 0; k < count; k++) {
+      u32 found = offsets_[k], n = k % Together<D>::most;
+      if (n == 0) together = may && found <= u64(k) * crowded;
+      if (together && n == 0) ask_together(index, asked, kind, k, count, at = found);
       bool asks = kind == Asks::others ? take_box(index, k, asked) : read(kind, k, asked);
       if (kind != Asks::others) asked.ignored = u32(given_[u64(count) * stride(kind) + k]);
       asked.limit = limit;
       if (index.world()) asked.wrap(index.world());
-      offsets_[k + 1] = asks ? ask(index, asked, kind, most, offsets_[k], best) : offsets_[k];
+      if (together) found = name(index, asked, at, together_.ends[n], found);
+      else if (asks) found = ask(index, asked, kind, most, found, best);
+      offsets_[k + 1] = found;
     }
   }
 
@@ -86,6 +96,7 @@ template <int D> class Bulk {
 
   SMALL void release() {
     given_.release();
+    together_.release();
     offsets_.release();
     ids.release();
     hits.release();
@@ -117,6 +128,34 @@ template <int D> class Bulk {
     }
     to.measure_way(kind == Asks::ray);
     return good;
+  }
+
+  /// Has a batch of boxes ask together, from question `first` on; the places of what they touch begin at `found`.
+  SMALL void ask_together(const Index<D>& index, Question<D>& asked, Asks kind, u32 first, u32 count, u32 found) {
+    u32 many = together_.begin(index, count - first);
+    for (u32 n = 0; n < many; n++) {
+      read(kind, first + n, asked);
+      together_.aim(n, asked);
+    }
+    looks += together_.search(many, ids, found);
+  }
+
+  /// Puts the names of the boxes in these places, which a question touches in float32, behind those found before, but
+  /// where it is not about them. `from` becomes the next place.
+  SHARED u32 name(const Index<D>& index, const Question<D>& asked, u32& from, u32 until, u32 found) {
+    const Wanted<D> wanted(index, asked);
+    const u32* names = asked.layer ? index.slots() : index.ids();
+    const bool every = wanted.all(), rounded = index.rounded();
+    for (; from < until; from++) {
+      u32 place = ids[from];
+      if (rounded) {
+        f64 box[width];
+        index.box(place, box);
+        if (!asked.touches(box, false)) continue;
+      }
+      if (every || wanted(place)) ids[found++] = names[place];
+    }
+    return found;
   }
 
   /// Has a box ask for the others; false where it is off.

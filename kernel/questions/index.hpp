@@ -79,7 +79,7 @@ template <int D> class Index {
   const u32* slots() const { return slots_.data(); }
   u32 layer(u32 place) const { return seen_.filtered ? seen_.rules[slots_[place]].layer : 0xffffffff; }
   /// The numbers the box was given with.
-  void box(u32 place, f64* to) const {
+  SHARED void box(u32 place, f64* to) const {
     if (seen_.rounded) {
       __builtin_memcpy(to, seen_.exact.data() + u64(slots_[place]) * width, width * sizeof(f64));
       return;

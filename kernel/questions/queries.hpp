@@ -28,10 +28,11 @@ template <int D> class Queries {
   f32x4 slowness_[D];  // time per unit of distance
   f64 squared_;  // the circle's radius, squared
   f64 scale_ = 1;  // from ranks to estimated times
-  bool is_tame_ = true;  // whether times may be estimated
+  bool is_tame_ = true, all_move_ = true;  // whether times may be estimated, and suffice for all axes
   const u32* const names_;  // what answers consist of: ids, or slots if another space asks
   const Wanted<D> wanted_;
   const bool all_wanted_;
+  f32 most_rank_ = 0;  // the limit, in the unit of the lower bounds
   u32 from_ = 0, most_ = 0, found_ = 0, looks_ = 0;
 
  public:
@@ -90,6 +91,7 @@ template <int D> class Queries {
         above_[a] = splat(round_up(high(a)));
         below_[a] = splat(round_down(low(a)));
       }
+      set_most<false>(hits.limit);
       search<false>(index_.top(), 0, hits);
     }
   }
@@ -103,6 +105,7 @@ template <int D> class Queries {
 
   SMALL void cast_once() {
     aim_ahead();
+    set_most<true>(hits_->limit);
     search<true>(index_.top(), 0, *hits_);
   }
 
@@ -115,13 +118,15 @@ template <int D> class Queries {
         hi += asked_.radius + (asked_.radius + __builtin_fabs(hi)) * 1e-15 + 1e-160;
       }
       // Rounding inward is exact: these bounds are compared with float32 numbers.
-      lo_[a] = splat(asked_.touching || is_circle() ? round_up(lo) : next_above(lo));
-      hi_[a] = splat(asked_.touching || is_circle() ? round_down(hi) : next_below(hi));
+      f32 least, most;
+      round_inward(lo, hi, asked_.touching || is_circle(), least, most);
+      lo_[a] = splat(least);
+      hi_[a] = splat(most);
     }
   }
 
   void aim_ahead() {
-    is_tame_ = asked_.length > 0;
+    is_tame_ = all_move_ = asked_.length > 0;
     for (int a = 0; a < D; a++) {
       f64 along = asked_.along[a], far = __builtin_fabs(along), lo = low(a), hi = high(a);
       f32 least = round_down(lo + smaller(0.0, reach_[a])), most = round_up(hi + larger(0.0, reach_[a]));
@@ -131,6 +136,7 @@ template <int D> class Queries {
       above_[a] = splat(round_up(hi));
       slowness_[a] = splat(f32(1 / along));
       is_tame_ &= lo > -tame && hi < tame && (far == 0 || (far > 1 / tame && far < tame));
+      all_move_ &= is_tame_ && far > 0;
     }
   }
 
@@ -211,18 +217,13 @@ template <int D> class Queries {
     if (is_circle()) left &= distances(number, squared_, ranks);
     bool whole = asked_.radius == Question<D>::within;
     if (whole && !index_.rounded()) return left & within(index_.block(0, number));
-    bool closed = asked_.touching;
-    if (!index_.rounded() && squared_ < 1e300 && (closed || !is_circle())) return left;
+    if (!index_.rounded() && squared_ < 1e300 && (asked_.touching || !is_circle())) return left;
     for (u32 all = left; all; all &= all - 1) {
       u32 lane = u32(__builtin_ctz(all));
       f64 box[2 * D];
       index_.box(number * 8 + lane, box);
-      bool touch = true;
-      if (is_circle()) touch = is_in(squared_ < 1e300 ? ranks[lane] : distance(number * 8 + lane, ranks[lane]));
-      for (int a = 0; a < D && !is_circle(); a++) {
-        f64 one = box[whole ? D + a : a], other = box[whole ? a : D + a];
-        touch &= closed ? one <= asked_.hi[a] && asked_.lo[a] <= other : one < asked_.hi[a] && asked_.lo[a] < other;
-      }
+      bool touch = is_circle() ? is_in(squared_ < 1e300 ? ranks[lane] : distance(number * 8 + lane, ranks[lane]))
+                               : asked_.touches(box, whole);
       if (!touch) left &= ~(1u << lane);
     }
     return left;
@@ -272,8 +273,8 @@ template <int D> class Queries {
   /// Writes lower bounds for the squared distances of the point to eight boxes, reduced by the possible rounding error.
   /// The last three bits are replaced by the lane, so that the results can be sorted as integers. Returns one bit for
   /// each box that may be within the limit.
-  SHARED u32 least_distances(const Block& block, f64 limit, u32 (&to)[8]) const {
-    f32x4 most = splat(most_rank<false>(limit));
+  SHARED u32 least_distances(const Block& block, u32 (&to)[8]) const {
+    f32x4 most = splat(most_rank_);
     u32 close = 0;
     ROLLED for (u32 half = 0; half < 8; half += 4) {
       f32x4 sum = {};
@@ -291,16 +292,18 @@ template <int D> class Queries {
   }
 
   /// The same for the times at which the moving box meets eight boxes, as shares of its path.
-  SHARED u32 least_times(const Block& block, f64 limit, u32 (&to)[8]) const {
-    u32 close = touched(block);
+  SHARED u32 least_times(const Block& block, u32 (&to)[8]) const {
+    // If it moves along all axes, the times suffice.
+    u32 close = all_move_ ? 0xff : touched(block);
     if (!is_tame_) {
       for (u32 lane = 0; lane < 8; lane++) to[lane] = lane;
       return close;
     }
     constexpr f32 slack = 1e-6f, least_slack = 1e-37f;
-    f32x4 most = splat(most_rank<true>(limit));
+    f32x4 most = splat(most_rank_);
     ROLLED for (u32 half = 0; half < 8; half += 4) {
       f32x4 enter = {}, leave = splat(__builtin_inff());
+      i32x4 missed = load<f32x4>(block.lo[0] + half) != load<f32x4>(block.lo[0] + half);  // there is no box
       for (int a = 0; a < D; a++) {
         if (asked_.along[a] == 0) continue;
         f32x4 ahead = (load<f32x4>(block.lo[a] + half) - above_[a]) * slowness_[a];
@@ -311,7 +314,7 @@ template <int D> class Queries {
       }
       enter = max(f32x4{}, enter * splat(1 - slack) - splat(least_slack));
       leave = leave + max(leave, -leave) * splat(slack) + splat(least_slack);
-      i32x4 missed = (enter > leave) | (enter > most);
+      missed |= (enter > leave) | (enter > most);
       close &= ~(bitmask(missed) << half);
       store(to + half, (bits<u32x4>(enter) & ~lane_bits) | (lanes + half));
     }
@@ -323,30 +326,33 @@ template <int D> class Queries {
     const Block& block = index_.block(level, number);
     looks_++;
     u32 least[8], order[8], n = 0;
-    if (level == 0)
-      return moving ? offer_ahead(number, least_times(block, hits.limit, least), hits) : offer_near(number, hits);
-    u32 left = moving ? least_times(block, hits.limit, least) : least_distances(block, hits.limit, least);
+    if (level == 0) {
+      if (moving) offer_ahead(number, least_times(block, least), hits);
+      else offer_near(number, hits);
+      return set_most<moving>(hits.limit);
+    }
+    u32 left = moving ? least_times(block, least) : least_distances(block, least);
     for (; left; left &= left - 1) {
       u32 at = n++, rank = least[__builtin_ctz(left)];
       for (; at > 0 && rank < order[at - 1]; at--) order[at] = order[at - 1];
       order[at] = rank;
     }
-    for (u32 k = 0; k < n && order[k] <= (bits<u32>(most_rank<moving>(hits.limit)) | lane_bits); k++) {
+    for (u32 k = 0; k < n && order[k] <= (bits<u32>(most_rank_) | lane_bits); k++) {
       search<moving>(level - 1, number * 8 + (order[k] & lane_bits), hits);
     }
   }
 
-  /// The limit in the unit of the lower bounds, a time or a squared distance; never rounded below it.
-  template <bool moving> f32 most_rank(f64 limit) const {
-    if (!moving) return round_up(squared_limit(limit));
-    return is_tame_ ? round_up(limit * scale_) : __builtin_inff();
+  /// Sets the limit, in the unit of the lower bounds, a time or a squared distance; never rounded below it.
+  template <bool moving> void set_most(f64 limit) {
+    if (!moving) most_rank_ = round_up(squared_limit(limit));
+    else most_rank_ = is_tame_ ? round_up(limit * scale_) : __builtin_inff();
   }
   /// An upper bound for the square of every distance within the limit.
   static f64 squared_limit(f64 limit) { return limit * limit * (1 + 1e-15) + 1e-300; }
 
   /// The distance to a box, given its square, which may have overflowed.
-  f64 distance(u32 place, f64 squared) const {
-    if (squared < 1e300) return __builtin_sqrt(squared);
+  f64 distance(u32 place, f64 squared) const { return squared < 1e300 ? __builtin_sqrt(squared) : far_distance(place); }
+  SMALL f64 far_distance(u32 place) const {
     f64 box[2 * D], away[D];
     index_.box(place, box);
     for (int a = 0; a < D; a++) away[a] = larger(0.0, larger(box[a] - asked_.hi[a], asked_.lo[a] - box[D + a]));
@@ -396,7 +402,7 @@ template <int D> class Queries {
 
   SMALL void offer_near_around(u32 number, Hits& hits) const {
     u32 least[8];
-    for (u32 left = least_distances(index_.block(0, number), hits.limit, least); left; left &= left - 1) {
+    for (u32 left = least_distances(index_.block(0, number), least); left; left &= left - 1) {
       u32 place = number * 8 + u32(__builtin_ctz(left));
       f64 box[2 * D], away[D];
       index_.box(place, box);

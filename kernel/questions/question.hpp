@@ -27,6 +27,16 @@ template <int D> struct Question {
     stops = !is_ray;
   }
 
+  /// Whether its box touches another; `whole`: has it within.
+  SMALL bool touches(const f64* box, bool whole) const {
+    bool touch = true;
+    ROLLED for (int a = 0; a < D; a++) {
+      f64 one = box[whole ? D + a : a], other = box[whole ? a : D + a];
+      touch &= touching ? one <= hi[a] && lo[a] <= other : one < hi[a] && lo[a] < other;
+    }
+    return touch;
+  }
+
   /// In a world that wraps around, after `measure_way`. A ray without a limit ends after going around once.
   SMALL void wrap(const f64* world) {
     Copies::reach_around(world, D, lo, hi, along);
@@ -47,7 +57,7 @@ template <int D> class Wanted {
 
   /// Whether no box is excluded by its layer or id.
   bool all() const { return ignored_ > slot_mask && (own_ ? !index_.filtered() : mask_ == 0xffffffff); }
-  bool operator()(u32 place) const {
+  SHARED bool operator()(u32 place) const {
     if (own_) return meets(index_.rule(index_.slot(place)));
     return (mask_ == 0xffffffff || (index_.layer(place) & mask_)) && index_.id(place) != ignored_;
   }

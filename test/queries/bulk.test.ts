@@ -151,6 +151,35 @@ describe.each(cases)('in %iD, of float32 (%s)', (dimensions, single) => {
   });
 });
 
+test.each(cases)(
+  'in %iD, of float32 (%s), hundreds of boxes find among thousands what each finds alone, in the same order',
+  (dimensions, single) => {
+    const scene = new Scene(dimensions, single, 42);
+    const at = () => 40 * scene.place();
+    const small = () => {
+      const from = Array.from({ length: dimensions }, at);
+      return [...from, ...from.map((x) => x + scene.below(30))];
+    };
+    for (let id = 0; id < 5000; id++) {
+      (scene.space.set as (...box: number[]) => unknown).call(scene.space, id, ...small());
+      if (id % 3 === 0) scene.space.setFilter(id, 2, 0xffffffff);
+    }
+    for (let id = 0; id < 5000; id += 40) scene.space.delete(id);
+    scene.space.update();
+    const boxes = Array.from({ length: 300 }, (_, k) =>
+      k % 50 === 7 ? [...Array(dimensions).fill(-Infinity), ...Array(dimensions).fill(Infinity)] : small(),
+    );
+    const call = scene.space as unknown as Record<string, Call>;
+    const one = scene.space.queryBox as (...given: unknown[]) => number[];
+    for (const options of [{}, { touching: false }, { mask: 2 }]) {
+      const { ids, offsets } = call.queryBoxes!(boxes.flat(), options);
+      boxes.forEach((box, k) => {
+        expect([...ids.subarray(offsets[k], offsets[k + 1])]).toEqual(one.call(scene.space, ...box, options));
+      });
+    }
+  },
+);
+
 test('infinite boxes that meet have distance 0', () => {
   const space = new BroadPhase();
   space.set(0, Infinity, 0, Infinity, 1).set(1, 5, 0, Infinity, 1).set(2, -Infinity, 3, 0, 4).update();
