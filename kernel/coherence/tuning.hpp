@@ -12,6 +12,7 @@ template <int D> struct Tuning {
   f64 late_margin = 0.5;             // of a box's size: the margin of that
   f64 burst = 0.5;                   // of a rebuild: in one update boxes may be late for as much
   f64 spike = 2;  // of what being late and making lists costs an update on average: so many late in one end the list
+  f64 ahead = 0.85;  // of a list with a margin alone: one that reaches ahead must promise to cost less
   f64 build = 2;  // of a rebuild: a list that would cost more is not made
   f64 worth = 0.9;  // of a rebuild: a list must promise to cost less, and have cost less, to go on
   u32 few = 32;  // boxes: fewer are not worth keeping anything

@@ -336,7 +336,7 @@ template <int D> class Watch {
       if (bursts[m] * late > tuning.burst * prospect.fresh || build > tuning.build * prospect.fresh) continue;
       f64 work = tuning.look * prospect.looked + tuning.candidate * prospect.candidates(growth);
       work += (build + (jumps + events[m]) * late) / updates;
-      if (work < best.work) best = {f32(margin), growth, led << h, work};
+      if (work < best.work * (led && !best.lead ? tuning.ahead : 1)) best = {f32(margin), growth, led << h, work};
     }
   }
 };
