@@ -42,7 +42,7 @@ const isPage = (name: string, base: string) => name.endsWith('.html') && !(base 
 
 for (const base of ['/', '/x/y/']) {
   test(`every page works from a static file server under ${base}, and every link leads somewhere`, async ({ page }) => {
-    test.setTimeout(480_000); // a hundred pages, a dozen of which draw by WebGL in software
+    test.setTimeout(900_000); // a hundred pages, a dozen of which draw by WebGL in software
     const server = await serve(site, base);
     const origin = `http://127.0.0.1:${(server.address() as AddressInfo).port}`;
     const faults: string[] = [];
