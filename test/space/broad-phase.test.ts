@@ -162,9 +162,8 @@ describe.each(BroadPhase.techniques)('the views and figures of %s', (technique) 
     const space = new BroadPhase({ technique, dimensions });
     const width = 2 * dimensions;
     space.setAll(createScene(`uniform${dimensions}d`, 5000).boxes).update();
-    const cells = Array.from({ length: space.structure().length / width }, (_, k) =>
-      space.structure().slice(width * k, width * (k + 1)),
-    );
+    const all = space.structure();
+    const cells = Array.from({ length: all.length / width }, (_, k) => all.slice(width * k, width * (k + 1)));
     const bounds = Array.from({ length: width }, (_, k) =>
       Math[k < dimensions ? 'min' : 'max'](...cells.map((cell) => cell[k]!)),
     );
