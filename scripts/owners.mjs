@@ -1,24 +1,10 @@
 // Which functions of the kernel are for boxes of two dimensions only, and which for three: a space has one of both, so
 // half of the kernel need not be compiled (kernel/decoder.cpp leaves it out). The compiler's names tell: `Space<2>::update`.
-import { codeOf, functionsOf, Reader } from './streams.mjs';
+import { codeOf, functionsOf, Reader, sectionsOf } from './streams.mjs';
 
 const custom = 0;
 const exported = 7;
 const call = 0x10;
-
-/** Sections, each with where it begins and ends; `at`: where its content begins. */
-function sectionsOf(wasm) {
-  const reader = new Reader(wasm, 8);
-  const sections = [];
-  while (reader.at < wasm.length) {
-    const from = reader.at;
-    const id = reader.byte();
-    const size = reader.number();
-    sections.push({ id, from, at: reader.at, to: reader.at + size });
-    reader.at += size;
-  }
-  return sections;
-}
 
 const textOf = (reader) => Buffer.from(reader.raw(reader.number())).toString('latin1');
 

@@ -14,6 +14,7 @@ const mostKinds = 256;
 /** The most bytes of an opcode, including its alignment. */
 const longest = 4;
 
+const codeSection = 10;
 const branchTable = 0x0e;
 const end = 0x0b;
 
@@ -93,21 +94,27 @@ export class Reader {
   }
 }
 
-/** Where the functions of a module begin, and where they end; `count` of them. */
-export function codeOf(wasm) {
+/** The sections of a module: each with its number, where it begins and ends, and where its content begins. */
+export function sectionsOf(wasm) {
   const reader = new Reader(wasm, 8);
+  const sections = [];
   while (reader.at < wasm.length) {
-    const section = reader.byte();
-    const { at } = reader;
+    const from = reader.at;
+    const id = reader.byte();
     const size = reader.number();
-    const last = reader.at + size;
-    if (section === 10) {
-      const count = reader.number();
-      return { count, section: at, from: reader.at, to: last };
-    }
-    reader.at = last;
+    sections.push({ id, from, at: reader.at, to: reader.at + size });
+    reader.at += size;
   }
-  throw new Error('the module has no code');
+  return sections;
+}
+
+/** Where the functions of a module begin, and where they end; `count` of them. `section`: where its length is. */
+export function codeOf(wasm) {
+  const code = sectionsOf(wasm).find(({ id }) => id === codeSection);
+  if (!code) throw new Error('the module has no code');
+  const reader = new Reader(wasm, code.at);
+  const count = reader.number();
+  return { count, section: code.from + 1, from: reader.at, to: code.to };
 }
 
 /** One instruction: its kind (bytes, stream, numbers), and its numbers for the stream. */

@@ -91,7 +91,7 @@ template <int D> class CandidateList {
     settled_.list.release();
   }
 
-  /// Notes where boxes are: the next list sees from it which of them move, and where to.
+  /// Records where boxes are, so that the next list knows which of them move, and how fast.
   SMALL void remember(const Scene<D>& scene, const Shift& common) {
     origin_count_ = scene.count;
     origin_age_ = 0;
@@ -200,7 +200,7 @@ template <int D> class CandidateList {
     }
   }
 
-  /// Gives each box its region, which reaches ahead by so many times what it has moved by since its origin was noted.
+  /// Gives each box its region, which reaches ahead by `lead` times its displacement since its origin was recorded.
   NOINLINE void enclose(const Scene<D>& scene, f32 margin, u32 known, f32 lead, f32 far) {
     for (u32 slot = 0; slot < scene.count; slot++) {
       u32 rest = tags_[slot] & rests;
@@ -215,7 +215,7 @@ template <int D> class CandidateList {
     }
   }
 
-  /// A box with so much on all sides, that reaches ahead. Writes four numbers past the region.
+  /// Enlarges a box by `aside` on all sides, and by `ahead` in its direction. Writes up to four numbers past the region.
   static void widen(const f32* box, f32 aside, f32x4 ahead, f32* out) {
     f32x4 low = min(ahead, f32x4{}) - splat(aside), high = max(ahead, f32x4{}) + splat(aside);
     if constexpr (D == 2) store(out, load<f32x4>(box) + __builtin_shufflevector(low, high, 0, 1, 4, 5));

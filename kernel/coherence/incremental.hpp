@@ -106,8 +106,8 @@ template <int D> class Incremental {
     return true;
   }
 
-  /// What the late of one update may cost: no more than a list does, nor than twice what being late and making lists costs
-  /// on average. Where all leave their regions within a few updates, the list ends with the first of them.
+  /// What late boxes may cost in one update: no more than making the list, nor than `spike` times the mean cost of an
+  /// update. If all boxes leave their regions within a few updates, the list ends with the first of them.
   f64 most_lateness() const { return smaller(made_, tuning.spike * (made_ + lateness_) / age_); }
 
   SMALL Plan choose(const Scene<D>& scene) {
@@ -143,7 +143,7 @@ template <int D> class Incremental {
     prospect_.pairs = larger((settled + list_.tested() / growth) / n, tuning.least_pairs);
   }
 
-  /// How large boxes are on average along the axis where they are least; or a share of what they are apart.
+  /// The mean size of boxes along the axis where it is least, but no less than a share of their spacing.
   SMALL void learn_sizes(u32 boxes) {
     f64 low[D], high[D], sizes[D], across = D == 2 ? __builtin_sqrt(f64(boxes)) : cube_root(boxes);
     anew_.bounds(low, high, sizes);
