@@ -6,6 +6,8 @@ export const rowMore = 3;
 const viewsKept = 256;
 /** By what share of its size a box is grown on each side: more, and its list is longer; less, and it leaves it sooner. */
 const growth = 0.5;
+/** Twice the rounding error of a sum, as a share of what is added. */
+const roundingShare = 2 ** -52;
 /** How many boxes may be loose, at least, and for each that has a list. */
 const leastLoose = 32;
 const looseShare = 1 / 16;
@@ -159,9 +161,14 @@ export function grow(numbers: Float64Array, at: number, width: number): void {
   }
 }
 
-/** Makes a box larger by so much on each side. */
+/** Makes a box larger by so much on each side, rounded outward. Bounds may be infinite. */
 export function reachOut(numbers: Float64Array, at: number, width: number, reach: number): void {
-  for (let n = 0; n < width; n++) numbers[at + n]! += n < width / 2 ? -reach : reach;
+  for (let n = at; n < at + width; n++) {
+    const bound = numbers[n]!;
+    if (!Number.isFinite(bound)) continue;
+    const more = reach + (Math.abs(bound) + reach) * roundingShare;
+    numbers[n] = n < at + width / 2 ? bound - more : bound + more;
+  }
 }
 
 /** Whether two boxes, of these numbers, overlap; `touching`: or only touch. */

@@ -11,6 +11,7 @@ class ChangedIds {
   Buffer<u32> gone_;  // deleted since the last update
   u32 count_ = 0, gone_count_ = 0, epoch_ = 1;
   bool kept_ = false;
+  bool missed_ = false;  // boxes may have been deleted since the last update, before the list was kept
 
   void add(u32 id, u32 slot) {
     list_.grow(2 * u64(count_) + 2, 2 * count_);
@@ -23,6 +24,7 @@ class ChangedIds {
 
   /// Starts to keep a list. Returns the epoch.
   u32 keep() {
+    missed_ |= !kept_;
     kept_ = true;
     return epoch_;
   }
@@ -39,7 +41,7 @@ class ChangedIds {
   /// Records the slots that an update of `boxes` boxes has seen change.
   template <class IdOf> SMALL void note(bool all, const u32* slots, u32 many, u32 boxes, IdOf id_of) {
     if (!kept_) return;
-    if (all || count_ + gone_count_ + many > boxes) return note_all();
+    if (all || missed_ || count_ + gone_count_ + many > boxes) return note_all();
     for (u32 k = 0; k < gone_count_; k++) add(gone_[k], gone);
     for (u32 k = 0; k < many; k++) {
       if (slots[k] < boxes) add(id_of(slots[k]), slots[k]);
@@ -50,5 +52,6 @@ class ChangedIds {
   SMALL void note_all() {
     epoch_++;
     count_ = gone_count_ = 0;
+    missed_ = false;
   }
 };

@@ -14,7 +14,7 @@ template <int D> struct SeenBoxes {
   Buffer<u32> ids;
   Buffer<Rule> rules;
   Buffer<f64> reaches;
-  f64 most_reach = 0;
+  f64 most_reach = 0;  // how far the bounds of a box, with its reach, are at most from its own, rounding included
   u32 count = 0;
   const f64* world = nullptr;  // if it wraps around: boxes are then in `exact`, and moved into it when rounded
   bool rounded = false, named = false, filtered = false, reached = false;
@@ -33,9 +33,9 @@ template <int D> struct SeenBoxes {
     filtered = given;
     if (given) copy(rules, given, n, 0);
     reached = far;
-    most_reach = 0;
     if (far) copy(reaches, far, n, 0);
-    for (u32 s = 0; s < n && far; s++) most_reach = larger(most_reach, far[s]);
+    most_reach = 0;
+    for (u32 s = 0; s < n && far; s++) most_reach = larger(most_reach, reach_of(s));
     named = !names.same();
     if (named) {
       ids.reserve(n);
@@ -69,7 +69,9 @@ template <int D> struct SeenBoxes {
     }
     if (named) ids[s] = names.id(s);
     if (filtered) rules[s] = given[s];
-    if (reached) most_reach = larger(most_reach, reaches[s] = far[s]);
+    if (!reached) return;
+    reaches[s] = far[s];
+    most_reach = larger(most_reach, reach_of(s));
   }
 
   /// Rounds a box outward; if the world wraps around, moves it into the world first.
@@ -97,6 +99,17 @@ template <int D> struct SeenBoxes {
   }
 
  private:
+  /// Adding the reach to a bound rounds the sum, so that it may end up further away than the reach.
+  SMALL f64 reach_of(u32 slot) const {
+    constexpr f64 rounding_share = 0x1p-52;  // twice that of one sum
+    f64 reach = reaches[slot], most = reach;
+    for (u64 k = u64(slot) * width; k < (u64(slot) + 1) * width; k++) {
+      f64 bound = __builtin_fabs(rounded ? exact[k] : f64(boxes[k]));
+      if (bound < __builtin_inf()) most = larger(most, bound);
+    }
+    return reach > 0 ? reach + 2 * most * rounding_share : 0;
+  }
+
   template <class T> static void copy(Buffer<T>& to, const T* from, u64 n, u64 padding) {
     to.reserve(n + padding);
     if (n) __builtin_memcpy(to.data(), from, n * sizeof(T));

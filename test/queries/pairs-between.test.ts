@@ -62,13 +62,15 @@ const cases = ([2, 3] as const).flatMap((dimensions) =>
 
 describe(`pairs with another space (SEED=${seed})`, () => {
   test.each(cases)('in %iD, wrapped %j, touching %j', { tags: 'long' }, (dimensions, wrap, touching) => {
-    for (let round = 0; round < runs(12); round++) {
+    for (let round = 0; round < runs(32); round++) {
       const options = { dimensions, touching, ...(wrap && { wrap }) } as never;
       const here = new Side(options, seed + round);
       const there = new Side(options, seed + round + 1000);
-      here.reaching = round % 4 === 1 || round % 4 === 3;
-      there.reaching = round % 4 > 1;
-      for (let frame = 0; frame < 40; frame++) {
+      if (round % 5) here.space.technique = there.space.technique = 'incremental'; // it tells what an update has changed
+      here.reaching = round % 3 > 0;
+      there.reaching = round % 3 > 1;
+      const frames = round % 4 ? 4 : 40; // the first calls see what comes later only as a whole
+      for (let frame = 0; frame < frames; frame++) {
         for (const side of [here, there]) {
           side.change(frame === 0 ? 60 : side.integer(3) * side.integer(6));
           if (side.random() < 0.8) side.update();
@@ -89,6 +91,31 @@ describe(`pairs with another space (SEED=${seed})`, () => {
     const first = movers.pairsWith(level);
     expect(movers.update().pairsWith(level)).toBe(first);
     expect(keys(first)).toEqual(['3 3', '3 4', '3 5', '3 6']);
+  });
+
+  test.each(['here', 'there'])('a box deleted %s before the first call is gone after the next update', (side) => {
+    const [here, there] = [0, 1].map(() => {
+      const space = new BroadPhase({ technique: 'incremental' });
+      for (let id = 0; id < 50; id++) space.set(id, 10 * id, 0, 10 * id + 1, 1);
+      return space.update();
+    }) as [BroadPhase, BroadPhase];
+    (side === 'here' ? here : there).delete(49);
+    expect(here.pairsWith(there).length / 2).toBe(50);
+    here.update();
+    there.update();
+    expect(here.pairsWith(there).length / 2).toBe(49);
+  });
+
+  // 0.1 + 3 is 3.1, but 3.1 - 3 is above 0.1; further out the sum is rounded by more than the other box shows.
+  test.each([
+    [{}, 0.1, 3.1],
+    [{ wrap: [60, 45] as const }, 0.1, 3.1],
+    [{ wrap: [60, 45] as const }, 2 ** 36 - 1 + 3 * 2 ** -17, (2 ** 36 + 2 + 2 ** -15) % 45],
+  ])('a box that reaches another by rounding, %j, %d', (options, y, touched) => {
+    const here = new BroadPhase(options).set(1, 31, touched, 31, touched).update();
+    const there = new BroadPhase(options).set(2, 30, y, 32, y).setReach(2, 3).update();
+    expect([...here.pairsWith(there)]).toEqual([1, 2]);
+    expect([...there.pairsWith(here)]).toEqual([2, 1]);
   });
 
   test('a restored snapshot is recorded', () => {
