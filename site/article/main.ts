@@ -6,7 +6,7 @@ interface FigureModule {
 }
 
 const modules = import.meta.glob<FigureModule>('./figures/*.ts');
-/** How far below the screen a figure is mounted, so that it is there when it is scrolled to. */
+/** How far below the screen a figure is mounted, so that it is ready when the reader scrolls to it. */
 const ahead = '900px 0px';
 
 async function mount(figure: HTMLElement): Promise<void> {
