@@ -8,7 +8,7 @@ const path = (file) => fileURLToPath(new URL(file, import.meta.url));
 /** A cross-origin isolated page has a finer clock. */
 const headers = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' };
 
-/** For examples/vue, where the packages of the examples are installed. */
+/** For examples/vue, if the packages of the examples are installed. */
 const vue = await import('@vitejs/plugin-vue').then(
   ({ default: plugin }) => plugin(),
   () => undefined,

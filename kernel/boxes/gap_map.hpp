@@ -66,7 +66,7 @@ template <int D> class GapMap {
     return collapses(box, to);
   }
 
-  /// The same, for many boxes. `plain`: that of this map, which the caller keeps in a register.
+  /// The same, for use in a loop. `plain` is `plain()`, which the caller keeps in a register.
   bool round(bool plain, const f64* box, f32* to) const {
     f32x4 first, last;
     narrowed(box, first, last);

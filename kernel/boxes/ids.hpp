@@ -68,7 +68,7 @@ class Ids {
 
   u32 count() const { return count_; }
   bool same() const { return !named_; }
-  /// The id of each slot, or null where slot and id are the same.
+  /// The id of each slot, or null if slots and ids are the same.
   const u32* names() const { return named_ ? id_of_.data() : nullptr; }
   /// Per 4,096 ids: the address of their page, which holds slots + 1; 0 if none of these ids was ever used.
   const Buffer<u32>* pages() const { return pages_; }

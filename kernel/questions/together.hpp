@@ -1,9 +1,9 @@
 // Many box queries at once: for each, the places of the boxes that it touches in float32.
 // Idea: a batch of queries goes down the index together, level by level. A list has an entry for each block that a
 // query visits. Each entry is tested against the eight children of its block, and those it touches are appended to the
-// list of the level below. Appending takes no branch, where a single query has an unpredictable branch per child. Lists
-// are processed in parts, which bounds their size, and in order, so each query finds the same boxes in the same order
-// as alone.
+// list of the level below. Appending takes no branch; a single query has an unpredictable branch per child. Lists are
+// processed in parts, which bounds their size, and in order, so each query finds the same boxes in the same order as
+// alone.
 // Cost: about half of that of single queries; 19 KB for the lists.
 #pragma once
 #include "pairs/pairs.hpp"

@@ -1,4 +1,4 @@
-// Brings the figures to life: each is loaded and mounted shortly before it comes into sight, and told when it leaves.
+// Brings the figures to life: each is loaded and mounted shortly before it comes into sight, and notified when it leaves.
 
 interface FigureModule {
   // biome-ignore lint/suspicious/noConfusingVoidType: a figure that has nothing to stop returns nothing

@@ -38,7 +38,7 @@ export interface Ask {
   readonly technique?: TechniqueName;
   /** Makes the query, and marks what it found. This alone is timed. */
   ask(desk: Desk): number;
-  /** Draws what was asked and found. */
+  /** Draws the query and its answer. */
   draw(desk: Desk): void;
   /** The call and its answer, as in a program. */
   text(desk: Desk): string;

@@ -1,7 +1,7 @@
 // Checks what the comments in the documentation's examples say: see doc-examples.ts.
 import { expect } from 'vitest';
 
-/** `said` is a JavaScript expression; a typed array has its kind before it, and an ellipsis stands for the rest. */
+/** `said` is a JavaScript expression, for a typed array with its kind before it. */
 export function gives(value: unknown, said: string): void {
   const [, kind, text] = /^(?:(\w+Array) )?(.*)$/s.exec(said)!;
   if (kind) expect((value as object).constructor.name).toBe(kind);

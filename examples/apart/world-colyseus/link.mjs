@@ -284,7 +284,8 @@ export class Link {
 
   #begin({ tick, entities, isLive }, asked) {
     const welcomes = [...this.#welcomes.values()];
-    // The others go on while their answers are on the way, and while they are told from when on this zone takes part.
+    // Ticks that the others passed while their answers arrived. `ahead` covers those until they learn when this zone
+    // begins.
     const passed = Math.ceil((performance.now() - asked) / tickTime);
     const ticks = welcomes.map(({ tick }) => tick + passed);
     // Never back to a tick that this zone has passed: it may have run alone, further than the others. A snapshot from

@@ -3,7 +3,7 @@
 const keyStep = 60;
 const arrows = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
-/** pan(dx, dy) in pixels; zoom(factor, x, y) about a pixel; point(x, y) where the pointer is. */
+/** pan(dx, dy) in pixels; zoom(factor, x, y) around a pixel; point(x, y) is the place of the pointer. */
 export function moveView(element, { pan, zoom, point }) {
   const fingers = new Map();
   const at = ({ clientX, clientY }) => {

@@ -1,5 +1,5 @@
 // What the showcases share: a list of contenders to choose from, each with its milliseconds on the same input; buttons;
-// and a loop that runs while something moves. A showcase is a function (stage, { wake, say }) that gives
+// and a loop that runs while something moves. A showcase is a function (stage, { wake, say }) that returns
 //   contenders  the names of the contenders, by key, ours first
 //   use(key)    makes that contender do the work from now on
 //   race(key)   milliseconds of that contender, on the same input as the others

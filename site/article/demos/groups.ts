@@ -67,7 +67,7 @@ export function groups(
     }
   }
 
-  /** From now on these questions are asked, and no others. */
+  /** From now on, finds the pairs of these questions and no others. */
   function ask(questions: Iterable<Question>) {
     const masks = { players: 0, powerUps: 0, enemies: 0 };
     for (const [one, other] of questions) {

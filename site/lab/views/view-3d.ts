@@ -71,7 +71,7 @@ void main() {
 const fieldOfView = 45;
 /** The initial distance of the eye from what it looks at, in diagonals of the world. */
 const firstDistance = 1.4;
-/** Coordinates further away than this many worlds are clamped to it. */
+/** Coordinates are clamped to this many diagonals of the world from its middle. */
 const horizon = 20;
 
 /** The element holds one canvas. */
