@@ -1,6 +1,6 @@
 // What pairsWith retains between calls: the pairs, the changes, and the lists of nearby boxes. See pairs-between.ts.
 
-/** A row in the kernel is the id, the box, the layer and the mask: see `fill_rows` in kernel/questions/bulk.hpp. */
+/** Numbers of a kernel's row besides the box: the id, layer and mask. See `fill_rows` in kernel/questions/bulk.hpp. */
 export const rowMore = 3;
 /** The number of views kept, so that a length seen recently makes no garbage. */
 const viewsKept = 256;

@@ -3,7 +3,7 @@
 // and found again. In the space with fewer boxes, each box that moves has a list: the boxes of the other space that
 // overlapped it when it was grown. While it stays within its grown box, its pairs are among these. A box of the other
 // space that has changed is loose: lists ignore it, and it takes a query in each call. If too many are loose, all lists
-// are rebuilt.
+// are dropped.
 // Cost of a call: about 50 ns for each box that moved within its grown box, one query for each that left it, one for
 // each loose box, and a pass over the pairs.
 import { known, tellTouching } from './answers.ts';
@@ -15,7 +15,7 @@ import { everything, nobody } from './query-options.ts';
 
 const where = 'pairsWith';
 
-/** `keptOf` has what is retained for each other space. */
+/** `keptOf`: what is retained for each other space. */
 export function pairsWith(
   instance: KernelInstance,
   other: KernelInstance,

@@ -2,8 +2,8 @@
 // Idea: the queries are stored one after the other, as doubles, and answered in that order. All answers go into one
 // list. A second list has the offset at which the answers of each query begin. Boxes and points go down the index
 // together: see together.hpp.
-// Cost: for boxes and points, half of that of single queries or less; for others, the same without the calls. Running
-// them in Hilbert order was slower in all but a few cases: see docs/decisions/0011-many-queries.md.
+// Cost: for boxes and points, at most half of that of single queries; for other queries, the same without the calls.
+// Running them in Hilbert order was slower in all but a few cases: see docs/decisions/0011-many-queries.md.
 #pragma once
 #include "questions/queries.hpp"
 #include "questions/together.hpp"
@@ -142,7 +142,7 @@ template <int D> class Bulk {
   }
 
   /// Appends the names of the boxes that a query touches in float32: those at the places from `from` on. Leaves out
-  /// those that it does not touch in double precision or that it does not ask for. Sets `from` to `until`, if less.
+  /// those that it does not touch in double precision or that it does not ask for. Raises `from` to `until`.
   SHARED u32 name(const Index<D>& index, const Question<D>& asked, u32& from, u32 until, u32 found) {
     const Wanted<D> wanted(index, asked);
     const u32* names = asked.layer ? index.slots() : index.ids();
