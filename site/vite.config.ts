@@ -20,8 +20,8 @@ const headers = {
 export default defineConfig({
   root: path('.'),
   base: './',
-  appType: 'mpa', // an address that is no page is answered with 404
-  // The same in pages and workers, in development and built: every technique, in the script, as users have it.
+  appType: 'mpa', // a URL without a page gets a 404
+  // The same in pages and workers, in development and in a build: every technique, inlined in the script.
   plugins: [addresses, api, documents, frame, live, sources, everyTechnique],
   resolve: {
     dedupe: ['react', 'react-dom', '@xyflow/react', 'd3-force', 'd3-quadtree', 'rbush', 'flatbush', 'three'],
@@ -34,7 +34,7 @@ export default defineConfig({
       buffer: path('bench/no-buffer.ts'),
     },
   },
-  define: { global: 'globalThis' }, // for box-intersect, which the page of the benchmark races
+  define: { global: 'globalThis' }, // for box-intersect, which the benchmark page runs
   worker: { format: 'es', plugins: () => [everyTechnique] },
   build: {
     target: 'es2022',
@@ -54,7 +54,7 @@ export default defineConfig({
       },
     },
   },
-  // What only workers import is found by these too: found later, it makes Vite reload the page in the middle of a run.
+  // With the workers, so that their dependencies are found too: if found later, Vite reloads the page during a run.
   optimizeDeps: { entries: ['**/index.html', '*/worker.ts', 'lab/worker/worker.ts', '!dist/**'] },
   server: { headers, fs: { allow: [path('..')] } },
   preview: { headers },

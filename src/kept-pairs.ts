@@ -1,20 +1,20 @@
-// What is kept between calls of pairsWith: the pairs, what has changed, and the lists of what is near. See pairs-between.ts.
+// What pairsWith retains between calls: the pairs, the changes, and the lists of nearby boxes. See pairs-between.ts.
 
-/** In a row of the kernel's: the id in front of the numbers of a box, layer and mask behind. See kernel/questions/bulk.hpp. */
+/** Numbers of a kernel's row besides the box: the id, layer and mask. See `fill_rows` in kernel/questions/bulk.hpp. */
 export const rowMore = 3;
-/** A number of views kept, so that counts seen lately make no garbage. */
+/** The number of views kept, so that a length seen recently makes no garbage. */
 const viewsKept = 256;
-/** By what share of its size a box is grown on each side: more, and its list is longer; less, and it leaves it sooner. */
+/** A box is grown by this share of its size on each side. More makes its list longer; less, and it leaves sooner. */
 const growth = 0.5;
-/** Twice the rounding error of a sum, as a share of what is added. */
+/** Twice the rounding error of a sum, relative to its terms. */
 const roundingShare = 2 ** -52;
-/** How many boxes may be loose, at least, and for each that has a list. */
+/** The most boxes that may be loose: this many, plus a share of the boxes in the space with fewer. */
 const leastLoose = 32;
 const looseShare = 1 / 16;
-/** In all lists: lists that hold no longer are among them. */
+/** All lists are dropped once they have more numbers than this, outdated lists included. */
 const mostNumbers = 2 ** 22;
 
-/** An array that grows, with what is in it. */
+/** The array itself, or a longer one with the same contents. */
 export function roomFor<Kind extends Uint32Array<ArrayBuffer> | Float64Array<ArrayBuffer>>(
   array: Kind,
   length: number,
@@ -25,24 +25,24 @@ export function roomFor<Kind extends Uint32Array<ArrayBuffer> | Float64Array<Arr
   return longer;
 }
 
-/** What has changed in one of the two spaces since the call before. */
+/** What has changed in one of the two spaces since the last call. */
 export class Side {
-  /** Up to where its changes have been read. */
+  /** The epoch of the kernel's list of changes, and how much of it has been read. */
   epoch = 0;
   #read = 0;
   slots = new Uint32Array(16);
   ids = new Uint32Array(16);
   count = 0;
-  /** By id, the number of the call in which it has changed last. */
+  /** Per id: the call in which it last changed. */
   marks = new Uint32Array(16);
-  /** Which of the slots ask. */
+  /** Indices into `slots`: the boxes that need a query. */
   asking = new Uint32Array(16);
 
-  /** Reads the kernel's list: see kernel/changed_ids.hpp. False where all may have changed. */
+  /** Reads the kernel's list of changes: see kernel/boxes/changed_ids.hpp. False if anything may have changed. */
   read(epoch: number, words: Uint32Array, first: number, total: number, call: number): boolean {
     const same = epoch === this.epoch;
     this.count = 0;
-    // What came last is what holds.
+    // Backwards, because only the last change of an id counts.
     for (let k = total; same && k-- > this.#read; ) {
       const id = words[first + 2 * k]!;
       this.marks = roomFor(this.marks, id + 1);
@@ -64,7 +64,7 @@ export class Side {
     this.count++;
   }
 
-  /** As if all had changed. */
+  /** Treats all boxes as changed. */
   takeAll(count: number): void {
     this.slots = roomFor(this.slots, count);
     for (let k = 0; k < count; k++) this.slots[k] = k;
@@ -72,13 +72,13 @@ export class Side {
   }
 }
 
-/** By slot, which boxes of the other space overlap a grown box: their ids and numbers, one list behind the other. */
+/** Per slot, the boxes of the other space that overlap the grown box: ids and numbers, one list after the other. */
 export class Lists {
   readonly #width: number;
-  /** Lists of another version hold no longer. */
+  /** Lists of an older version are outdated. */
   version = 1;
   #versions = new Uint32Array(16);
-  /** Of each list: the grown box, layer and mask. */
+  /** Per list: the grown box, layer and mask. */
   #grown = new Float64Array(128);
   #firsts = new Uint32Array(16);
   #ends = new Uint32Array(16);
@@ -95,7 +95,7 @@ export class Lists {
     this.used = 0;
   }
 
-  /** Whether the list of the box of a row holds all that it may overlap. */
+  /** Whether the list of the box in a row still has all boxes that it may overlap. */
   holds(slot: number, rows: Float64Array, row: number): boolean {
     if (this.#versions[slot] !== this.version) return false;
     const width = this.#width;
@@ -116,7 +116,7 @@ export class Lists {
     return within && grown[at + width] === rows[row + width + 1]! && grown[at + width + 1] === rows[row + width + 2]!;
   }
 
-  /** Begins the list of the box of a row, as it was asked for. */
+  /** Begins the list of the box in a row, which is grown as for the query. */
   begin(slot: number, rows: Float64Array, row: number): void {
     const width = this.#width;
     this.#versions = roomFor(this.#versions, slot + 1);
@@ -131,7 +131,7 @@ export class Lists {
     this.#last = slot;
   }
 
-  /** Adds the box of a row of the other space to the list that was begun last. */
+  /** Adds the box in a row of the other space to the list that was begun last. */
   add(rows: Float64Array, row: number): void {
     const width = this.#width;
     this.numbers = roomFor(this.numbers, this.used + width + 1);
@@ -147,7 +147,7 @@ export class Lists {
   }
 }
 
-/** Makes a box larger by a share of its size on each side, where that is finite. */
+/** Grows a box on each side by a share of its longest finite side. */
 export function grow(numbers: Float64Array, at: number, width: number): void {
   const d = width / 2;
   let most = 0;
@@ -161,7 +161,7 @@ export function grow(numbers: Float64Array, at: number, width: number): void {
   }
 }
 
-/** Makes a box larger by so much on each side, rounded outward. Bounds may be infinite. */
+/** Enlarges a box by `reach` on each side, rounded outward. Bounds may be infinite. */
 export function reachOut(numbers: Float64Array, at: number, width: number, reach: number): void {
   for (let n = at; n < at + width; n++) {
     const bound = numbers[n]!;
@@ -171,7 +171,7 @@ export function reachOut(numbers: Float64Array, at: number, width: number, reach
   }
 }
 
-/** Whether two boxes, of these numbers, overlap; `touching`: or only touch. */
+/** Whether two boxes overlap; if `touching`, also whether they only touch. */
 export function meet(
   ones: Float64Array,
   one: number,
@@ -199,10 +199,10 @@ export class Kept {
   readonly #width: number;
   /** Whether boxes that only touch are a pair. */
   readonly #touching: boolean;
-  /** By id of the other space, the version of the lists in which it is loose. */
+  /** Per id of the space with more boxes: the version of the lists in which it is loose, and its place in `loose`. */
   #looseIn = new Uint32Array(16);
   #looseAt = new Uint32Array(16);
-  /** Whether the pairs begin with the space that has fewer. */
+  /** Whether pairs begin with the id from the space with fewer boxes. */
   #forth = true;
   #list = new Uint32Array(64);
   #views: Uint32Array[] = [];
@@ -215,7 +215,7 @@ export class Kept {
     this.lists = new Lists(width);
   }
 
-  /** Begins a call between so many boxes and so many others; returns whether the first are the fewer, or nearly so. */
+  /** Begins a call, given the number of boxes of both spaces; returns whether the first has fewer, or nearly so. */
   begin(mine: number, others: number): boolean {
     this.call++;
     const forth = this.#forth ? mine <= 2 * others : 2 * mine < others;
@@ -224,7 +224,7 @@ export class Kept {
     return forth;
   }
 
-  /** All is found anew with the next call. */
+  /** Makes the next call a full rebuild. */
   forget(): void {
     this.few.epoch = this.many.epoch = 0;
     this.length = 0;
@@ -236,7 +236,7 @@ export class Kept {
     this.loose.count = 0;
   }
 
-  /** What has changed in the space with more boxes is loose from now on; where that are too many, all lists go. */
+  /** Makes the changed boxes of the space with more boxes loose. Drops all lists first if that makes too many. */
   loosen(boxes: number): void {
     const { many, loose, lists } = this;
     const most = leastLoose + looseShare * boxes;
@@ -255,7 +255,7 @@ export class Kept {
     }
   }
 
-  /** Takes away the pairs of what has changed, or is loose. */
+  /** Drops the pairs of boxes that have changed or are loose. */
   dropPairs(): void {
     const list = this.#list;
     const { marks } = this.few;
@@ -271,7 +271,7 @@ export class Kept {
     this.length = length;
   }
 
-  /** Adds the pairs of the box of a row that its list holds. */
+  /** Adds the pairs of the box in a row with the boxes in its list. */
   addNear(slot: number, rows: Float64Array, row: number): void {
     const { numbers } = this.lists;
     const end = this.lists.end(slot);
@@ -302,7 +302,7 @@ export class Kept {
       this.add(rows[row]!, numbers[at]!);
   }
 
-  /** Adds a pair of one of the fewer and another, but where that is loose. */
+  /** Adds a pair of a box in the space with fewer boxes and one in the other, unless the other is loose. */
   add(few: number, many: number): void {
     if (!this.#isLoose(many)) this.addPair(few, many);
   }
@@ -315,7 +315,7 @@ export class Kept {
     this.length = length + 2;
   }
 
-  /** The pairs, by a view made before if possible. */
+  /** The pairs, as a view made earlier if possible. */
   view(): Uint32Array {
     const { length } = this;
     const at = (length / 2) % viewsKept;

@@ -1,10 +1,11 @@
 // The pairs of two spaces, such as a level at rest and what moves in it.
-// Idea: the pairs are kept. What an update has changed (kernel/boxes/changed_ids.hpp) loses its pairs and gets them anew. Of the
-// space with fewer boxes each box that moves has a list of what is near in the other: what overlaps its box when that was
-// grown. While it stays within the grown box, its pairs are among these. A box of the other space that changes is loose:
-// it counts in no list, and asks for itself in each call. Where many are loose all lists are made anew.
-// Cost of a call: about 50 ns for each box that moved within its grown box, one query for each that left it and for each
-// that is loose, and a pass over the pairs.
+// Idea: the pairs are retained. When an update has changed a box (kernel/boxes/changed_ids.hpp), its pairs are dropped
+// and found again. In the space with fewer boxes, each box that moves has a list: the boxes of the other space that
+// overlapped it when it was grown. While it stays within its grown box, its pairs are among these. A box of the other
+// space that has changed is loose: lists ignore it, and it takes a query in each call. If too many are loose, all lists
+// are dropped.
+// Cost of a call: about 50 ns for each box that moved within its grown box, one query for each that left it, one for
+// each loose box, and a pass over the pairs.
 import { known, tellTouching } from './answers.ts';
 import { badValue } from './errors.ts';
 import { asks } from './generated/abi.ts';
@@ -14,7 +15,7 @@ import { everything, nobody } from './query-options.ts';
 
 const where = 'pairsWith';
 
-/** `keptOf` holds what is kept with each other space. */
+/** `keptOf`: what is retained for each other space. */
 export function pairsWith(
   instance: KernelInstance,
   other: KernelInstance,
@@ -57,7 +58,7 @@ function checkOther(instance: KernelInstance, other: KernelInstance): void {
   }
 }
 
-/** Brings the pairs up to date, of this space, which has fewer boxes, and another. */
+/** Brings the pairs up to date. `instance` has fewer boxes than `other`, or nearly so. */
 function keep(instance: KernelInstance, kept: Kept, other: KernelInstance): void {
   const { few, many } = kept;
   const followed = follow(instance, few, kept.call);
@@ -75,7 +76,7 @@ function keep(instance: KernelInstance, kept: Kept, other: KernelInstance): void
   askLoose(other, kept, instance);
 }
 
-/** Finds out what has changed since the call before; false where all may have. */
+/** Reads what has changed since the last call; false if anything may have. */
 function follow(instance: KernelInstance, side: Side, call: number): boolean {
   try {
     const { kernel } = instance;
@@ -87,8 +88,8 @@ function follow(instance: KernelInstance, side: Side, call: number): boolean {
 }
 
 /**
- * Reads what the last update saw of so many slots, those given or else those that the kernel's answers begin with: rows in
- * the kernel's memory, of which this is the place.
+ * Has the kernel fill `count` rows with what the last update saw of some slots: the given ones, or the first of the
+ * kernel's answers. Returns the place of the rows in its memory.
  */
 function see(instance: KernelInstance, count: number, slots?: Uint32Array): number {
   try {
@@ -106,7 +107,7 @@ function see(instance: KernelInstance, count: number, slots?: Uint32Array): numb
   }
 }
 
-/** The pairs of the boxes here that have changed: out of their lists, or asked for. */
+/** Finds the pairs of changed boxes in the space with fewer boxes: from their lists, or by a query. */
 function askFew(instance: KernelInstance, kept: Kept, other: KernelInstance): void {
   const { few, lists } = kept;
   if (few.count === 0) return;
@@ -141,7 +142,7 @@ function askFew(instance: KernelInstance, kept: Kept, other: KernelInstance): vo
   }
 }
 
-/** The pairs of the boxes here that are loose. */
+/** Finds the pairs of the loose boxes, by queries. */
 function askLoose(instance: KernelInstance, kept: Kept, other: KernelInstance): void {
   const { loose } = kept;
   if (loose.count === 0) return;
@@ -165,8 +166,8 @@ function askLoose(instance: KernelInstance, kept: Kept, other: KernelInstance): 
 }
 
 /**
- * Whether the boxes of two rows overlap, the first of which is here and answered a query about the other. Where no box
- * here reaches beyond itself the answer said so.
+ * Whether the boxes in two rows overlap. The first was found by a query with the second. If no box of its space has a
+ * reach, the query was exact.
  */
 function meets(instance: KernelInstance, its: Float64Array, answer: number, rows: Float64Array, row: number): boolean {
   if (instance.kernel.most_reach() === 0) return true;
@@ -180,7 +181,7 @@ function meets(instance: KernelInstance, its: Float64Array, answer: number, rows
   return instance.kernel.meet_around() === 1;
 }
 
-/** Asks another space about so many of the rows at a place, grown or not; returns the place of the ends of the answers. */
+/** Queries `other` with `count` of the rows from `first` on, grown if `grown`. Returns the place of the offsets. */
 function ask(
   instance: KernelInstance,
   other: KernelInstance,

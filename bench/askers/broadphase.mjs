@@ -1,6 +1,6 @@
 // This library: the frame is copied into the kernel's memory, an update finds the pairs too, and the first query
-// makes the index. Answers go into arrays that are kept. Where boxes move, all pairs are found anew: they move by so little
-// that nothing else is like a game.
+// builds the index. Answers go into arrays that are reused. If boxes move, each update is a full rebuild: they move so
+// little here that retained pairs would be cheaper than in a game.
 import { BroadPhase } from '../../build/bench/library.mjs';
 import { most, reach } from '../harness/queries.mjs';
 

@@ -1,5 +1,5 @@
-// bvh.js: built anew with every frame, or kept, with every leaf moved. It gives all that a ray may meet, of which the
-// first is kept. In 2D the third axis is 0.
+// bvh.js: rebuilt every frame, or retained with every leaf moved. It reports every box that a ray may hit; the first
+// hit is kept. In 2D the third axis is 0.
 import { BVH, HybridBuilder } from 'bvh.js';
 import { lengthOf, rayEntry, reach } from '../harness/queries.mjs';
 

@@ -1,4 +1,4 @@
-// flatbush: built anew with every frame. It has no rays.
+// flatbush: rebuilt every frame. It has no ray casts.
 import Flatbush from 'flatbush';
 import { most } from '../harness/queries.mjs';
 

@@ -1,5 +1,5 @@
-// kdbush holds points: here the centres of the boxes. What lies within half of the largest box of the query is found,
-// and tested. It has no nearest neighbours in the plane: circles that double until they hold enough are looked through.
+// kdbush indexes points: here the centres of the boxes. It finds the centres within half of the largest box from the
+// query, and each is tested. It has no nearest neighbours in the plane, so circles are doubled until they hold enough.
 import KDBush from 'kdbush';
 import { most, overlap, squaredDistance } from '../harness/queries.mjs';
 
@@ -10,7 +10,7 @@ export function create({ count }) {
   let boxes;
   let index;
   let half = 0; // of the widest box
-  let start = 0; // radius of a circle that holds as many centres as are wanted, on average
+  let start = 0; // radius of a circle that on average holds as many centres as are wanted
   const found = [];
   const ranks = new Float64Array(most);
   return {
@@ -24,7 +24,7 @@ export function create({ count }) {
         right = Math.max(right, boxes[k + 2]);
         index.add((boxes[k] + boxes[k + 2]) / 2, (boxes[k + 1] + boxes[k + 3]) / 2);
       }
-      half = (half / 2) * (1 + 1e-6); // and what rounding the centres may add
+      half = (half / 2) * (1 + 1e-6); // and what rounding of the centres may add
       start = right * Math.sqrt(most / count / Math.PI);
       index.finish();
     },

@@ -1,4 +1,4 @@
-// planck: its dynamic tree of fat boxes, with what is found tested; the tree that its worlds cast rays with.
+// planck: its dynamic tree of fat boxes, which its worlds use for ray casts. What it finds is tested.
 import { AABB, internal, Vec2 } from 'planck';
 import { lengthOf, overlap, rayEntry, reach } from '../harness/queries.mjs';
 

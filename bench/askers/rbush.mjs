@@ -1,4 +1,4 @@
-// rbush, loaded anew with every frame, as its authors advise when all moves; and rbush-knn on it.
+// rbush, bulk-loaded every frame, as its authors advise if everything moves; and rbush-knn on it.
 import RBush from 'rbush';
 import knn from 'rbush-knn';
 import { most } from '../harness/queries.mjs';
@@ -27,7 +27,7 @@ export function create({ count }) {
   };
 }
 
-/** In place: the array is new with each answer. */
+/** In place: each answer is a new array. */
 function idsOf(found) {
   for (let k = 0; k < found.length; k++) found[k] = found[k].id;
   return found;

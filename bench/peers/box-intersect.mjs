@@ -1,4 +1,4 @@
-// box-intersect: takes an array of arrays, which is kept and filled anew each frame, and calls back with each pair.
+// box-intersect: takes an array of arrays, which is reused and refilled each frame, and calls back with each pair.
 import boxIntersect from 'box-intersect';
 import { PairList } from './kit/pair-list.mjs';
 

@@ -1,4 +1,4 @@
-// @box2d/core: its dynamic tree of fat boxes. What moved is moved in it and searched again.
+// @box2d/core: its dynamic tree of fat boxes. Boxes that moved are moved in it and searched for again.
 import core from '@box2d/core';
 import { movingPairs } from './kit/moving-pairs.mjs';
 

@@ -1,12 +1,12 @@
-// box2d3-wasm: Box2D v3 as a whole. Bodies are put in place, then a step of hardly any time updates its trees and
-// its contacts, and moves nothing to speak of; its events tell which pairs begin and cease to touch.
+// box2d3-wasm: the whole of Box2D v3. Bodies are put in place, then a tiny time step updates its trees and contacts,
+// and moves almost nothing. Its events tell which pairs begin and cease to touch.
 import load from 'box2d3-wasm';
 import { Contacts } from './kit/contacts.mjs';
 import { resized } from './kit/resized.mjs';
 
 export const dimensions = [2];
 
-/** Seconds. A step of none at all does nothing. */
+/** Seconds. A step of 0 does nothing. */
 const instant = 1e-7;
 
 export async function create({ count, boxes, fixed = 0 }) {

@@ -1,5 +1,5 @@
-// bvh.js: a bounding volume hierarchy for three.js, either built anew each frame or kept, with what moved moved in it:
-// without a margin, since with a margin of 1 pairs of dense3d were missing, for a reason not found.
+// bvh.js: a bounding volume hierarchy for three.js. It is either rebuilt each frame, or retained, with the boxes that
+// moved moved in it. It has no margin: with a margin of 1, pairs of dense3d were missing, for an unknown reason.
 import { BVH, HybridBuilder } from 'bvh.js';
 import { movingPairs } from './kit/moving-pairs.mjs';
 
@@ -17,7 +17,7 @@ export function create({ dimensions, count, boxes, variant }) {
       row[2 * axis + 1] = boxes[at + axis + dimensions];
     }
   };
-  /** Both arrays are sorted in place, so it gets copies. */
+  /** It sorts both arrays in place, so it gets copies. */
   const build = () => {
     const keep = (node) => {
       nodes[node.object] = node;

@@ -1,5 +1,5 @@
 // cannon-es: its sweep and prune by bounding boxes, on bodies whose boxes are written in place. They are added in
-// sorted order, so that its insertion sort does not begin with the worst there is.
+// sorted order, so that its insertion sort does not start with the worst case.
 import { Body, SAPBroadphase, World } from 'cannon-es';
 import { orderAlongX } from './kit/order.mjs';
 import { PairList } from './kit/pair-list.mjs';

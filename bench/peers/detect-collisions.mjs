@@ -1,4 +1,4 @@
-// detect-collisions: bodies in its own R-tree, tested by their polygons. What moved is moved, and then all are checked.
+// detect-collisions: bodies in its own R-tree, tested as polygons. Bodies that moved are moved, then all are checked.
 import { System } from 'detect-collisions';
 import { PairList } from './kit/pair-list.mjs';
 import { resized } from './kit/resized.mjs';

@@ -1,4 +1,4 @@
-// flatbush: a packed R-tree cannot be changed, so it is built anew each frame and searched once per box.
+// flatbush: a packed R-tree cannot be changed, so it is rebuilt each frame and searched once per box.
 import Flatbush from 'flatbush';
 import { PairList } from './kit/pair-list.mjs';
 

@@ -1,5 +1,5 @@
-// jolt-physics: its broad phase, a tree with four boxes to a node, brought into shape each frame; then one search for each
-// box that moved, answered through a collector written in JavaScript.
+// jolt-physics: its broad phase, a tree with four boxes per node, which is optimized each frame. Then comes one search
+// for each box that moved, whose answers go to a collector written in JavaScript.
 import load from 'jolt-physics';
 import { movingPairs } from './kit/moving-pairs.mjs';
 import { resized } from './kit/resized.mjs';

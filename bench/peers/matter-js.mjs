@@ -1,5 +1,5 @@
 // matter-js: its Detector sorts bodies by their bounds, sweeps, and tests the polygons of each pair. Bodies are
-// rectangles whose corners and bounds are written in place, which is what Body.setPosition does, and less.
+// rectangles whose corners and bounds are written in place: part of what Body.setPosition does.
 import Matter from 'matter-js';
 import { PairList } from './kit/pair-list.mjs';
 

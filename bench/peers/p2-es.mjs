@@ -1,5 +1,5 @@
 // p2-es: its sweep and prune, on bodies whose bounding boxes are written in place. They are added in sorted order, so
-// that its insertion sort does not begin with the worst there is.
+// that its insertion sort does not start with the worst case.
 import { Body, Box, SAPBroadphase, World } from 'p2-es';
 import { orderAlongX } from './kit/order.mjs';
 import { PairList } from './kit/pair-list.mjs';

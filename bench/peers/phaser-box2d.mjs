@@ -1,5 +1,5 @@
-// phaser-box2d: Box2D v3's dynamic tree in JavaScript. What moved is moved in it and searched again. The package cannot
-// be imported by its name, so its file is.
+// phaser-box2d: Box2D v3's dynamic tree in JavaScript. Boxes that moved are moved in it and searched for again. The
+// package cannot be imported by its name, so its file is imported.
 import * as box2d from 'phaser-box2d/dist/PhaserBox2D.js';
 import { movingPairs } from './kit/moving-pairs.mjs';
 

@@ -1,4 +1,4 @@
-// planck: its dynamic tree of fat boxes. What moved is moved in it and searched again.
+// planck: its dynamic tree of fat boxes. Boxes that moved are moved in it and searched for again.
 import { AABB, internal, Vec2 } from 'planck';
 import { movingPairs } from './kit/moving-pairs.mjs';
 

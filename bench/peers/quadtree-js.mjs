@@ -1,5 +1,5 @@
-// quadtree-js: cleared and filled anew each frame, as it asks for; what it retrieves are candidates. Its leaves hold
-// up to 10, and it may be as deep as the number of boxes needs.
+// quadtree-js: cleared and refilled each frame, as its authors advise. It returns candidates. A leaf holds up to 10
+// boxes, and the tree may be as deep as the number of boxes requires.
 import Quadtree from '@timohausmann/quadtree-js';
 import { PairList } from './kit/pair-list.mjs';
 

@@ -1,5 +1,5 @@
-// rbush: an R-tree of objects. Either loaded anew each frame, which its authors advise when all moves, or kept, with
-// every box that moved removed and inserted.
+// rbush: an R-tree of objects. It is either bulk-loaded each frame, which its authors advise if everything moves, or
+// retained, with every box that moved removed and inserted.
 import RBush from 'rbush';
 import { movingPairs } from './kit/moving-pairs.mjs';
 import { PairList } from './kit/pair-list.mjs';

@@ -1,4 +1,4 @@
-// What every tutorial begins with, in plain JavaScript: an array of objects, each tested against all after it.
+// Brute force as in tutorials, in plain JavaScript: an array of objects, each tested against all after it.
 import { PairList } from './kit/pair-list.mjs';
 import { fill, objects } from './kit/tutorial.mjs';
 

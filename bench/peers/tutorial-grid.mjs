@@ -1,5 +1,5 @@
-// The grid of a tutorial, in plain JavaScript: a Map from cell to the objects in it, built anew each frame; cells twice
-// as wide as the average box; a Set of the pairs seen, since two boxes may share several cells.
+// A grid as in tutorials, in plain JavaScript: a Map from each cell to its objects, rebuilt each frame. Cells are twice
+// as wide as the average box. A Set has the pairs found so far, since two boxes may share several cells.
 import { PairList } from './kit/pair-list.mjs';
 import { fill, objects } from './kit/tutorial.mjs';
 

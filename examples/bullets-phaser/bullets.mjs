@@ -1,14 +1,14 @@
-// The game without its pictures: ships drift and fire, a bullet that hits a ship is fired anew by it, and ship 0 is
-// yours. Everything is an array by id: ships first, then bullets.
+// The game without graphics: ships drift and fire. A bullet that hits a ship is fired again by that ship. Ship 0 is
+// yours. All data are arrays by id: ships first, then bullets.
 import { BroadPhase } from 'broadphase';
 
 const ship = 1;
 const bullet = 2;
 const bulletRadius = 2;
-/** Pixels a frame. */
+/** Pixels per frame. */
 const bulletSpeed = 2;
 const shipSpeed = 0.5;
-/** Radians between two shots of a ship: the golden angle, so that they leave as spirals. */
+/** Radians between two shots of a ship: the golden angle, so that they form spirals. */
 const spiral = Math.PI * (3 - Math.sqrt(5));
 
 export class Bullets {
@@ -29,7 +29,7 @@ export class Bullets {
     this.vy = new Float32Array(this.count);
     this.shots = 0;
     this.space = new BroadPhase();
-    /** What was found: a, b, a, b …, the ship first. */
+    /** The pairs found: a, b, a, b …, the ship first. */
     this.pairs = this.space.pairs;
 
     for (let id = 0; id < ships; id++) {
@@ -52,7 +52,7 @@ export class Bullets {
     for (let id = ships; id < this.count; id++) this.space.setFilter(id, bullet, ship); // bullets do not meet bullets
   }
 
-  /** Puts a bullet beside a ship, on its way. */
+  /** Puts a moving bullet beside a ship. */
   fire(id, from) {
     const angle = spiral * this.shots++;
     const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
@@ -64,7 +64,7 @@ export class Bullets {
     this.vy[id] = bulletSpeed * sin;
   }
 
-  /** Moves everything on by a number of frames, 1 for a sixtieth of a second. */
+  /** Moves everything by a number of frames of a sixtieth of a second. */
   move(frames) {
     const { ships, width, height, x, y, vx, vy } = this;
     for (let id = 0; id < this.count; id++) {
@@ -84,7 +84,7 @@ export class Bullets {
     for (let id = 0; id < ships; id++) this.glow[id] *= 0.93 ** frames;
   }
 
-  /** The boxes, straight into the memory in which they are searched. */
+  /** Writes the boxes straight into the memory of the space. */
   place() {
     const { count, x, y, radius } = this;
     const boxes = this.space.boxes(count);
@@ -102,7 +102,7 @@ export class Bullets {
     this.pairs = this.space.update().pairs;
   }
 
-  /** The same without broadphase: every ship against all. */
+  /** The same without broadphase: every ship against everything. */
   findByPlainLoops() {
     const boxes = this.place();
     const found = [];
@@ -116,7 +116,7 @@ export class Bullets {
     this.pairs = found;
   }
 
-  /** What overlapping boxes mean here: ships push each other away, a bullet that really touches a ship has hit it. */
+  /** Reacts to overlapping boxes: ships push each other away, and a bullet that really touches a ship has hit it. */
   collide() {
     const { ships, pairs, x, y, radius } = this;
     for (let k = 0; k < pairs.length; k += 2) {

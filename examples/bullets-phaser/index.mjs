@@ -1,19 +1,19 @@
-// npm i && npm start: 20,000 bullets against 200 ships. What overlaps
-// comes from broadphase; Phaser draws, and reads the pointer and the keys. Runs on Phaser 3 and 4.
+// npm i && npm start: 20,000 bullets against 200 ships. broadphase finds the overlaps; Phaser draws, and reads the
+// pointer and the keys. Runs on Phaser 3 and 4.
 import Phaser from 'phaser';
 import { Bullets } from './bullets.mjs';
 import { playButton, stopwatch } from './page/page.mjs';
 
 const ships = 200;
 const bullets = 20_000;
-/** The world is as wide and high as the window is, and always of this area, in pixels. */
+/** The world has the proportions of the window, and always this area, in pixels. */
 const area = 1920 * 1200;
-/** Pixels a frame, by the arrow keys. */
+/** Pixels per frame, by the arrow keys. */
 const shieldSpeed = 9;
 const hues = 8;
 
 const stage = document.getElementById('stage');
-stage.tabIndex = 0; // keys go to it
+stage.tabIndex = 0; // so that it gets the keys
 const aspect = stage.clientWidth / stage.clientHeight;
 const game = new Bullets(ships, bullets, Math.sqrt(area * aspect), Math.sqrt(area / aspect));
 const colours = Array.from(

@@ -6,7 +6,7 @@ import { fileURLToPath } from 'node:url';
 
 export const policy = [
   "default-src 'none'",
-  "script-src 'self' 'wasm-unsafe-eval'", // WebAssembly may be compiled; eval() of text stays forbidden
+  "script-src 'self' 'wasm-unsafe-eval'", // allows compiling WebAssembly; eval() of text stays forbidden
   "style-src 'self'",
   "connect-src 'self'", // for fetch of kernel.wasm
   "base-uri 'none'",

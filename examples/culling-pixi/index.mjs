@@ -1,18 +1,18 @@
-// npm i && npm start: 100,000 sprites, of which only those in view are
-// drawn (queryBox), and the one under the pointer is found (queryPoint).
+// npm i && npm start: 100,000 sprites. Only those in view are drawn (queryBox), and the one under the pointer is found
+// (queryPoint).
 import { BroadPhase } from 'broadphase';
 import { Application, Container, Graphics, Sprite, Texture } from 'pixi.js';
 import { stopwatch } from './page/page.mjs';
 import { moveView } from './page/view.mjs';
 
 const count = 100_000;
-/** The golden angle: a tile for each seed of a sunflower. */
+/** The golden angle: tiles are arranged like the seeds of a sunflower. */
 const turn = Math.PI * (3 - Math.sqrt(5));
 const spacing = 21;
 const [closest, farthest] = [4, 0.05];
 
 const stage = document.getElementById('stage');
-stage.tabIndex = 0; // keys go to it
+stage.tabIndex = 0; // so that it gets the keys
 const app = new Application();
 await app.init({
   resizeTo: stage,
@@ -47,7 +47,7 @@ const cull = document.getElementById('cull');
 const search = stopwatch();
 const drawing = stopwatch();
 
-/** The ids in view. One array, filled again and again. */
+/** The ids in view, in one array that is reused. */
 const view = { out: [] };
 
 function draw() {
@@ -68,10 +68,10 @@ const drawSoon = () => {
   request = requestAnimationFrame(draw);
 };
 
-/** A place on the screen as one of the world. */
+/** Converts a place on the screen to one in the world. */
 const toWorld = (x, y) => [(x - world.x) / world.scale.x, (y - world.y) / world.scale.y];
 
-/** Marks the topmost tile at a place on the screen: the one drawn last, whose id is the largest. */
+/** Marks the topmost tile at a place on the screen: the one drawn last, which has the largest id. */
 function pick(x, y) {
   const id = Math.max(-1, ...space.queryPoint(...toWorld(x, y)));
   marker.clear();
@@ -101,5 +101,5 @@ cull.addEventListener('change', drawSoon);
 app.renderer.on('resize', drawSoon);
 world.position.set(app.screen.width / 2, app.screen.height / 2);
 draw();
-drawSoon(); // the first makes what is kept, and takes longer than all after it
+drawSoon(); // the first frame allocates, so it takes longer than all others
 globalThis.example = { app, space, sprites, world }; // for the test

@@ -1,7 +1,7 @@
-// A belt of stones around a planet: their matrices, and how they go round.
+// A belt of stones around a planet: their matrices and their motion.
 import { Euler, Matrix4, Quaternion, Vector3 } from 'three';
 
-/** Numbers from 0 to 1, the same each time. */
+/** Pseudorandom numbers from 0 to 1, the same each time. */
 export function seeded(seed) {
   let state = seed >>> 0 || 1;
   return () => {
@@ -12,17 +12,17 @@ export function seeded(seed) {
   };
 }
 
-/** How far a stone goes in a frame, in units. */
+/** How far a stone moves per frame, in units. */
 const speed = 0.25;
 
 export class Belt {
   constructor(count) {
     this.count = count;
-    /** As an InstancedMesh has them: 16 numbers a stone. */
+    /** As in an InstancedMesh: 16 numbers per stone. */
     this.matrices = new Float32Array(16 * count);
-    /** The middle of the belt; it is a quarter as wide, and a twentieth as high. */
+    /** The radius of the belt's middle. It is a quarter as wide, and a twentieth as high. */
     this.radius = 3 * Math.sqrt(count);
-    /** Which stone is the next to move. */
+    /** The next stone to move. */
     this.turn = 0;
     const random = seeded(7);
     const matrix = new Matrix4();
@@ -37,7 +37,7 @@ export class Belt {
     }
   }
 
-  /** Moves a share of the stones by a frame, others each time. Gives the first that moved and how many did. */
+  /** Moves a share of the stones by one frame, different ones each time. Returns the first and the number of them. */
   move(share) {
     const many = Math.round(share * this.count);
     const first = this.turn;

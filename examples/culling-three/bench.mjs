@@ -1,5 +1,5 @@
-// node bench.mjs: milliseconds of culling a frame, movers told included, in turns, on the same frames.
-// Each is checked, once for each number of stones: of none a corner in view is missing.
+// node bench.mjs: milliseconds per frame to report the movers and cull, in turns, on the same frames. Each contender is
+// checked once for each number of stones: none may miss a stone with a corner in view.
 import { IcosahedronGeometry, PerspectiveCamera } from 'three';
 import { Belt } from './belt.mjs';
 import { Culler } from './culler.mjs';
@@ -12,7 +12,7 @@ const makers = {
   'a loop over spheres': FlatSpheres,
   'the tree of instanced-mesh': InstancedMeshTree,
 };
-/** Of more that move the tree of instanced-mesh, which moves one by one, takes seconds a frame. */
+/** With more movers, the tree of instanced-mesh, which moves them one by one, takes seconds per frame. */
 const mostInTree = 20_000;
 const frames = 15;
 const warmUp = 5;

@@ -1,5 +1,5 @@
-// What a camera of three.js sees of many instances, and which of them a ray meets first. One box is kept for each; those
-// that move are told one by one, and the rest cost nothing. Where most move, all are told at once.
+// Finds the instances that a three.js camera sees, and the first one that a ray hits. Each instance has a box. Report
+// those that move one by one; the others cost nothing. If most move, report all at once.
 import { BroadPhase } from 'broadphase';
 import { Frustum, Matrix4, Vector3 } from 'three';
 
@@ -7,7 +7,7 @@ const { abs } = Math;
 
 export class Culler {
   #space = new BroadPhase({ dimensions: 3 });
-  #box = new Float32Array(6); // as exact as the matrices are, and half the memory of doubles
+  #box = new Float32Array(6); // as exact as the matrices, with half the memory of doubles
   #boxes;
   #planes = new Float64Array(24);
   #seen = { out: [] };
@@ -15,7 +15,7 @@ export class Culler {
   #frustum = new Frustum();
   #matrix = new Matrix4();
 
-  /** For instances of a geometry whose matrices stand in an array, 16 numbers each. */
+  /** For instances of a geometry, with their matrices in an array, 16 numbers each. */
   constructor(geometry, matrices) {
     geometry.computeBoundingBox();
     this.middle = geometry.boundingBox.getCenter(new Vector3());
@@ -23,17 +23,17 @@ export class Culler {
     this.matrices = matrices;
     this.#boxes = new Float32Array((6 * matrices.length) / 16);
     this.moveAll();
-    for (let id = 0; 16 * id < matrices.length; id++) this.#space.setFilter(id, 1, 0); // no pairs are looked for
+    for (let id = 0; 16 * id < matrices.length; id++) this.#space.setFilter(id, 1, 0); // so no pairs are found
   }
 
-  /** Instance `id` has got another matrix. */
+  /** Call it when the matrix of instance `id` has changed. */
   move(id) {
     const box = this.#box;
     this.#write(id, box, 0);
     this.#space.set(id, box[0], box[1], box[2], box[3], box[4], box[5]);
   }
 
-  /** Most of them have. */
+  /** Call it when most matrices have changed. */
   moveAll() {
     for (let id = 0; 16 * id < this.matrices.length; id++) this.#write(id, this.#boxes, 6 * id);
     this.#space.setAll(this.#boxes);
@@ -49,7 +49,7 @@ export class Culler {
     }
   }
 
-  /** The ids of what a camera sees: an array that is used again. */
+  /** The ids of the instances that a camera sees, in an array that is reused. */
   visible(camera) {
     const matrix = this.#matrix.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     this.#frustum.setFromProjectionMatrix(matrix, camera.coordinateSystem, camera.reversedDepth);
@@ -59,12 +59,12 @@ export class Culler {
     return this.#space.update().queryPlanes(this.#planes, this.#seen);
   }
 
-  /** The first instance whose box a ray (of a Raycaster) meets, with its distance; as of the last `visible`. */
+  /** The first instance whose box the ray of a Raycaster hits, with its distance; as of the last `visible`. */
   pick({ origin: o, direction: d }) {
     return this.#space.rayCast(o.x, o.y, o.z, d.x, d.y, d.z);
   }
 
-  /** The ids of the instances that overlap a Box3: an array that is used again; as of the last `visible`. */
+  /** The ids of the instances that overlap a Box3, in an array that is reused; as of the last `visible`. */
   within({ min, max }) {
     return this.#space.queryBox(min.x, min.y, min.z, max.x, max.y, max.z, this.#near);
   }

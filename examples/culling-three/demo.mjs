@@ -1,5 +1,5 @@
-// A showcase: half a million stones go round in a belt, a camera flies among them, and only what it sees is drawn. The
-// one under the pointer is picked, and a map shows those around, by the same boxes.
+// A showcase: half a million stones orbit in a belt, a camera flies among them, and only those in view are drawn. The
+// same boxes serve to pick the one under the pointer, and to show those nearby on a map.
 import {
   Box3,
   Color,
@@ -23,13 +23,13 @@ import { time } from './page/showcase.mjs';
 import { moveView } from './page/view.mjs';
 import { EachByThree, FlatSpheres, InstancedMeshTree, tell } from './rivals.mjs';
 
-/** The tree of instanced-mesh takes seconds to make of more, and to move them. */
+/** With more stones, the tree of instanced-mesh takes seconds to build and to move. */
 const mostInTree = 20_000;
 /** How far the camera sees. */
 const sight = 320;
-/** More are not drawn. */
+/** At most this many are drawn. */
 const mostDrawn = 40_000;
-/** Of the belt, in radians a frame. */
+/** How fast the camera flies along the belt, in radians per frame. */
 const flight = 0.0004;
 const [closest, widest] = [15, 75];
 const mapSize = 148;
@@ -37,7 +37,7 @@ const mapSize = 148;
 const whole = new Intl.NumberFormat('en');
 const makers = { broadphase: Culler, each: EachByThree, flat: FlatSpheres, tree: InstancedMeshTree };
 
-/** The scene, without what is drawn in it: see `beltDemo`. */
+/** The scene without the stones: see `beltDemo`. */
 function makeScene() {
   const scene = new Scene();
   const sun = new DirectionalLight(0xfff0dd, 2.6);
@@ -57,7 +57,7 @@ function makeMap(stage) {
   return map.getContext('2d');
 }
 
-/** The showcase, with so many stones: see examples/page/showcase.mjs. */
+/** The showcase, with this many stones: see examples/page/showcase.mjs. */
 export const beltDemo =
   (count) =>
   (stage, { wake, say }) => {
@@ -73,7 +73,7 @@ export const beltDemo =
     renderer.domElement.setAttribute('aria-hidden', 'true');
     stage.append(renderer.domElement);
     const mesh = new InstancedMesh(stone, new MeshLambertMaterial({ flatShading: true }), mostDrawn);
-    mesh.frustumCulled = false; // what is in it has been culled
+    mesh.frustumCulled = false; // it has only stones in view
     const marked = new Mesh(stone, new MeshLambertMaterial({ color: 0xff7a1a, flatShading: true }));
     marked.matrixAutoUpdate = marked.frustumCulled = marked.visible = false;
     scene.add(mesh, marked);

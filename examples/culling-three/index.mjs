@@ -1,5 +1,5 @@
 // npm i && npm start: half a million stones, of which only those in view are drawn.
-// ?stones=20000 in the address for another number.
+// ?stones=20000 in the URL changes the number.
 import './page/page.css';
 import './page/showcase.css';
 import { beltDemo } from './demo.mjs';

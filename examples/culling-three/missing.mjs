@@ -1,7 +1,7 @@
-// The check of all who cull: a look at every corner of every instance.
+// The check of all contenders: tests every corner of every instance.
 import { Frustum, Matrix4, Vector3 } from 'three';
 
-/** The ids of instances of which a corner is in the camera's view, and which are not among those seen. */
+/** The ids of instances with a corner in the camera's view that are not in `seen`. */
 export function missing(seen, geometry, matrices, camera) {
   const known = new Set(seen);
   const matrix = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
@@ -14,7 +14,7 @@ export function missing(seen, geometry, matrices, camera) {
     matrix.fromArray(matrices, 16 * id);
     for (let k = 0; k < position.count; k++) {
       corner.fromBufferAttribute(position, k).applyMatrix4(matrix);
-      // Roundings of float32 matrices are no matter.
+      // Ignores the rounding of float32 matrices.
       if (!view.planes.every((plane) => plane.distanceToPoint(corner) > 1e-3)) continue;
       lost.push(id);
       break;

@@ -1,8 +1,8 @@
-// What people use today, under the same names: they move instances and say what a camera sees.
+// What people use today, with the same methods as `Culler`: they move instances and find those that a camera sees.
 import { BVH, HybridBuilder, WebGLCoordinateSystem } from 'bvh.js';
 import { Box3, Frustum, Matrix4, Sphere } from 'three';
 
-/** Tells that so many have moved, from the first one on: all at once where most have, and one can. */
+/** Reports that `many` instances from `first` on have moved: all at once, if most have and the contender can. */
 export function tell(contender, first, many) {
   const count = contender.matrices.length / 16;
   if (2 * many > count && contender.moveAll) contender.moveAll();
@@ -19,7 +19,7 @@ function frustumOf(camera) {
   return frustum.setFromProjectionMatrix(matrix, camera.coordinateSystem, camera.reversedDepth);
 }
 
-/** As BatchedMesh does it in each frame: the sphere of the geometry by the matrix of each, against the frustum. */
+/** Like BatchedMesh in each frame: tests the geometry's sphere, moved by each matrix, against the frustum. */
 export class EachByThree {
   constructor(geometry, matrices) {
     geometry.computeBoundingSphere();
@@ -42,7 +42,7 @@ export class EachByThree {
   }
 }
 
-/** The loop that one writes when that is too slow: spheres in a flat array, kept up to date. */
+/** The loop that you write if that is too slow: spheres in a flat array, kept up to date. */
 export class FlatSpheres {
   constructor(geometry, matrices) {
     geometry.computeBoundingSphere();
@@ -76,7 +76,7 @@ export class FlatSpheres {
   }
 }
 
-/** The tree of @three.ez/instanced-mesh, which is the package bvh.js, made and kept as it does: those that move are moved. */
+/** The tree of @three.ez/instanced-mesh (the package bvh.js), built and updated as there: movers are moved in it. */
 export class InstancedMeshTree {
   constructor(geometry, matrices) {
     geometry.computeBoundingBox();

@@ -1,6 +1,6 @@
-// npm i && npm start: boxes that fly about, and a ray from the middle to the pointer, drawn by nothing but the overlay of
-// space-overlay.mjs.
-import { BroadPhase } from 'broadphase/all'; // which has techniques with cells to see
+// npm i && npm start: flying boxes, and a ray from the middle to the pointer, drawn by the overlay of space-overlay.mjs
+// alone.
+import { BroadPhase } from 'broadphase/all'; // has techniques with cells to show
 import { Application } from 'pixi.js';
 import { playButton } from './page/page.mjs';
 import { SpaceOverlay } from './space-overlay.mjs';
@@ -25,9 +25,9 @@ app.stage.addChild(overlay);
 const cells = document.getElementById('cells');
 const numbers = document.getElementById('numbers');
 
-/** From 0 to 1, as if by chance, and the same in each run. */
+/** A pseudorandom number from 0 to 1, the same in each run. */
 const chance = (k) => (43758.5453 * (1 + Math.sin(12.9898 * (k + 1)))) % 1;
-/** Shares of the stage. */
+/** Places, as shares of the stage. */
 const places = Float64Array.from({ length: 2 * count }, (_, k) => chance(k));
 const speeds = Float64Array.from({ length: 2 * count }, (_, k) => 0.004 * (chance(k + 0.5) - 0.5));
 const aim = [1, 0.4];

@@ -1,5 +1,5 @@
-// What a 2D space holds, as lines over a scene of PixiJS: add it to what moves with the world, and call its update()
-// after the space's. It is for debugging: it reads every box each time.
+// Draws the contents of a 2D space as lines over a PixiJS scene. Add it to the container that moves with the world, and
+// call its update() after the space's. It is for debugging: it reads every box each time.
 import { Lines } from 'broadphase/draw';
 import { Graphics } from 'pixi.js';
 
@@ -13,7 +13,7 @@ export class SpaceOverlay extends Graphics {
     this.space = space;
     /** Whether the cells of the technique are shown. */
     this.cells = false;
-    /** Rays to ask and show: each its origin and direction, and a largest distance if there is one. */
+    /** Rays to cast and show: each has an origin, a direction, and optionally a maximum distance. */
     this.rays = [];
   }
 
@@ -33,6 +33,6 @@ export class SpaceOverlay extends Graphics {
     fill(lines);
     const { data, length } = lines;
     for (let k = 0; k < length; k += 4) this.moveTo(data[k], data[k + 1]).lineTo(data[k + 2], data[k + 3]);
-    if (length > 0) this.stroke({ color, pixelLine: true }); // as thin at every zoom
+    if (length > 0) this.stroke({ color, pixelLine: true }); // one pixel wide at every zoom
   }
 }

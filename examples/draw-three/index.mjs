@@ -1,16 +1,16 @@
-// npm i && npm start: boxes that fly about in three dimensions, drawn by nothing but the helper of space-helper.mjs.
-import { BroadPhase } from 'broadphase/all'; // which has techniques with cells to see
+// npm i && npm start: boxes flying in three dimensions, drawn by the helper of space-helper.mjs alone.
+import { BroadPhase } from 'broadphase/all'; // has techniques with cells to show
 import { PerspectiveCamera, Scene, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { playButton } from './page/page.mjs';
 import { SpaceHelper } from './space-helper.mjs';
 
 const count = 150;
-const reach = 10; // the middles stay within this distance of the origin, on each axis
+const reach = 10; // centres stay within this distance of the origin, on each axis
 const half = 0.7;
 
 const space = new BroadPhase({ dimensions: 3, technique: 'quadtree' });
-/** From -1 to 1, as if by chance, and the same in each run. */
+/** A pseudorandom number from -1 to 1, the same in each run. */
 const chance = (k) => 2 * ((43758.5453 * (1 + Math.sin(12.9898 * (k + 1)))) % 1) - 1;
 const middles = Float64Array.from({ length: 3 * count }, (_, k) => reach * chance(k));
 const speeds = Float64Array.from({ length: 3 * count }, (_, k) => 0.06 * chance(k + 0.5));

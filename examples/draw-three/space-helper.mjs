@@ -1,9 +1,9 @@
-// What a space holds, as lines in a scene of three.js: add it to the scene, and call its update() after the space's. It
-// is for debugging: it reads every box each time.
+// Draws the contents of a space as lines in a three.js scene. Add it to the scene, and call its update() after the
+// space's. It is for debugging: it reads every box each time.
 import { Lines } from 'broadphase/draw';
 import { BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments } from 'three';
 
-/** What is shown, by the method of Lines that adds it, and in which colour. */
+/** What can be shown: the method of Lines that adds it, and its colour. */
 const kinds = {
   boxes: ['addBoxes', 0x8893a5],
   touching: ['addTouching', 0xe0457b],
@@ -12,7 +12,7 @@ const kinds = {
   hot: ['addHotCells', 0xf08c1a],
 };
 
-/** The lines of one kind. Those of a 2D space lie where z is 0. */
+/** The lines of one kind. In a 2D space, z is 0. */
 class KindOfLines extends LineSegments {
   constructor(space, method, color) {
     super(new BufferGeometry(), new LineBasicMaterial({ color }));
@@ -26,7 +26,7 @@ class KindOfLines extends LineSegments {
     const { lines, geometry } = this;
     lines.clear()[this.method](this.space);
     if (geometry.attributes.position?.array !== lines.data) {
-      geometry.dispose(); // of an array that has become too short
+      geometry.dispose(); // its array has become too short
       geometry.setAttribute('position', new BufferAttribute(lines.data, lines.dimensions));
     }
     geometry.attributes.position.needsUpdate = true;
@@ -35,7 +35,7 @@ class KindOfLines extends LineSegments {
 }
 
 export class SpaceHelper extends Group {
-  /** shown: which of boxes, touching, pairs, cells and hot; each is a child of that name, whose `visible` can be set. */
+  /** `shown`: some of boxes, touching, pairs, cells, hot. Each is a child of that name, whose `visible` can be set. */
   constructor(space, shown = ['boxes', 'touching', 'pairs']) {
     super();
     for (const name of shown) {

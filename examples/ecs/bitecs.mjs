@@ -1,17 +1,17 @@
-// bitECS: components are arrays by entity, and so are boxes: an entity is its own id in the space. What an entity has
-// decides what it is there: Static, or who it meets.
+// bitECS: components are arrays by entity, and an entity is the id of its box in the space. Its components decide
+// whether the box is static, and which others it meets.
 import { addComponent, addEntity, createWorld, observe, onRemove, query, removeEntity } from 'bitecs';
 import { BroadPhase } from 'broadphase';
 
 export const Position = { x: [], y: [] };
 export const Velocity = { x: [], y: [] };
-/** Half of the width and of the height. */
+/** Half the width and half the height. */
 export const Extent = { x: [], y: [] };
 
 export function createGame() {
   const world = createWorld();
   const space = new BroadPhase();
-  // An entity that goes, or loses its extent, is gone from the space at once.
+  // An entity that is removed, or loses its extent, is removed from the space at once.
   observe(world, onRemove(Extent), (entity) => space.delete(entity));
   return { world, space };
 }
@@ -34,7 +34,7 @@ export function moveSystem({ world }, dt) {
   }
 }
 
-/** Gives all pairs of entities that overlap, as [a, b, a, b, …]. */
+/** Returns all pairs of overlapping entities, as [a, b, a, b, …]. */
 export function collisionSystem({ world, space }) {
   for (const entity of query(world, [Position, Extent])) {
     const [x, y] = [Position.x[entity], Position.y[entity]];

@@ -1,16 +1,16 @@
-// koota: traits of entities. The number of an entity (its id, without generation and world) is its id in the space.
+// koota: traits of entities. The id of an entity, without its generation and world, is the id of its box in the space.
 import { BroadPhase } from 'broadphase';
 import { createWorld, trait } from 'koota';
 
 export const Position = trait({ x: 0, y: 0 });
 export const Velocity = trait({ x: 0, y: 0 });
-/** Half of the width and of the height. */
+/** Half the width and half the height. */
 export const Extent = trait({ x: 0, y: 0 });
 
 export function createGame() {
   const world = createWorld();
   const space = new BroadPhase();
-  // An entity that goes, or loses its extent, is gone from the space at once.
+  // An entity that is removed, or loses its extent, is removed from the space at once.
   world.onRemove(Extent, (entity) => space.delete(entity.id()));
   return { world, space };
 }
@@ -27,7 +27,7 @@ export function moveSystem({ world }, dt) {
   });
 }
 
-/** Gives all pairs of entity ids that overlap, as [a, b, a, b, …]. */
+/** Returns all pairs of ids of overlapping entities, as [a, b, a, b, …]. */
 export function collisionSystem({ world, space }) {
   world.query(Position, Extent).readEach(([{ x, y }, extent], entity) => {
     space.set(entity.id(), x - extent.x, y - extent.y, x + extent.x, y + extent.y);

@@ -1,5 +1,5 @@
-// node bench.mjs: milliseconds of the force, once, and of all labels of a map, each on the same input, in turns.
-// Results are checked: pushes leave no two rectangles overlapping, and all place the same labels.
+// node bench.mjs: milliseconds to apply the force once, and to place all labels of a map, on the same input, in turns.
+// Results are checked: after the pushes no two rectangles overlap, and all place the same labels.
 import { forceSimulation, forceX, forceY } from 'd3-force';
 import { firstScales } from './first-scales.mjs';
 import { forceCollideRect } from './force-collide-rect.mjs';
@@ -7,12 +7,12 @@ import * as rivals from './rivals.mjs';
 import { placesOf, seeded } from './words.mjs';
 
 const rounds = 7;
-/** Milliseconds that a round takes at least. */
+/** The least milliseconds of a round. */
 const leastRound = 10;
 const width = (node) => node.width;
 const height = (node) => node.height;
 
-/** The milliseconds of each in its fastest round, in turns. `prepare` comes before each call and is not timed. */
+/** The milliseconds of each in its fastest round, in turns. `prepare` runs before each call and is not timed. */
 function race(contenders, prepare = () => {}) {
   const times = new Map(Object.keys(contenders).map((name) => [name, []]));
   for (let round = 0; round <= rounds; round++) {
@@ -25,7 +25,7 @@ function race(contenders, prepare = () => {}) {
         total += performance.now() - started;
         count++;
       } while (total < leastRound);
-      if (round > 0) times.get(name).push(total / count); // in the first the engine compiles
+      if (round > 0) times.get(name).push(total / count); // the engine compiles in the first
     }
   }
   return new Map([...times].map(([name, taken]) => [name, taken.sort((a, b) => a - b)[0]]));
@@ -37,7 +37,7 @@ function print(title, times) {
   console.log(`| ${[title, ...cells].join(' | ')} |`);
 }
 
-/** Rectangles of mixed sizes, as they are after a few ticks: with room for most of them. */
+/** Rectangles of mixed sizes, as after a few ticks: most of them have room. */
 function rectangles(count) {
   const random = seeded(count);
   const side = 34 * Math.sqrt(count);
@@ -66,7 +66,7 @@ for (const count of [100, 300, 1000, 5000, 20_000]) {
   print(count, race(Object.fromEntries(forces), rest));
 }
 
-/** What is left over, and how far it reaches: 300 rectangles drawn to a point. */
+/** The overlaps that are left, and the space taken, when 300 rectangles are attracted to a point. */
 console.log('\n300 rectangles drawn to a point, after 400 ticks: pairs that overlap by more than 0.5, mean distance');
 for (const [name, make] of Object.entries(makers)) {
   const nodes = rectangles(300);

@@ -1,24 +1,24 @@
 // Labels of a map by priority, at every zoom, without overlap and without flicker. One file, to copy.
 import { BroadPhase, findPairs } from 'broadphase';
 
-/** So many labels are placed first, then twice as many each time: what those cover need not be compared. */
+/** This many labels are placed first, then twice as many each time. Labels that those cover need not be compared. */
 const firstGroup = 4096;
 
 /**
- * From which scale on each label is shown. At each scale, from the smallest on, labels come in by priority wherever
- * they meet none that is shown. A label that is in stays: zooming in moves the others away from it. So at any scale
- * those are to be shown whose number is not above it. Panning makes no difference.
+ * Finds the scale from which on each label is shown. At each scale, from the smallest on, labels are added by priority,
+ * unless they overlap a shown one. A label that is shown stays, since zooming in moves the others away from it. So at
+ * any scale, show the labels whose number is at most that scale. Panning makes no difference.
  *
- * @param labels the more important first: { x, y } of the middle on the map, { width, height } in pixels of the screen
- * @param scales pixels of the screen for one unit of the map, rising
+ * @param labels the most important first: { x, y } of the centre on the map, { width, height } in pixels of the screen
+ * @param scales pixels of the screen per unit of the map, ascending
  * @returns for each label one of the scales, or Infinity
  */
 export function firstScales(labels, scales) {
   const count = labels.length;
   const first = new Float64Array(count).fill(Number.POSITIVE_INFINITY);
-  const until = new Float64Array(count); // below this scale, a label that is not shown meets one that is
-  const coveredAt = new Float64Array(count); // the last scale at which that was so
-  const places = new Float64Array(4 * count); // the middle of each label, then half its width and height
+  const until = new Float64Array(count); // below this scale, a hidden label overlaps a shown one
+  const coveredAt = new Float64Array(count); // the last scale at which it was covered
+  const places = new Float64Array(4 * count); // the centre of each label, then half its width and height
   for (let k = 0; k < count; k++) {
     const { x, y, width, height } = labels[k];
     places.set([x, y, width / 2, height / 2], 4 * k);
@@ -54,7 +54,7 @@ export function firstScales(labels, scales) {
   return first;
 }
 
-/** The scale at which two labels no longer meet, or just less. */
+/** The scale at which two labels no longer overlap, or just below. */
 const partingScale = (places, a, b) =>
   (1 - 1e-12) *
   Math.min(

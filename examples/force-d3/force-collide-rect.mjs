@@ -1,11 +1,12 @@
-// A force for d3-force that keeps rectangles apart, as forceCollide does circles. One file, to copy.
+// A force for d3-force that keeps rectangles apart, as forceCollide does with circles. One file, to copy.
 import { BroadPhase } from 'broadphase';
 
 const constant = (value) => (typeof value === 'function' ? value : () => +value);
 
 /**
- * Nodes whose rectangles would overlap are pushed apart, along the axis where that takes less. The smaller one gives
- * way more: by the share of the other's area. Rectangles are around each node's x and y, and may be of any sizes.
+ * Pushes nodes apart whose rectangles would overlap, along the axis of least overlap. The smaller one moves further:
+ * each moves by the other's share of their areas. Rectangles are centred on the nodes' x and y, and may have any
+ * size.
  *
  * @param width pixels, or (node, index, nodes) => pixels
  * @param height the same
@@ -15,7 +16,7 @@ export function forceCollideRect(width = 1, height = 1, padding = 0) {
   const options = { width, height, padding, strength: 1, iterations: 1 };
   const space = new BroadPhase();
   let nodes = [];
-  let sizes = new Float64Array(0); // of each node half its width and half its height
+  let sizes = new Float64Array(0); // half the width and half the height of each node
   let boxes = new Float64Array(0);
 
   function force() {

@@ -1,5 +1,5 @@
-// A showcase: a map with 20,000 labels. Each is shown from a scale on, so that panning changes none, and zooming in
-// only adds some.
+// A showcase: a map with 20,000 labels. Each is shown from some scale on, so panning changes none, and zooming in only
+// adds labels.
 
 import { firstScales } from './first-scales.mjs';
 import { canvasIn } from './page/canvas.mjs';
@@ -12,7 +12,7 @@ const count = 20_000;
 const deepest = 64;
 /** Two scales per octave. */
 const steps = 12;
-/** How fast the flight zooms: octaves a second. */
+/** How fast the flight zooms, in octaves per second. */
 const speed = 0.7;
 
 /** The showcase: see examples/page/showcase.mjs. */
@@ -34,7 +34,7 @@ export function mapDemo(stage, { wake, say }) {
     const scale = Math.min(stage.clientWidth / mapSize[0], stage.clientHeight / mapSize[1]);
     return { scale, x: (stage.clientWidth - scale * mapSize[0]) / 2, y: (stage.clientHeight - scale * mapSize[1]) / 2 };
   };
-  /** Places all labels anew where the smallest scale has changed. */
+  /** Places all labels again if the smallest scale has changed. */
   function place(finder) {
     const { scale } = fit();
     scales = Array.from({ length: steps + 1 }, (_, k) => scale * deepest ** (k / steps));
@@ -68,7 +68,7 @@ export function mapDemo(stage, { wake, say }) {
       const { name, x: labelX, y: labelY, size } = labels[k];
       const [atX, atY] = [x + scale * labelX, y + scale * labelY];
       if (atX < -60 || atY < -20 || atX > width + 60 || atY > height + 20) continue;
-      // What has just come in is pale.
+      // New labels fade in.
       context.globalAlpha = first[k] === scales[0] ? 1 : Math.min(1, 0.25 + 2 * Math.log2(scale / first[k]));
       context.font = `${k < 90 ? 600 : 450} ${size}px system-ui, sans-serif`;
       context.strokeText(name, atX, atY);

@@ -1,5 +1,5 @@
-// Two showcases with rectangles in d3-force: a chart of rectangles in groups, and a cloud of words. The pointer, or the
-// arrow keys, move a rectangle through them.
+// Two showcases with rectangles in d3-force: a chart of grouped rectangles, and a word cloud. The pointer or the arrow
+// keys move a rectangle through them.
 
 import { findPairs } from 'broadphase';
 import { forceSimulation, forceX, forceY } from 'd3-force';
@@ -10,7 +10,7 @@ import { rectangles as rivals } from './rivals.mjs';
 import { seeded, wordOf } from './words.mjs';
 
 const padding = 2;
-/** How often each tick looks for overlaps: with less, words that are drawn to one point are still pressed together at the end. */
+/** Iterations per tick. With fewer, words that are attracted to one point still overlap at the end. */
 const iterations = 5;
 const [few, many] = [300, 2000];
 const hues = [262, 225, 190, 150, 310];
@@ -18,7 +18,7 @@ const hues = [262, 225, 190, 150, 310];
 const keyStep = 24;
 const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
-/** What each showcase draws: how large rectangles are before they are fitted to the stage, and where they are drawn. */
+/** What each showcase draws: how large rectangles are before they are scaled to the stage, and where they belong. */
 const kinds = {
   chart: {
     sizeOf(node, random) {
@@ -63,7 +63,7 @@ const paint = {
 
 const widthOf = ({ width }) => width;
 const heightOf = ({ height }) => height;
-/** A force that fades sooner than the simulation cools, so that the last ticks are left to those that overlap. */
+/** A force that fades faster than the simulation cools, so that the last ticks only resolve overlaps. */
 function fading(pull) {
   const force = (alpha) => pull(alpha ** 2);
   force.initialize = pull.initialize;
@@ -83,7 +83,7 @@ function overlapsOf(nodes) {
   return findPairs(boxes).length / 2;
 }
 
-/** Nodes with sizes so that they fill their share of the stage, each near its group. */
+/** Nodes sized to fill their share of the stage, each near its group. */
 function makeNodes(kind, count, width, height, seed) {
   const random = seeded(seed);
   const { sizeOf, middleOf, fill, spread } = kinds[kind];
@@ -198,7 +198,7 @@ export const rectanglesDemo =
       seed++;
     });
     const actions = { Shuffle: shuffle, ...countTo(few), ...countTo(many) };
-    requestAnimationFrame(start); // the stage has its size
+    requestAnimationFrame(start); // then the stage has its size
     return {
       legend: 'The force, once, by',
       contenders: {

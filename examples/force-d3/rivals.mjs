@@ -1,12 +1,12 @@
-// What people use instead: for rectangles in d3-force a quadtree, rbush, or circles around them; for labels a look at
-// all that are shown, or rbush, one label after the other.
+// What people use instead. For rectangles in d3-force: a quadtree, rbush, or circles around them. For labels, one by
+// one: a loop over all that are shown, or rbush.
 import { forceCollide } from 'd3-force';
 import { quadtree } from 'd3-quadtree';
 import RBush from 'rbush';
 
 /**
- * A force with the rule of forceCollideRect, from one that finds: (nodes, boxes) => (index) => candidates, whose
- * boxes are { minX, minY, maxX, maxY, index }.
+ * A force with the rule of forceCollideRect, made from a search: (nodes, boxes) => (index) => candidates. Boxes are
+ * { minX, minY, maxX, maxY, index }.
  */
 const forceBy = (find) => (width, height, padding) => {
   let nodes = [];
@@ -54,7 +54,7 @@ export const rectangles = {
       for (const { index } of tree.search(box)) see(index);
     };
   }),
-  /** Middles in a quadtree, whose squares know the largest half sizes in them. */
+  /** Centres in a quadtree, whose squares have the largest half sizes in them. */
   quadtree: forceBy((boxes) => {
     const middle = (low, high) => (box) => (box[low] + box[high]) / 2;
     const tree = quadtree(boxes, middle('minX', 'maxX'), middle('minY', 'maxY'));
@@ -70,11 +70,11 @@ export const rectangles = {
         return x0 - reachX > maxX || x1 + reachX < minX || y0 - reachY > maxY || y1 + reachY < minY;
       });
   }),
-  /** d3's own, with a circle around each rectangle. */
+  /** d3's own force, with a circle around each rectangle. */
   circles: (width, height, padding) => forceCollide((node) => Math.hypot(width(node), height(node)) / 2 + padding / 2),
 };
 
-/** firstScales from one that starts a collection for each scale: () => { add(box), meets(box) }. */
+/** firstScales with a collection made for each scale: () => { add(box), meets(box) }. */
 const firstScalesBy = (collect) => (labels, scales) => {
   const first = new Float64Array(labels.length).fill(Number.POSITIVE_INFINITY);
   for (const scale of scales) {

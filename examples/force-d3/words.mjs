@@ -1,6 +1,6 @@
-// Words and places of a land that nobody has been to, the same each time.
+// Invented words and places, the same each time.
 
-/** Numbers from 0 to 1, the same for the same seed. */
+/** Pseudorandom numbers from 0 to 1, the same for the same seed. */
 export function seeded(seed) {
   let state = seed;
   return () => {
@@ -13,10 +13,10 @@ const starts = ['Ka', 'Lo', 'Mi', 'Ren', 'Ta', 'Bor', 'Se', 'Ul', 'Ha', 'Dri', '
 const middles = ['', '', 'ra', 'li', 'mo', 'nde', 'ster', 'vi', 'ka', 'bu', 'se'];
 const ends = ['ford', 'wick', 'na', 'dal', 'mere', 'stad', 'ton', 'by', 'len', 'heim', 'ra', 'burg', 'os'];
 
-/** The word of a number. */
+/** The word for a number. */
 export const wordOf = (k) => starts[(k * 7) % 16] + middles[(k * 5) % 11] + ends[(k * 3) % 13];
 
-/** The map is so many units wide and high. */
+/** The width and height of the map, in units. */
 export const mapSize = [1000, 640];
 
 /** Places with names, the largest first, most of them near one of the cities. */

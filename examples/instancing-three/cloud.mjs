@@ -1,20 +1,20 @@
-// A cloud of boxes that turn about its middle, each on its own circle; those that overlap another are hot.
+// A cloud of boxes that orbit its centre, each on its own circle. Boxes that overlap another are hot.
 import { BroadPhase } from 'broadphase';
 
-/** How quickly a box cools once it touches nothing: the share of its heat it keeps each frame. */
+/** The share of its heat that a box without overlaps keeps each frame. */
 const cooling = 0.94;
 
 export class Cloud {
   constructor(count) {
     this.count = count;
     this.space = new BroadPhase({ dimensions: 3 });
-    /** Where each is: x, y, z of its middle. */
+    /** The centre of each: x, y, z. */
     this.middles = new Float32Array(3 * count);
     /** Half the width, height and depth of each. */
     this.halves = new Float32Array(3 * count);
     /** How hot each is, 0 to 1. */
     this.heat = new Float32Array(count);
-    this.orbits = new Float32Array(4 * count); // radius, height, angle, angle a frame
+    this.orbits = new Float32Array(4 * count); // radius, height, angle, angle per frame
     /** The radius of the cloud. */
     this.reach = 2.2 * Math.cbrt(count);
     const { reach } = this;
@@ -53,7 +53,7 @@ export class Cloud {
     space.update();
   }
 
-  /** Heats what overlaps, cools the rest. */
+  /** Heats boxes that overlap, cools the others. */
   glow() {
     const { heat } = this;
     const { pairs } = this.space;

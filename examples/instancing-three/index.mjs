@@ -1,5 +1,5 @@
-// npm i && npm start: a cloud of 20,000 boxes as one InstancedMesh.
-// broadphase finds which overlap, and those glow. ?boxes=5000 in the address for another number.
+// npm i && npm start: a cloud of 20,000 boxes as one InstancedMesh. broadphase finds which overlap, and those glow.
+// ?boxes=5000 in the URL changes the number.
 import {
   AmbientLight,
   BoxGeometry,
@@ -19,7 +19,7 @@ import { playButton, stopwatch } from './page/page.mjs';
 const count = Number(new URLSearchParams(location.search).get('boxes') ?? 20_000);
 const cloud = new Cloud(count);
 const stage = document.getElementById('stage');
-stage.tabIndex = 0; // keys go to it
+stage.tabIndex = 0; // so that it gets the keys
 const search = stopwatch();
 
 const scene = new Scene();
@@ -37,7 +37,7 @@ mesh.instanceMatrix.setUsage(DynamicDrawUsage);
 mesh.frustumCulled = false; // the cloud as a whole is always in view
 scene.add(mesh);
 for (let id = 0; id < count; id++) {
-  // The size of a box never changes: it is the diagonal of its matrix. Its place is in the last column.
+  // The size of a box, on the diagonal of its matrix, never changes. Its place is in the last column.
   for (let axis = 0; axis < 3; axis++) mesh.instanceMatrix.array[16 * id + 5 * axis] = 2 * cloud.halves[3 * id + axis];
   mesh.instanceMatrix.array[16 * id + 15] = 1;
   mesh.setColorAt(id, new Color());
@@ -93,7 +93,7 @@ new ResizeObserver(() => {
   renderer.setPixelRatio(Math.min(2, devicePixelRatio));
   renderer.setSize(clientWidth, clientHeight);
   camera.aspect = clientWidth / clientHeight;
-  // As far away as lets the cloud fill the narrower side.
+  // Far enough for the cloud to fill the narrower side.
   const distance = (2.8 * cloud.reach) / Math.min(1.3, camera.aspect);
   camera.position.setLength(distance || 1);
   camera.updateProjectionMatrix();
@@ -102,7 +102,7 @@ new ResizeObserver(() => {
 camera.position.set(0, 0.6, 1);
 camera.lookAt(0, 0, 0);
 
-/** Turned and zoomed by keys as by the pointer. */
+/** Keys turn and zoom like the pointer. */
 stage.addEventListener('keydown', ({ key }) => {
   const { position } = camera;
   if (key === 'ArrowLeft') position.applyAxisAngle(camera.up, -0.1);

@@ -1,4 +1,4 @@
-// npm i && npm start: milliseconds of a step of Matter.js, as it is and with broadphase, in turns.
+// npm i && npm start: milliseconds per step of Matter.js, as it is and with broadphase, in turns.
 import Matter from 'matter-js';
 import { useBroadPhase } from './matter-broadphase.mjs';
 import { createHeap, createSwarm } from './scene.mjs';

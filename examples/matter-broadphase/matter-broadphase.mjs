@@ -1,10 +1,10 @@
-// A broad phase for Matter.js to drop in: its detector sorts all bodies along one axis in every step, by insertion, and
-// looks at everything in the same column. This finds the pairs by broadphase instead; what touches, and how, is still
-// Matter's to say.
+// A drop-in broad phase for Matter.js. Matter's detector sorts all bodies along one axis in every step, by insertion,
+// and tests all that share a column. Here broadphase finds the pairs instead. Matter still decides which of them
+// touch, and how.
 //   const undo = useBroadPhase(Matter);
 import { BroadPhase } from 'broadphase';
 
-/** From now on every engine of this Matter finds its pairs here. Returns what undoes it. */
+/** From now on every engine of this Matter finds its pairs here. Returns a function that undoes this. */
 export function useBroadPhase({ Detector, Collision }) {
   const original = Detector.collisions;
   /** Per detector: its space, and the numbers of its bodies' boxes. */

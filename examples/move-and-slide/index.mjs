@@ -29,9 +29,9 @@ for (let step = 0; step <= 240; step++) {
   const onFloor = met[1] === -1;
   velocity[0] = step < 30 ? -2 : 2; // first it presses against the wall
   velocity[1] = onFloor ? 0.4 : velocity[1] + 0.4;
-  if (onFloor && met[0] === -1) velocity[1] = -8; // a step in the way: jump
+  if (onFloor && met[0] === -1) velocity[1] = -8; // jumps over a step in the way
   moveAndSlide(space, walker, velocity, undefined, met);
-  if (met[1] === 1) velocity[1] = 0; // its head
+  if (met[1] === 1) velocity[1] = 0; // hits its head
   if (step % 30 !== 0) continue;
   const [x, y] = walker.position;
   console.log(`step ${step}: at ${x.toFixed(2)}, ${y.toFixed(2)}; it met [${met.join(', ')}]`);

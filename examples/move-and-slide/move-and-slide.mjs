@@ -1,15 +1,15 @@
-// Moves a body through a world of boxes: it stops at what it meets, and slides on along it. In 2D and in 3D.
-// After a stop the body touches the face that it met. From there a way along the face or away from it meets nothing,
-// and a way into the face stops at once, with the face's normal: so the body walks over a floor of tiles, down a wall
-// of tiles, and into a corner. It has at most one stop an axis.
+// Moves a body through a world of boxes, in 2D or 3D: it stops at what it meets, and slides on along it.
+// After a stop the body touches the face that it met. From there a move along the face, or away from it, meets nothing,
+// and a move into it stops at once, with the face's normal. So the body walks over a floor of tiles, down a wall of
+// tiles, and into a corner. It stops at most once per axis.
 
 /**
- * Moves `body` by `way`, and returns the normals of the faces that it met: for each axis -1, 0 or 1.
+ * Moves `body` by `way`, and returns the normals of the faces that it met: -1, 0 or 1 for each axis.
  *
  * @param space a BroadPhase, updated since the world changed
  * @param body its `position`, the least corner, and its `size`, both with one number per axis. They may be arrays or
  *   typed arrays.
- * @param way how far it goes along each axis, in this step; it is not changed
+ * @param way how far it moves along each axis, in this step; it is not changed
  * @param options those of `sweep`: `ignore` names the body's own box
  * @param met filled and returned
  */
@@ -22,14 +22,14 @@ export function moveAndSlide(space, body, way, options, met = []) {
     advance(position, left, hit ? hit.time : 1);
     if (!hit) return met;
     const axis = hit.normal.findIndex((side) => side !== 0);
-    if (axis < 0) return met; // inside of a box from the start: see the guide
+    if (axis < 0) return met; // inside a box from the start: see the guide
     met[axis] = hit.normal[axis];
     for (let k = 0; k < left.length; k++) left[k] *= k === axis ? 0 : 1 - hit.time;
   }
   return met;
 }
 
-/** Moves a body, and has it bounce off what it meets: returns whether it met anything. `velocity` turns. */
+/** Moves a body, and lets it bounce off what it meets: turns `velocity`, and returns whether it met anything. */
 export function moveAndBounce(space, body, velocity, options) {
   const { position, size } = body;
   const hit = space.sweep(...position, ...velocity.map((_, axis) => position[axis] + size[axis]), ...velocity, options);
@@ -39,7 +39,7 @@ export function moveAndBounce(space, body, velocity, options) {
   return true;
 }
 
-/** Goes a share of the way. Where a Float32Array rounds a position on, it is the one before that. */
+/** Moves by a share of the way. If a Float32Array rounds the position past its target, takes the number before. */
 function advance(position, way, time) {
   for (let axis = 0; axis < way.length; axis++) {
     const to = position[axis] + way[axis] * time;

@@ -1,4 +1,4 @@
-// npm i && npm start: ten seconds of each world, and how many of the pairs of boxes really touched.
+// npm i && npm start: ten seconds of each world, and how many pairs of boxes really touched.
 import { fastBoxes, masks, shapes } from './scenes.mjs';
 
 const frames = 600;

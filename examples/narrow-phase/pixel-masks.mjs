@@ -1,7 +1,7 @@
-// Pictures whose solid pixels are marked: two touch where both have a solid pixel in the same place. Pixels stand on
-// whole numbers, and only those that both boxes share are looked at.
+// Pixel masks of pictures: two touch if both have a solid pixel in the same place. Pixels are at whole numbers, and
+// only those in the intersection of the two boxes are tested.
 
-/** A mask out of rows of text, in which anything but a space is solid. The first row is the topmost. */
+/** A mask from rows of text, in which everything but a space is solid. The first row is the topmost. */
 export function maskOf(rows) {
   const width = Math.max(...rows.map((row) => row.length));
   const solid = new Uint8Array(width * rows.length);
@@ -11,7 +11,7 @@ export function maskOf(rows) {
   return { width, height: rows.length, solid };
 }
 
-/** A mask out of the pixels of a picture (ImageData), solid from that much alpha on. */
+/** A mask from the pixels of a picture (ImageData). Pixels with at least this alpha are solid. */
 export function maskOfImage({ width, height, data }, alpha = 128) {
   return {
     width,

@@ -1,6 +1,6 @@
-// Three small worlds, each handed over from pairs of boxes to exact results: what a frame of a game does.
-// `move()` moves everything and finds the pairs of boxes; `narrow()` finds those that really touch, the `hits`, as
-// [a, b, a, b, …]; `react()` does something about it.
+// Three small worlds, each with a frame as in a game, from pairs of boxes to exact results. `move()` moves everything
+// and finds the pairs of boxes. `narrow()` finds those that really touch, the `hits`, as [a, b, a, b, …]. `react()`
+// reacts to them.
 import { BroadPhase } from 'broadphase';
 import { maskOf, masksTouch } from './pixel-masks.mjs';
 import { boundsOf, circle, contactOf, polygon } from './separating-axes.mjs';
@@ -9,7 +9,7 @@ import { meeting } from './swept-boxes.mjs';
 /** Side of the world. */
 export const world = 200;
 
-/** The same numbers for the same seed. */
+/** Pseudorandom numbers, the same for the same seed. */
 function dice(seed) {
   let state = seed;
   return () => {
@@ -38,7 +38,7 @@ export function shapes(count = 60, seed = 1) {
     return { shape, size, dx: random() - 0.5, dy: random() - 0.5, turn: 0.04 * (random() - 0.5) };
   });
   const hits = [];
-  /** Of each hit: the way out of `a` into `b`, and how deep. */
+  /** For each hit: the direction from `a` to `b`, and the depth. */
   const contacts = [];
   const box = [0, 0, 0, 0];
   return {
@@ -69,7 +69,7 @@ export function shapes(count = 60, seed = 1) {
         contacts.push({ out: { x: contact.overlapN.x, y: contact.overlapN.y }, depth: contact.overlap });
       }
     },
-    /** Apart, a little each frame, and away from one another. */
+    /** Pushes shapes apart a little each frame, and turns them away from each other. */
     react() {
       for (const [k, { out, depth }] of contacts.entries()) {
         const [a, b] = [things[hits[2 * k]], things[hits[2 * k + 1]]];
@@ -113,7 +113,7 @@ const pictures = [
   ]),
 ];
 
-/** Pictures that drift over one another: their boxes overlap far more often than what is drawn in them. */
+/** Pictures that drift over each other: their boxes overlap far more often than their solid pixels. */
 export function masks(count = 60, seed = 2) {
   const random = dice(seed);
   const space = new BroadPhase();
@@ -134,7 +134,7 @@ export function masks(count = 60, seed = 2) {
         thing.dy = bounced(thing.y, thing.dy, 13);
         thing.x += thing.dx;
         thing.y += thing.dy;
-        // The pixels stand on whole numbers, so the box does too. Its far edge is shared by nobody: one pixel less.
+        // The pixels are at whole numbers, so the box is too. It is one pixel smaller, so that neighbours do not touch.
         thing.left = Math.round(thing.x - mask.width / 2);
         thing.top = Math.round(thing.y - mask.height / 2);
         space.set(id, thing.left, thing.top, thing.left + mask.width - 1, thing.top + mask.height - 1);
@@ -158,7 +158,7 @@ const targets = 2;
 /** How far a bullet flies in one frame: 40 of its own widths. */
 const speed = 40;
 
-/** Bullets too fast to be looked at from frame to frame, and moving targets: each bullet hits the first on its way. */
+/** Bullets too fast for a test once per frame, and moving targets: each bullet hits the first one on its path. */
 export function fastBoxes(count = 60, seed = 3) {
   const random = dice(seed);
   const space = new BroadPhase();
@@ -204,7 +204,7 @@ export function fastBoxes(count = 60, seed = 3) {
         }
       }
     },
-    /** A bullet flies as far as it gets, and back from there. */
+    /** A bullet flies until it hits something, and back from there. */
     react() {
       for (const { box, way, time, first } of things) {
         for (let k = 0; k < 4; k++) box[k] += way[k % 2] * (first < 0 ? 1 : time);

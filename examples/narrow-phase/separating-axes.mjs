@@ -1,10 +1,10 @@
-// Convex polygons and circles, by SAT.js: two convex shapes are apart exactly where some axis separates them. Gives how
-// deep they overlap, and along which way they come apart.
+// Convex polygons and circles, by SAT.js: two convex shapes are apart exactly if some axis separates them. The result
+// has the depth of their overlap, and the direction that separates them.
 import SAT from 'sat';
 
 const response = new SAT.Response();
 
-/** A convex polygon around its place, its corners [x, y] counter-clockwise. Move it by `pos`, turn it by `setAngle`. */
+/** A convex polygon around its place, with corners [x, y] counter-clockwise. `pos` moves it, `setAngle` turns it. */
 export function polygon(corners) {
   return new SAT.Polygon(
     new SAT.Vector(),
@@ -36,8 +36,8 @@ export function boundsOf(shape, out = [0, 0, 0, 0]) {
 }
 
 /**
- * Whether two shapes touch; if so, `overlapV` of the answer is how `a` has to move to be apart, negated. The answer is
- * the same object each time; undefined where they are apart.
+ * The contact of two shapes, or undefined if they are apart. Its negated `overlapV` is how `a` has to move to be
+ * apart. It is the same object each time.
  */
 export function contactOf(a, b) {
   response.clear();

@@ -1,10 +1,10 @@
-// Boxes that move so fast that they would pass each other between two frames: swept tests, for two that both move.
-// Seen from the one the other moves by the difference of their ways; along each axis there is a time when they begin
-// and one when they cease to overlap, and they meet where the last beginning comes before the first end.
+// Swept tests for two moving boxes, so fast that they would pass each other between two frames. Seen from one, the
+// other moves by the difference of their displacements. Along each axis they begin to overlap at one time and cease
+// at another. They meet if the last beginning comes before the first end.
 
 /**
- * The share of the frame, 0 to 1, that is over when two moving boxes meet, with the axis along which they do (-1: they
- * overlap from the start); undefined where they do not. Boxes are [minX, minY, maxX, maxY], ways [dx, dy].
+ * The time at which two moving boxes meet, as a share of the frame from 0 to 1, and the axis along which they do (-1:
+ * they overlap from the start). Undefined if they do not. Boxes are [minX, minY, maxX, maxY], ways [dx, dy].
  */
 export function meeting(a, wayA, b, wayB) {
   let begin = 0;

@@ -1,5 +1,5 @@
-// node bench.mjs [src/lib/datasets.ts of xyflow/node-collision-algorithms]: a table of milliseconds for one
-// call, on the same nodes, in turns, with every result checked: no two nodes overlap by more than the threshold.
+// node bench.mjs [src/lib/datasets.ts of xyflow/node-collision-algorithms]: a table of milliseconds per call, on the
+// same nodes, in turns. Every result is checked: no two nodes overlap by more than the threshold.
 import { readFileSync } from 'node:fs';
 import { findPairs } from 'broadphase';
 import { makeNodes, toNode } from './datasets.mjs';
@@ -7,10 +7,10 @@ import * as rivals from './rivals.mjs';
 import { separate } from './separate.mjs';
 
 const options = { maxIterations: Number.POSITIVE_INFINITY, threshold: 0.5 };
-/** A heap of 20,000 takes minutes to come to rest: of more nodes than this, so many iterations are timed. */
+/** A heap of 20,000 takes minutes to come to rest. With more nodes than this, only a few iterations are timed. */
 const [most, atMost] = [1500, 3];
 const rounds = 5;
-/** Milliseconds that a round takes at least, so that few nodes are separated many times in it. */
+/** The least milliseconds of a round, in which a few nodes are separated many times. */
 const leastRound = 15;
 
 /** The data sets of xyflow/node-collision-algorithms by name. Only numbers are read from its src/lib/datasets.ts. */
@@ -46,7 +46,7 @@ function overlaps(nodes, threshold = options.threshold) {
   return count;
 }
 
-/** The milliseconds of a call of each in its fastest round, by name. */
+/** The milliseconds of a call in the fastest round of each, by name. */
 function race(nodes, contenders) {
   const entries = Object.entries(contenders);
   const given = nodes.length > most ? { ...options, maxIterations: atMost } : options;
@@ -64,7 +64,7 @@ function race(nodes, contenders) {
         contender(nodes, given);
         calls++;
       } while (performance.now() - started < leastRound);
-      if (round > 0) times.get(name).push((performance.now() - started) / calls); // in the first the engine compiles
+      if (round > 0) times.get(name).push((performance.now() - started) / calls); // the engine compiles in the first
     }
   }
   return new Map(entries.map(([name]) => [name, times.get(name).sort((a, b) => a - b)[0]]));

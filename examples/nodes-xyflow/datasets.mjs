@@ -1,8 +1,8 @@
-// Nodes to push apart, drawn by a seed, in the three ways of the benchmark of xyflow/node-collision-algorithms.
+// Seeded random nodes to push apart, in the three arrangements of the benchmark of xyflow/node-collision-algorithms.
 
 const size = 50;
 
-/** Numbers from 0 to 1, the same for the same seed. */
+/** Pseudorandom numbers from 0 to 1, the same for the same seed. */
 export function seeded(seed) {
   let state = seed;
   return () => {
@@ -32,7 +32,7 @@ const kinds = {
     const jitter = () => 0.5 * size * random();
     return { x: step * (k % columns) + jitter(), y: step * Math.floor(k / columns) + jitter() };
   },
-  /** Groups of about eight that overlap, far from each other. */
+  /** Groups of about eight overlapping nodes, far from each other. */
   clustered(count, random, k) {
     const groups = Math.ceil(count / 8);
     const columns = Math.ceil(Math.sqrt(groups));

@@ -1,4 +1,4 @@
-// A canvas of React Flow whose nodes make room for each other: when one is moved, and for all at once.
+// A React Flow canvas whose nodes make room for each other: while one is dragged, or all at once.
 import '@xyflow/react/dist/style.css';
 import './demo.css';
 import { applyNodeChanges, Background, Handle, Position, ReactFlow } from '@xyflow/react';
@@ -43,7 +43,7 @@ function cardAt(id, x, y, random) {
   return { id: String(id), type: 'card', position: { x: x - width / 2, y: y - height / 2 }, width, height, data };
 }
 
-/** A flow that somebody has laid out in haste: a tree, each level a column too short for it. */
+/** A flow laid out in haste: a tree, with each level in a column too short for it. */
 function firstFlow() {
   const random = seeded(3);
   const nodes = Array.from({ length: 40 }, (_, k) => {

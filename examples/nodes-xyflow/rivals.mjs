@@ -1,10 +1,10 @@
-// What people use instead, by the same rule as separate.mjs: a look at every two, and a search for each node in rbush,
-// flatbush or a quadtree, which is built again in every iteration.
+// What people use instead, by the same rule as separate.mjs: a loop over every two, or a search for each node in rbush,
+// flatbush or a quadtree, which is rebuilt in every iteration.
 import { Quadtree, Rectangle } from '@timohausmann/quadtree-ts';
 import Flatbush from 'flatbush';
 import RBush from 'rbush';
 
-/** A node and its box with the padding: what all of them work on. */
+/** A node and its padded box, which all of them work on. */
 const bodyOf = (node, padding, fixed) => {
   const width = (node.measured?.width ?? node.width) + 2 * padding;
   const height = (node.measured?.height ?? node.height) + 2 * padding;
@@ -22,7 +22,7 @@ const shift = (body, dx, dy) => {
   body.moved = true;
 };
 
-/** Pushes two nodes apart if they overlap, and tells whether they did. */
+/** Pushes two nodes apart if they overlap; returns whether they did. */
 function push(a, b, threshold) {
   const dx = a.x + a.width / 2 - b.x - b.width / 2;
   const dy = a.y + a.height / 2 - b.y - b.height / 2;
@@ -36,7 +36,7 @@ function push(a, b, threshold) {
   return true;
 }
 
-/** A function with the options of `separate`, from one that goes once over all bodies. */
+/** A function with the options of `separate`, made from one that loops once over all bodies. */
 const separateBy =
   (pushAll) =>
   (nodes, { padding = 0, threshold = 0.5, maxIterations = 50, fixed } = {}) => {

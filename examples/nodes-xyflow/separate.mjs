@@ -1,25 +1,25 @@
 // Nodes of React Flow or Svelte Flow that overlap push each other apart. One file, to copy.
 import { BroadPhase } from 'broadphase';
 
-/** Among so few nodes a look at every two takes less than a search. */
+/** Up to this many nodes, a loop over every two is faster than a search. */
 const few = 48;
-/** Pixels: nodes that are no farther apart are looked at too, since a push may bring them together. */
+/** Nodes at most this many pixels apart are tested too, since a push may bring them together. */
 const near = 2;
-/** Kept from call to call. Made when there are first more than a few nodes. */
+/** Retained between calls. Created once there are more than a few nodes. */
 let space;
-let place = new Float64Array(4 * few); // for each node: the middle of its box, then half its width and height
-let state = new Uint8Array(few); // for each node: 0 where it is fixed, 1, or 2 once it has been pushed
+let place = new Float64Array(4 * few); // for each node: the centre of its box, then half its width and height
+let state = new Uint8Array(few); // for each node: 0 if it is fixed, 2 if it has been pushed, otherwise 1
 
 /**
- * Pushes overlapping nodes apart: each by half of the overlap, along the axis where that takes less. Does so until no
- * two overlap. Hidden nodes and those inside a parent are left alone.
+ * Pushes overlapping nodes apart, each by half of the overlap, along the axis of least overlap, until no two overlap.
+ * Hidden nodes and those inside a parent are left alone.
  *
- * @param nodes as React Flow has them. They stay as they are
+ * @param nodes as in React Flow. They are not changed
  * @param padding pixels of free space around each node, so two are at least twice that apart
- * @param threshold pixels of overlap that may stay, along one axis
- * @param maxIterations how often to look at all nodes: 1 a frame animates
- * @param fixed tells of a node whether it stays where it is, as one that is being dragged does
- * @returns the nodes in their order, with copies of those that moved; the very array given where none did
+ * @param threshold pixels of overlap that may remain, along one axis
+ * @param maxIterations how often to loop over all nodes: 1 per frame animates
+ * @param fixed returns whether a node must not move, such as one that is being dragged
+ * @returns the nodes in their order, with copies of those that moved; the same array if none did
  */
 export function separate(nodes, { padding = 0, threshold = 0.5, maxIterations = 50, fixed } = {}) {
   const apart = nodes.filter((node) => !node.hidden && !node.parentId);
@@ -61,7 +61,7 @@ function pushAll(count, threshold) {
   return pushed;
 }
 
-/** Pushes two nodes apart if they overlap, and tells whether they did. */
+/** Pushes two nodes apart if they overlap; returns whether they did. */
 function push(a, b, threshold) {
   const dx = place[4 * a] - place[4 * b];
   const dy = place[4 * a + 1] - place[4 * b + 1];
@@ -69,7 +69,7 @@ function push(a, b, threshold) {
   const overY = place[4 * a + 3] + place[4 * b + 3] - Math.abs(dy);
   if (!(overX > threshold && overY > threshold) || !(state[a] || state[b])) return false;
   const share = state[a] ? (state[b] ? 0.5 : 1) : 0;
-  const axis = overX < overY ? 0 : 1; // the one that takes less
+  const axis = overX < overY ? 0 : 1; // the axis of least overlap
   const way = axis ? (dy > 0 ? overY : -overY) : dx > 0 ? overX : -overX;
   place[4 * a + axis] += share * way;
   place[4 * b + axis] -= (1 - share) * way;

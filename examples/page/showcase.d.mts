@@ -1,4 +1,4 @@
-/** What a showcase gives: see showcase.mjs. */
+/** What a showcase returns: see showcase.mjs. */
 export interface Demo {
   readonly contenders: Readonly<Record<string, string>>;
   use(key: string): void;

@@ -1,4 +1,4 @@
-// All showcases, each fetched when it is wanted.
+// All showcases, each fetched on demand.
 export const showcases = {
   nodes: async () => (await import('../nodes-xyflow/demo.jsx')).nodesDemo,
   chart: async () => (await import('../force-d3/rectangles.mjs')).rectanglesDemo('chart'),

@@ -1,4 +1,4 @@
-// npm i && npm start: milliseconds of a step of Planck, as it is and with broadphase, in turns.
+// npm i && npm start: milliseconds per step of Planck, as it is and with broadphase, in turns.
 import { World } from 'planck';
 import { useBroadPhase } from './planck-broadphase.mjs';
 import { fillHeap, fillSwarm } from './scene.mjs';

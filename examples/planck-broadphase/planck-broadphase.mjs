@@ -1,9 +1,9 @@
-// A broad phase for Planck (Box2D) to drop in, in place of its dynamic tree:
+// A drop-in broad phase for Planck (Box2D), in place of its dynamic tree:
 //   useBroadPhase(world), before anything is put into the world.
-// As Planck's own it keeps boxes a little larger than they are, so that what moves little is not moved here.
+// Like Planck's own, it uses fat boxes, so that small motions do not move them.
 import { BroadPhase } from 'broadphase';
 
-/** Planck's own margin, in metres, and how far ahead of what moves its box reaches. */
+/** Planck's own margin, in metres, and how far a box reaches ahead of a moving body. */
 const margin = 0.1;
 const ahead = 2;
 
@@ -17,9 +17,9 @@ class PlanckBroadPhase {
   #space = new BroadPhase();
   #users = [];
   #free = [];
-  /** Per proxy its box with the margin: minX, minY, maxX, maxY. */
+  /** Per proxy, its fat box: minX, minY, maxX, maxY. */
   #boxes = [];
-  /** Per proxy, whether its pairs are to be told again. */
+  /** Per proxy, whether its pairs have to be reported again. */
   #moved = [];
   #changed = false;
 
@@ -66,7 +66,7 @@ class PlanckBroadPhase {
     this.#changed = true;
   }
 
-  /** Tells of every pair with something that has moved; Planck knows which contacts it has. */
+  /** Reports every pair with a proxy that has moved; Planck knows which contacts it has already. */
   updatePairs(tell) {
     this.#update();
     const moved = this.#moved;
@@ -108,7 +108,7 @@ class PlanckBroadPhase {
     this.#space.queryBox(lowerBound.x, lowerBound.y, upperBound.x, upperBound.y, { visit });
   }
 
-  /** In the order of the ray, so that it ends at the first hit that shortens it. */
+  /** In order along the ray, so that it can end at the first hit that shortens it. */
   rayCast({ p1, p2, maxFraction }, hit) {
     this.#update();
     const [dx, dy] = [p2.x - p1.x, p2.y - p1.y];

@@ -1,13 +1,13 @@
-// A board of tiles to select by a rubber band, by useSelection.
+// A board of tiles to select with a rubber band, with useSelection.
 import { memo, useEffect, useRef, useState } from 'react';
 import { useSelection } from './use-selection.mjs';
 
 const gap = 8;
-/** How high a row is at least, with the gap below it. */
+/** The least height of a row, with the gap below it. */
 const row = 38;
 const [narrowest, widest] = [18, 84];
 
-/** Tiles of many widths that fill a board of this size, in rows: their boxes. */
+/** The boxes of tiles of many widths, which fill a board of this size in rows. */
 function layOut(width, height) {
   const boxes = [];
   const rows = Math.floor((height - gap) / row);
@@ -25,11 +25,11 @@ function layOut(width, height) {
   return boxes;
 }
 
-/** How large the board is where nothing has a size yet: on a server, and until the page has been laid out. */
+/** The size of the board while nothing has a size yet: on a server, and until the page has been laid out. */
 const rendered = [360, 400];
 const sized = (width, height) => ({ boxes: layOut(width, height), width, height });
 
-/** Drawn anew only where something about it has changed. */
+/** Rendered again only if something about it has changed. */
 const Tile = memo(({ id, box: [minX, minY, maxX, maxY], hue, selected, active }) => (
   // biome-ignore lint/a11y/useFocusableInteractive: the board has the focus, and says which tile is active
   <div

@@ -1,5 +1,5 @@
-// npm i && npm start: a board of tiles to select by a rubber band, with ?show=notes notes that say which overlap.
-// `npm run server` has the page rendered before it is sent; the same components then go on in the browser.
+// npm i && npm start: a board of tiles to select with a rubber band; with ?show=notes, notes that know which overlap.
+// With `npm run server` the page is rendered on the server, and the same components take over in the browser.
 import { createRoot, hydrateRoot } from 'react-dom/client';
 import { App } from './app.jsx';
 

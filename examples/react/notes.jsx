@@ -1,5 +1,5 @@
-// Notes to drag about, or to move by arrow keys: which overlap comes from useBroadPhase, as they are drawn. A new one
-// looks for a place where none is: a question to the space.
+// Notes to drag around, or to move with the arrow keys. useBroadPhase finds which overlap, as they are drawn. A new
+// note finds a free place by a query to the space.
 import { useRef, useState } from 'react';
 import { useBroadPhase } from './use-broad-phase.mjs';
 
@@ -20,7 +20,7 @@ export function Notes() {
 
   const move = (id, dx, dy) => put((all) => all.map((box, k) => (k === id ? noteAt(box[0] + dx, box[1] + dy) : box)));
 
-  /** Where none is, row by row; below all others where the desk is full. */
+  /** Adds a note in the first free place, row by row, or below all others if the desk is full. */
   function add() {
     const { clientWidth, clientHeight } = desk.current;
     const free = (x, y) =>

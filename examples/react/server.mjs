@@ -1,5 +1,5 @@
-// npm run server: the page as HTML, boxes and pairs included, before any script runs in the browser. Node has no size of
-// a window, but it has the whole library. PORT is 5174 where the environment names none.
+// npm run server: the page as HTML, boxes and pairs included, before any script runs in the browser. Node has no window
+// size, but it has the whole library. PORT is 5174 unless the environment sets it.
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { createElement } from 'react';

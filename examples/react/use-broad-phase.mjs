@@ -1,9 +1,9 @@
-// Which boxes overlap, for React. Rendering has to be pure, and a space is not: so pairs are a copy, and whoever asks the
-// space first has it brought to the boxes that are on screen. That costs nothing where it has them already.
+// Which boxes overlap, for React. Rendering has to be pure, and a space is not. So the pairs are a copy, and the first
+// query updates the space to the boxes on screen. That costs nothing if it has them already.
 import { BroadPhase } from 'broadphase';
 import { useCallback, useLayoutEffect, useMemo, useRef, useState } from 'react';
 
-/** A space that is brought to one array of boxes or another. */
+/** A space that follows an array of boxes. */
 class Following {
   #boxes;
 
@@ -11,11 +11,11 @@ class Following {
     this.space = new BroadPhase(options);
   }
 
-  /** Gives the space, updated, with exactly these boxes; the same array has the same boxes. */
+  /** Returns the space, updated to exactly these boxes. The same array must have the same boxes. */
   to(boxes) {
     const { space } = this;
     if (boxes === this.#boxes) return space;
-    this.#boxes = undefined; // until all are in: a bad one throws
+    this.#boxes = undefined; // until all are set: a bad one throws
     boxes.forEach((box, id) => {
       if (box) space.set(id, ...box);
     });
@@ -27,13 +27,13 @@ class Following {
 }
 
 /**
- * boxes: [minX, minY, maxX, maxY] of each id, undefined where there is none; a new array when one has moved.
+ * boxes: [minX, minY, maxX, maxY] for each id, or undefined if it has no box; a new array when one has moved.
  * options: those of a space, read once.
- * Gives pairs, [a, b, a, b, …], and space(), for queries in handlers and effects: it has the boxes on screen.
+ * Returns pairs, [a, b, a, b, …], and space(), for queries in handlers and effects: it has the boxes on screen.
  */
 export function useBroadPhase(boxes, options) {
-  // Nothing is disposed of: strict mode takes a component away and back with what it holds. What nobody holds any more
-  // is freed with it.
+  // Nothing is disposed of: strict mode unmounts a component and mounts it again with the same state. The space is
+  // garbage-collected with the component.
   const [following] = useState(() => new Following(options));
   const pairs = useMemo(() => following.to(boxes).pairs.slice(), [following, boxes]);
   const onScreen = useRef(boxes);

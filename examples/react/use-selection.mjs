@@ -1,10 +1,10 @@
-// A selection of boxes, for React: by a rubber band drawn with mouse, pen or finger, and by keys as in a list. What a
-// band touches is one question, queryBox; where an arrow key leads is another, sweep.
+// A selection of boxes, for React: by a rubber band drawn with mouse, pen or finger, and by keys as in a list. A
+// queryBox finds the boxes that the band touches; a sweep finds where an arrow key leads.
 import { useReducer, useRef } from 'react';
 import { useBroadPhase } from './use-broad-phase.mjs';
 
 const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
-/** Farther than any board is wide. */
+/** Wider than any board. */
 const far = 1e5;
 
 const bandOf = ([fromX, fromY], [toX, toY]) => [
@@ -19,14 +19,14 @@ const unionOf = (a, b) => [
   ...a.slice(2).map((n, k) => Math.max(n, b[k + 2])),
 ];
 
-/** Ids in one of two sets. */
+/** Ids in either of two sets. */
 const both = (a, b) => new Set([...a, ...b]);
 
 const nothing = { selected: new Set(), before: new Set(), band: undefined, active: 0, anchor: 0, took: 0 };
 
 /**
- * boxes: [minX, minY, maxX, maxY] of each id, in pixels of the board; the same array while they stay where they are.
- * Gives what is selected, the band to draw, the id that keys act on, and the handlers of the board.
+ * boxes: [minX, minY, maxX, maxY] of each id, in pixels of the board; the same array while they do not move.
+ * Returns the selected ids, the band to draw, the id that keys act on, and the handlers of the board.
  */
 export function useSelection(boxes) {
   const [state, put] = useReducer((old, change) => ({ ...old, ...change }), nothing);
@@ -78,7 +78,7 @@ export function useSelection(boxes) {
     put({ band: undefined });
   }
 
-  /** To what the active box would meet if it moved that way; with Shift, all between there and the anchor is selected. */
+  /** Makes the next box in a direction the active one; with Shift, selects all between there and the anchor. */
   function move([dx, dy], extend) {
     const box = boxes[state.active];
     const hit = space().sweep(...box, dx * far, dy * far, { ignore: state.active });

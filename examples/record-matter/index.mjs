@@ -1,4 +1,4 @@
-// npm i && npm start: 300 bodies fall into a box; five seconds of it become matter.trace.
+// npm i && npm start: 300 bodies fall into a box; five seconds of it are written to matter.trace.
 import { writeFileSync } from 'node:fs';
 import Matter from 'matter-js';
 import { recordMatter } from './record-matter.mjs';

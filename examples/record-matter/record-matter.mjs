@@ -1,4 +1,4 @@
-// Records a Matter.js engine: the boxes its own broad phase works on, body by body, in every step.
+// Records a Matter.js engine: the boxes that its own broad phase uses, body by body, in every step.
 // In your game: `const recorded = recordMatter(engine)`, play, then `await recorded.stop()` and `recorded.download()`.
 import { BroadPhase } from 'broadphase';
 import { record } from 'broadphase/trace';
@@ -7,7 +7,7 @@ import Matter from 'matter-js';
 const { Composite, Events } = Matter;
 
 /**
- * From now on every step of the engine is a frame.
+ * Records every step of the engine as a frame from now on.
  * @param {Matter.Engine} engine
  */
 export function recordMatter(engine) {
@@ -28,7 +28,7 @@ export function recordMatter(engine) {
     known = now;
     space.update();
   };
-  Events.on(engine, 'beforeSolve', frame); // bodies have moved, and their bounds are those that are searched
+  Events.on(engine, 'beforeSolve', frame); // bodies have moved, and their bounds are those of the broad phase
   return {
     space,
     recording,

@@ -1,4 +1,4 @@
-// npm i && npm start: balls bounce between walls and platforms; the button saves what has happened so far.
+// npm i && npm start: balls bounce between walls and platforms; the button saves the recording so far.
 import Phaser from 'phaser';
 import { recordPhaser } from './record-phaser.mjs';
 

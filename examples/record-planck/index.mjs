@@ -1,4 +1,4 @@
-// npm i && npm start: 200 bodies are poured over a seesaw; five seconds of it become planck.trace.
+// npm i && npm start: 200 bodies fall onto a seesaw; five seconds of it are written to planck.trace.
 import { writeFileSync } from 'node:fs';
 import { recordPlanck } from './record-planck.mjs';
 import { createScene } from './scene.mjs';

@@ -1,4 +1,4 @@
-// Records a Planck (Box2D) world: the boxes of its fixtures, as its own broad phase has them without their margin.
+// Records a Planck (Box2D) world: the boxes of its fixtures, as in its own broad phase but without the margin.
 // In your game: `const recorded = recordPlanck(world)`, then `recorded.frame()` after each `world.step()`.
 import { BroadPhase } from 'broadphase';
 import { record } from 'broadphase/trace';
@@ -13,7 +13,7 @@ export function recordPlanck(world) {
   return {
     space,
     recording,
-    /** The id of a fixture, for what you want to know of it in the recording. */
+    /** The id of a fixture in the recording. */
     idOf: (fixture) => known.get(fixture),
     frame() {
       const now = new Map();
@@ -27,7 +27,7 @@ export function recordPlanck(world) {
           for (let child = 0; child < children; child++) {
             const { lowerBound, upperBound } = fixture.getAABB(child);
             space.set(id + child, lowerBound.x, lowerBound.y, upperBound.x, upperBound.y);
-            // Fixtures of a group meet by other rules than bits, so all may meet there.
+            // Groups have rules that bits cannot express, so fixtures with a group may meet all.
             if (fixture.getFilterGroupIndex() === 0) {
               space.setFilter(id + child, fixture.getFilterCategoryBits(), fixture.getFilterMaskBits());
             }

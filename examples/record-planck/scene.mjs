@@ -1,4 +1,4 @@
-// Boxes and circles are poured over a seesaw on a ground of edges.
+// Boxes and circles fall onto a seesaw on a ground of edges.
 import { Box, Chain, Circle, RevoluteJoint, Vec2, World } from 'planck';
 
 export function createScene(count = 200) {

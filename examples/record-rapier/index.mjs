@@ -1,4 +1,4 @@
-// npm i && npm start: 300 bodies fall onto a floor; five seconds of it become rapier.trace.
+// npm i && npm start: 300 bodies fall onto a floor; five seconds of it are written to rapier.trace.
 import { writeFileSync } from 'node:fs';
 import { recordRapier } from './record-rapier.mjs';
 import { createScene } from './scene.mjs';

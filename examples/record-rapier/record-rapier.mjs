@@ -1,5 +1,5 @@
-// Records a Rapier world (3D): the box of every collider, found from its shape, since Rapier keeps its own to itself.
-// In your game: `const recorded = recordRapier(world)`, then `recorded.frame()` after each `world.step()`.
+// Records a Rapier world (3D): the box of every collider, computed from its shape, since Rapier does not expose its
+// own. In your game: `const recorded = recordRapier(world)`, then `recorded.frame()` after each `world.step()`.
 import { ShapeType } from '@dimforge/rapier3d-compat';
 import { BroadPhase } from 'broadphase';
 import { record } from 'broadphase/trace';
@@ -8,13 +8,13 @@ import { record } from 'broadphase/trace';
 export function recordRapier(world) {
   const space = new BroadPhase({ dimensions: 3 });
   const recording = record(space);
-  /** Handles of Rapier are doubles; ids are small integers. @type {Map<number, number>} */
+  /** By handle, which is a double, the id, a small integer. @type {Map<number, number>} */
   let known = new Map();
   let next = 0;
   return {
     space,
     recording,
-    /** The id of a collider, for what you want to know of it in the recording. */
+    /** The id of a collider in the recording. */
     idOf: (collider) => known.get(collider.handle),
     frame() {
       const now = new Map();
@@ -23,7 +23,7 @@ export function recordRapier(world) {
         const id = known.get(collider.handle) ?? next++;
         now.set(collider.handle, id);
         space.set(id, ...boxOf(collider));
-        const groups = collider.collisionGroups(); // membership in the upper half, whom it meets in the lower
+        const groups = collider.collisionGroups(); // its groups in the upper half, those that it meets in the lower
         space.setFilter(id, groups >>> 16, groups & 0xffff);
         space.setStatic(id, collider.parent()?.isFixed() ?? true);
       });
@@ -42,7 +42,7 @@ export function boxOf(collider) {
   const rows = rotationOf(collider.rotation());
   const { shape } = collider;
   if (shape.vertices) {
-    // Meshes, convex hulls, segments: each corner where it is.
+    // Meshes, convex hulls, segments: from all corners.
     const box = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
     for (let k = 0; k < shape.vertices.length; k += 3) {
       rows.forEach((row, axis) => {
@@ -59,7 +59,7 @@ export function boxOf(collider) {
 
 const grown = (box, place, by) => box.map((side, k) => place[k % 3] + side + (k < 3 ? -by : by));
 
-/** How far a shape about its own middle reaches along an axis of the world, which is `row` to the shape. */
+/** How far a shape reaches from its centre along an axis of the world, which is `row` in the shape's coordinates. */
 function reachOf(shape, row) {
   switch (shape.type) {
     case ShapeType.Ball:
@@ -77,7 +77,7 @@ function reachOf(shape, row) {
     case ShapeType.RoundCone:
       return Math.abs(row[1]) * shape.halfHeight + Math.hypot(row[0], row[2]) * shape.radius;
     default:
-      return Infinity; // half spaces; height fields too: say so yourself where yours is smaller
+      return Infinity; // half spaces and height fields: add a case if yours are smaller
   }
 }
 

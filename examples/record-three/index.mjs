@@ -1,4 +1,4 @@
-// npm i && npm start: 300 asteroids; five seconds of them become three.trace. No renderer is needed for that.
+// npm i && npm start: 300 asteroids; five seconds of them are written to three.trace. That needs no renderer.
 import { writeFileSync } from 'node:fs';
 import { recordThree } from './record-three.mjs';
 import { createScene } from './scene.mjs';

@@ -1,4 +1,4 @@
-// Records a three.js scene: the box of every mesh, as it stands in the world.
+// Records a three.js scene: the box of every mesh in world coordinates.
 // In your game: `const recorded = recordThree(scene)`, then `recorded.frame()` after each `renderer.render(…)`.
 import { BroadPhase } from 'broadphase';
 import { record } from 'broadphase/trace';

@@ -1,4 +1,4 @@
-// Asteroids that turn and drift, in a group that turns as a whole; now and then one is gone.
+// Asteroids that turn and drift, in a group that turns as a whole. Now and then one disappears.
 import { BoxGeometry, Group, IcosahedronGeometry, Mesh, MeshBasicMaterial, Scene } from 'three';
 
 export function createScene(count = 300) {

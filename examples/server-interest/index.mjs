@@ -1,5 +1,5 @@
-// npm i && npm start: 1,000 players without a network, and what telling everybody everything
-// would cost instead. With --serve it listens on port 8080, 20 ticks a second.
+// npm i && npm start: 1,000 players without a network, and the cost of sending everything to everybody instead. With
+// --serve it listens on port 8080, with 20 ticks per second.
 import { Interest } from './interest.mjs';
 import { startServer } from './server.mjs';
 

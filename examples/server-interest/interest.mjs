@@ -1,7 +1,7 @@
-// Interest management: who sees whom, told only where it changes. A server that knows it sends each player the few
-// others in sight instead of everybody.
-// Every player has two boxes: a body, and the window of what it sees. Windows meet bodies only, so the pairs are
-// exactly "this window holds that body", and what began and ended since the last tick is what players are to be told.
+// Interest management: which player sees which, reported only when it changes. With it, a server sends each player the
+// few others in sight instead of everybody.
+// Every player has two boxes: a body, and the window that it sees. Windows meet only bodies, so a pair means that a
+// body is in a window. Players are sent the pairs that began and ended since the last tick.
 import { BroadPhase } from 'broadphase';
 
 const bodies = 1;
@@ -13,12 +13,12 @@ export class Interest {
   #space = new BroadPhase({ events: true });
   #reach;
 
-  /** How far a player sees, to the left and right, and up and down. */
+  /** How far a player sees to each side, and up and down. */
   constructor(reachX, reachY = reachX) {
     this.#reach = [reachX, reachY];
   }
 
-  /** Players are whole numbers from 0 on; those of who left may be given again. */
+  /** Players are whole numbers from 0 on; those of players who left may be reused. */
   add(player, x, y) {
     this.move(player, x, y);
     this.#space.setFilter(body(player), bodies, windows).setFilter(window(player), windows, bodies);
@@ -35,14 +35,14 @@ export class Interest {
     this.#space.delete(window(player));
   }
 
-  /** Once a tick: `enter(viewer, seen)` and `leave(viewer, seen)` for what has changed since the last. */
+  /** Once per tick: calls `enter(viewer, seen)` and `leave(viewer, seen)` for what has changed since the last. */
   update(enter, leave) {
     const { began, ended } = this.#space.update();
     Interest.#tell(ended, leave);
     Interest.#tell(began, enter);
   }
 
-  /** Whom a player sees, as of the last update. */
+  /** The players that a player sees, as of the last update. */
   seenBy(player) {
     return this.#space
       .collisionsOf(window(player))
@@ -53,7 +53,7 @@ export class Interest {
   static #tell(pairs, tell) {
     for (let k = 0; k < pairs.length; k += 2) {
       const [a, b] = [pairs[k], pairs[k + 1]];
-      // One of the two is a window, which is odd. Everyone sees himself.
+      // One of the two is a window, whose id is odd. Every player also sees itself.
       const [viewer, seen] = a & 1 ? [a >> 1, b >> 1] : [b >> 1, a >> 1];
       if (viewer !== seen) tell(viewer, seen);
     }

@@ -1,11 +1,11 @@
-// A game server over WebSockets: players say where they are, and hear of those in sight alone.
+// A game server over WebSockets: players send their place, and are told only about those in sight.
 // From a player: { x, y }. To a player: { enter: id, x, y }, { at: id, x, y } and { leave: id }.
 import { WebSocketServer } from 'ws';
 import { Interest } from './interest.mjs';
 
 /**
- * Starts a server; `port` 0 takes any that is free. `tick()` brings everyone up to date and returns how many messages
- * were sent; call it 20 times a second or so.
+ * Starts a server; `port` 0 takes any free one. `tick()` updates everyone and returns how many messages were sent.
+ * Call it about 20 times per second.
  */
 export function startServer({ port = 0, reach = 50 } = {}) {
   const interest = new Interest(reach);

@@ -1,14 +1,14 @@
-// What the tests of the recorders share: whether the engines are there, and that a recording replays as it was.
+// What the tests of the recorders share: whether the engines are installed, and that a recording replays exactly.
 import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { openTrace, replay } from 'broadphase/trace';
 import { expect } from 'vitest';
 
-/** Whether the packages of the examples are installed (npm ci --prefix examples). In CI they have to be. */
+/** Whether the packages of the examples are installed (npm ci --prefix examples). In CI they must be. */
 export const installed =
   Boolean(process.env.CI) || existsSync(fileURLToPath(new URL('../node_modules/matter-js/', import.meta.url)));
 
-/** Opens the recording, plays it with the exact check on, and gives its frames, copied. */
+/** Opens the recording, plays it with the exact check on, and returns copies of its frames. */
 export function checkRecording(bytes) {
   const trace = openTrace(bytes);
   for (const { difference } of replay(trace, {}, true)) expect(difference).toBeNull();

@@ -1,5 +1,5 @@
-// What a camera sees is what three.js itself says of each box, and no stone that shows is missing; a ray and a map find
-// what a look at every one finds; all while stones move.
+// A camera sees the boxes that three.js itself finds visible, and no visible stone is missing. A ray and a map find
+// what a loop over all stones finds. All this while stones move.
 import { Box3, BoxGeometry, Frustum, Matrix4, PerspectiveCamera, Ray, Vector3 } from 'three';
 import { describe, expect, test } from 'vitest';
 import { Belt, seeded } from '../culling-three/belt.mjs';
@@ -8,9 +8,9 @@ import { missing } from '../culling-three/missing.mjs';
 import { EachByThree, FlatSpheres, InstancedMeshTree, tell } from '../culling-three/rivals.mjs';
 
 const count = 1000;
-/** Not about its own middle, so that this is seen to. */
+/** Off its own centre, so that the test covers that. */
 const brick = new BoxGeometry(1.5, 0.5, 1).translate(0.4, 0, -0.2);
-/** Larger than what roundings do to a coordinate. */
+/** Larger than the rounding error of a coordinate. */
 const slack = 1e-3;
 
 function look(belt, random) {
@@ -68,7 +68,7 @@ test('a ray meets the first box, and a map has those around', () => {
     const origin = new Vector3(1.2 * belt.radius * Math.cos(angle), 0, 1.2 * belt.radius * Math.sin(angle));
     const ray = new Ray(origin, new Vector3(0, 0.04 * (random() - 0.5), 0).sub(origin).normalize());
     const distance = (box) => ray.intersectBox(box, new Vector3())?.distanceTo(origin) ?? Infinity;
-    // three.js tells where a ray that begins inside leaves; ours is 0 there.
+    // For a ray that begins inside, three.js returns where it leaves; ours returns 0.
     const distances = boxes.map((box) => (box.containsPoint(origin) ? 0 : distance(box)));
     const nearest = Math.min(...distances);
     const hit = culler.pick(ray);

@@ -1,4 +1,4 @@
-// Rectangles end up apart, and pairs are pushed as by a look at every two; labels are shown as one by one.
+// Rectangles end up apart, pushed as by a loop over every two; labels are shown as if placed one by one.
 import { describe, expect, test } from 'vitest';
 import { firstScales } from '../force-d3/first-scales.mjs';
 import { forceCollideRect } from '../force-d3/force-collide-rect.mjs';
@@ -85,7 +85,7 @@ describe('firstScales', () => {
   const places = placesOf(1500).map((place) => ({ ...place, width: 6 * place.name.length, height: 1.3 * place.size }));
   const scales = Array.from({ length: 9 }, (_, k) => 0.5 * 2 ** (k / 2));
 
-  /** The same by looking at each label that is shown. */
+  /** The same by a loop over all labels that are shown. */
   function oneByOne(labels) {
     const first = labels.map(() => Number.POSITIVE_INFINITY);
     for (const scale of scales) {

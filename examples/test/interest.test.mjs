@@ -1,4 +1,4 @@
-// What players hear is exactly what comes into sight and goes out of it, through joining, leaving and coming back.
+// Players are told exactly what comes into sight and what leaves it, also when players join, leave and come back.
 import { describe, expect, test } from 'vitest';
 import { installed } from './check.mjs';
 

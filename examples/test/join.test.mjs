@@ -1,4 +1,5 @@
-// `broadphase join` as a process: the pairs are those of the reference, also where it was killed; what is wrong is named.
+// `broadphase join` as a process: its pairs are those of the reference, even after it was killed; errors say what is
+// wrong.
 import { spawn } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -16,7 +17,7 @@ vi.setConfig({ testTimeout: 120_000 }); // most start DuckDB and worker threads 
 let command;
 let duck;
 
-/** Runs the command; `during` gets the process. */
+/** Runs the command; `during` is called with the process. */
 async function run(args, { cwd = here, during } = {}) {
   const started = spawn(process.execPath, [command, 'join', ...args], { cwd });
   let [out, err] = ['', ''];

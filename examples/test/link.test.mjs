@@ -1,5 +1,5 @@
-// Three zones in one process, over a wire that loses and holds back messages: at every tick that all of them reach nobody
-// is missing and nobody there twice. Neither Colyseus nor Redis is in it.
+// Three zones in one process, over a wire that loses and delays messages: at every tick that all of them reach, no
+// entity is missing or there twice. It needs neither Colyseus nor Redis.
 import { createServer } from 'node:http';
 import { afterEach, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
@@ -11,7 +11,7 @@ import { beginnings, cutInto, zoneOf } from '../apart/world-colyseus/world.mjs';
 const count = 3;
 const entities = 6000;
 const zones = cutInto(count);
-/** They keep real time: a zone is silent for five seconds before it is left out. */
+/** Milliseconds. The tests run in real time: a zone is silent for five seconds before it is left out. */
 const limit = 120_000;
 let world;
 
@@ -19,15 +19,15 @@ class World {
   log = [];
   links = [];
   servers = [];
-  /** Zones that had to be made anew. */
+  /** Zones that had to be recreated. */
   lost = [];
   /**
-   * The newest tick that all zones reached, and those in which somebody was missing or there twice, or to which a zone
-   * went back.
+   * The newest tick that all zones reached, and the ticks in which an entity was missing or there twice, or to which a
+   * zone went back.
    */
   whole = -1;
   wrong = [];
-  /** `lost`, `held`, milliseconds on the way, or nothing, for each message. */
+  /** For each message: `lost`, `held`, the milliseconds of its delay, or nothing. */
   fate = () => undefined;
   #held = [];
   #listeners = new Map();
@@ -56,7 +56,7 @@ class World {
     for (const deliver of this.#held.splice(0)) deliver();
   }
 
-  /** Starts all zones, or first these. */
+  /** Creates all zones, and starts some of them. */
   async start(first = [0, 1, 2]) {
     for (let zone = 0; zone < count; zone++) {
       const server = createServer((_, response) => response.end(server.processId));
@@ -101,7 +101,7 @@ class World {
     this.#newest[zone] = tick;
     const all = [...(this.#ticks.get(tick) ?? []), ids];
     this.#ticks.set(tick, all);
-    // Zones that do not know of each other go on each by itself, at ticks of the same number.
+    // Zones that do not know each other run on their own, at ticks with the same numbers.
     const together = this.links.every((link, zone) =>
       this.links.every((_, other) => other === zone || link.isOpen(other)),
     );
@@ -189,7 +189,7 @@ test(
   async () => {
     world = new World();
     await world.start();
-    // The others take four ticks' time for one, and hear of zone 1 only by what it asks.
+    // The others take four times as long per tick, and all messages to and from zone 1 are held back.
     world.fate = (topic, { from, type }) => {
       if (type === 'hello') return 'lost';
       return topic === 'zone:1' || from === 1 ? 'held' : type === 'tick' ? 200 : undefined;
@@ -212,7 +212,7 @@ test(
   async () => {
     world = new World();
     await world.start([0, 1]);
-    // Each of their ticks takes a second, and more than five pass until they are where the third begins.
+    // Each of their ticks takes a second, and it takes more than five until they reach the third zone's first tick.
     world.fate = (_, { type }) => (type === 'tick' ? 1000 : undefined);
     world.links[2].start();
     await world.until(() => world.links[2].tick > 0);

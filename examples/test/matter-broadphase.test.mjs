@@ -1,4 +1,4 @@
-// In every step of a heap of bodies it finds the collisions that Matter's own detector finds.
+// In every step of a heap of bodies, it finds the same collisions as Matter's own detector.
 import { describe, expect, test } from 'vitest';
 import { installed, pairName } from './check.mjs';
 
@@ -27,6 +27,6 @@ describe.skipIf(!installed)('a broad phase for Matter.js', () => {
     for (let step = 0; step < 60; step++) Matter.Engine.update(engine, 1000 / 60);
     Matter.Detector.collisions = original;
     const heights = engine.world.bodies.filter(({ isStatic }) => !isStatic).map(({ position }) => position.y);
-    if (name === 'createHeap') expect(Math.max(...heights)).toBeLessThan(0); // nobody has fallen through the ground
+    if (name === 'createHeap') expect(Math.max(...heights)).toBeLessThan(0); // no body has fallen through the ground
   });
 });

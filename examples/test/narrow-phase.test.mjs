@@ -1,4 +1,4 @@
-// What is handed over is exact: each way against a plain look at everything, and that no hit is outside of the pairs.
+// The narrow phases are exact: each is compared with a loop over everything, and all hits are among the pairs.
 import { describe, expect, test } from 'vitest';
 import { installed } from './check.mjs';
 
@@ -15,7 +15,7 @@ describe.skipIf(!installed)('the narrow phase', () => {
     ball.pos.x = 1.5;
     expect(contactOf(square, ball).overlapV.x).toBeCloseTo(0.5);
     expect(contactOf(square, ball).overlapV.y).toBeCloseTo(0);
-    ball.pos.y = 1.9; // its box overlaps the square's, but at the corner it is round
+    ball.pos.y = 1.9; // its box overlaps the square's, but the ball is round at the corner
     expect(contactOf(square, ball)).toBeUndefined();
     square.setAngle(Math.PI / 4);
     expect(boundsOf(square).map((x) => x.toFixed(3))).toEqual(['-1.414', '-1.414', '1.414', '1.414']);

@@ -1,5 +1,5 @@
-// Two worlds alike, one with each broad phase: all that touches in the one touches in the other, rays and boxes that are
-// asked for meet the same, and bodies that go or jump leave nothing behind.
+// Two equal worlds, one with each broad phase: the same things touch in both, ray casts and box queries find the
+// same, and bodies that are removed or jump leave nothing behind.
 import { describe, expect, test } from 'vitest';
 import { installed } from './check.mjs';
 
@@ -28,7 +28,7 @@ describe.skipIf(!installed)('a broad phase for Planck', () => {
     let contacts = 0;
     for (let step = 0; step < 100; step++) {
       for (const [a, b] of bodiesOf(own).map((body, k) => [body, bodiesOf(ours)[k]])) {
-        // The order of contacts is not the same, and so are the last digits; the worlds are kept alike.
+        // The order of contacts differs, so the last digits do too: the worlds are kept equal.
         b.setTransform(a.getPosition(), a.getAngle());
         b.setLinearVelocity(a.getLinearVelocity());
         b.setAngularVelocity(a.getAngularVelocity());

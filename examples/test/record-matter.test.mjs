@@ -1,4 +1,4 @@
-// Every collision that Matter.js finds is among the pairs of the recording, and the recording replays as it was.
+// Every collision that Matter.js finds is among the pairs of the recording, and the recording replays exactly.
 import { describe, expect, test } from 'vitest';
 import { checkRecording, installed, pairName, pairsOf } from './check.mjs';
 

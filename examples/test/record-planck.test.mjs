@@ -1,4 +1,4 @@
-// Every contact that touches in Planck is among the pairs of the recording, and the recording replays as it was.
+// Every contact that touches in Planck is among the pairs of the recording, and the recording replays exactly.
 import { describe, expect, test } from 'vitest';
 import { checkRecording, installed, pairName, pairsOf } from './check.mjs';
 
@@ -7,7 +7,7 @@ describe.skipIf(!installed)('recording Planck', () => {
     const { recordPlanck } = await import('../record-planck/record-planck.mjs');
     const { createScene } = await import('../record-planck/scene.mjs');
     const world = createScene(100);
-    world.setContinuousPhysics(false); // else contacts are made within a step, where bodies never stood
+    world.setContinuousPhysics(false); // otherwise contacts begin within a step, at places that are never recorded
     const recorded = recordPlanck(world);
     let contacts = 0;
     for (let step = 0; step < 150; step++) {
@@ -18,7 +18,7 @@ describe.skipIf(!installed)('recording Planck', () => {
       const pairs = pairsOf(recorded.space);
       for (let contact = world.getContactList(); contact; contact = contact.getNext()) {
         if (!contact.isTouching()) continue;
-        // What touches the skin of a chain may be outside its box: Planck leaves the skin out of that.
+        // A body that touches the skin of a chain may be outside its box, which Planck makes without the skin.
         if (contact.getFixtureA().getType() === 'chain' || contact.getFixtureB().getType() === 'chain') continue;
         contacts++;
         const a = recorded.idOf(contact.getFixtureA()) + contact.getChildIndexA();

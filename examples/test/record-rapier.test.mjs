@@ -1,4 +1,4 @@
-// Every contact of Rapier is among the pairs of the recording, its boxes hold its shapes, and it replays as it was.
+// Every contact of Rapier is among the pairs of the recording, its boxes contain its shapes, and it replays exactly.
 import { describe, expect, test } from 'vitest';
 import { checkRecording, installed, pairName, pairsOf } from './check.mjs';
 
@@ -50,7 +50,7 @@ describe.skipIf(!installed)('recording Rapier', () => {
     for (const shape of shapes) {
       const collider = world.createCollider(shape.setTranslation(1, 2, 3).setRotation(turned));
       const box = boxOf(collider);
-      // A ray along each axis just within a face that is searched all over meets the shape, one just outside does not.
+      // Along each axis, a slab just inside the box touches the shape, and one just outside does not.
       for (let axis = 0; axis < 3; axis++) {
         expect(reaches(RAPIER, collider, box, axis, -0.02)).toBe(true);
         expect(reaches(RAPIER, collider, box, axis, 1e-3)).toBe(false);

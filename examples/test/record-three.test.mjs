@@ -1,4 +1,4 @@
-// The boxes of the recording are those that three.js itself gives for the meshes, and it replays as it was.
+// The boxes of the recording are those that three.js itself computes for the meshes, and it replays exactly.
 import { describe, expect, test } from 'vitest';
 import { checkRecording, installed } from './check.mjs';
 

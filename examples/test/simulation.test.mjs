@@ -1,4 +1,4 @@
-// Who was handed to a zone is known until that zone, lost meanwhile, has had time for a snapshot.
+// Entities handed to a zone that is lost meanwhile are remembered until it has had time for a snapshot.
 import { expect, test } from 'vitest';
 import { Simulation } from '../apart/world-colyseus/simulation.mjs';
 import { cutInto, sight, world } from '../apart/world-colyseus/world.mjs';

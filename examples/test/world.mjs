@@ -1,7 +1,7 @@
-// The world, end to end: three processes, entities and clients handed over; one process killed and its zone made anew
-// within two seconds, one that says nothing and comes back, Redis stopped and started again. At every tick that all zones
-// report nobody is missing and nobody there twice. Then the same in memory.
-// What is waited for is told by the world itself, and limits are numbers of its reports, so a slow machine only takes longer.
+// The world, end to end: three processes, with entities and clients handed over. One process is killed and its zone
+// recreated within two seconds; one is silent and comes back; Redis is stopped and started again. At every tick that
+// all zones report, no entity is missing or there twice. Then the same in memory. The world itself reports what the
+// test waits for, and limits are counts of its reports, so a slow machine only takes longer.
 //
 //   npm run test:world
 import { equal, ok } from 'node:assert/strict';
@@ -24,25 +24,25 @@ if (!existsSync(modules)) skip('npm ci --prefix examples/apart brings what it ne
 if (missing) skip(missing);
 if (spawnSync('redis-server', ['--version']).error) skip('redis-server is not installed: apt-get install redis-server');
 
-/** The sum of all ids, by which a missing and a doubled one show. */
+/** The sum of all ids: a missing or doubled entity changes it. */
 const allIds = (entities * (entities - 1)) / 2;
-/** Reports that anything may take; a zone that keeps pace gives four a second. */
+/** The most reports that anything may take; a zone that keeps up makes four per second. */
 const patience = 1500;
-/** Milliseconds without any report after which nothing more is expected. */
+/** Milliseconds without a report after which none is expected any more. */
 const silence = 90_000;
 
 class World {
   events = [];
-  /** The newest reports, by zone, and how many there were. */
+  /** The newest report of each zone, and the number of reports. */
   reports = new Map();
   reported = 0;
-  /** The newest reports of one and the same tick by all zones, and how many such ticks there were. */
+  /** The newest reports of all zones for the same tick, and the number of such ticks. */
   whole;
   wholes = 0;
   clients = {};
-  /** What was wrong in some tick. */
+  /** What was wrong in a tick. */
   fault = '';
-  /** The end of what the processes wrote to standard error. */
+  /** The end of the standard error of the processes. */
   complaints = '';
   #heard = performance.now();
 
@@ -67,7 +67,7 @@ class World {
     this.reported++;
     this.reports.set(report.zone, report);
     const all = [...this.reports.values()];
-    // Zones that do not count with each other go on each by itself, at ticks of the same number.
+    // Zones that do not know each other run on their own, at ticks with the same numbers.
     if (all.length < zones || all.some(({ tick, beside }) => tick !== report.tick || beside < zones - 1)) return;
     this.whole = all;
     this.wholes++;
@@ -76,7 +76,7 @@ class World {
     this.fault ||= `tick ${report.tick}: ${sum('entities')} entities with the sum ${sum('ids')}, expected ${entities} with ${allIds}`;
   }
 
-  /** Waits for something; fails where something is wrong, and with what was said meanwhile. */
+  /** Waits for something; fails if anything is wrong, with the output since then. */
   async until(what, holds) {
     for (const last = this.reported + patience; !this.fault && this.reported < last; ) {
       const value = holds();
@@ -98,7 +98,7 @@ class World {
     return this.events.find(({ text, at }) => at >= since && pattern.test(text ?? ''));
   }
 
-  /** Waits for a tick after this one of which all zones report. */
+  /** Waits for a tick after this one that all zones report. */
   wholeAfter = (tick) => this.until(`all zones after tick ${tick}`, () => this.whole?.[0].tick > tick && this.whole);
 
   async end() {
@@ -109,7 +109,7 @@ class World {
   }
 }
 
-/** A port that is free, with those behind it that the world takes. */
+/** A free port, followed by as many free ones as the world needs. */
 async function freePort() {
   for (;;) {
     const first = 20_000 + Math.floor(Math.random() * 10_000);
@@ -127,7 +127,7 @@ async function freePort() {
 
 const tickIn = ({ text }) => Number(/tick (\d+)/.exec(text)[1]);
 
-/** All three zones are there, each in its process, and entities and clients go from one to another. */
+/** All three zones run, each in its process, and entities and clients go from one to another. */
 async function begins(world) {
   await world.until('a tick of all zones', () => world.whole);
   await world.until('all clients are there', () => world.clients.connected === clients);
@@ -139,8 +139,8 @@ async function begins(world) {
 }
 
 /**
- * A process is killed: within two seconds its zones are made anew elsewhere and count again, and their clients find
- * them.
+ * A process is killed: within two seconds its zones are recreated elsewhere and take part again, and their clients
+ * reconnect.
  */
 async function isKilled(world) {
   // The first process is the one whose reports are read.
@@ -172,7 +172,7 @@ async function isKilled(world) {
   ok(took < 2000, `taken over after ${took} ms, expected less than 2000\n${said.join('\n')}`);
 }
 
-/** A zone cannot be reached for a while, though its process is there: the others go on, and it finds back. */
+/** A zone cannot be reached for a while, though its process is alive: the others go on, and it joins again. */
 async function isSilent(world) {
   // Not the first process, whose reports are read; it has zone 0.
   const first = Math.min(...world.whole.map(({ port }) => port));
@@ -192,7 +192,7 @@ async function isSilent(world) {
   console.log(`silent: the others went on without zone ${zone}; "${back.text}"`);
 }
 
-/** Redis ends, and is there again: the world waits, and goes on. */
+/** Redis stops and starts again: the world waits, and goes on. */
 async function losesRedis(world) {
   const { redis } = world.events.find((event) => event.redis);
   const stopped = Date.now();

@@ -1,4 +1,4 @@
-// npm i && npm start: notes to drag about, which say which of them overlap.
+// npm i && npm start: notes to drag around, which know which of them overlap.
 import { createApp } from 'vue';
 import App from './App.vue';
 

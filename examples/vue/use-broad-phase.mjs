@@ -1,12 +1,12 @@
-// Which boxes overlap, for Vue. Pairs are computed, so they are found anew where a box has moved, and only then; they are
-// a copy, which nothing changes later.
+// Which boxes overlap, for Vue. Pairs are a computed value, so they are found again only when a box has moved. They
+// are a copy, which does not change later.
 import { BroadPhase } from 'broadphase';
 import { computed, onScopeDispose, toValue } from 'vue';
 
 /**
- * boxes: an array, or a ref or getter of one: [minX, minY, maxX, maxY] of each id, undefined where there is none.
+ * boxes: an array, or a ref or getter of one: [minX, minY, maxX, maxY] for each id, or undefined if it has no box.
  * options: those of a space.
- * Gives pairs, [a, b, a, b, …], and space(), for queries: it has the boxes as they are now.
+ * Returns pairs, [a, b, a, b, …], and space(), for queries: it has the boxes as they are now.
  */
 export function useBroadPhase(boxes, options) {
   const held = new BroadPhase(options);
@@ -21,7 +21,7 @@ export function useBroadPhase(boxes, options) {
     return held.update().pairs.slice();
   });
   const space = () => {
-    void pairs.value; // brings it to the boxes, where one has changed
+    void pairs.value; // updates it, if a box has changed
     return held;
   };
   return { pairs, space };

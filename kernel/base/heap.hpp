@@ -1,12 +1,13 @@
-// Memory: growable arrays over one heap that never asks twice for the same bytes.
-// Idea: sizes are rounded up to quarter octaves (waste at most 25 %); a block given back waits in the list of its size
-// class; the last block grows in place, so the pair list, the one array of unpredictable size, costs no copy. Natively
-// the same arrays use malloc, where AddressSanitizer sees them. When memory runs out, `fail` is called before anything
-// has changed. It does not return: in wasm it traps, which the JavaScript side turns into an error; natively it throws.
+// Memory: growable arrays on one heap, which reuses freed blocks.
+// Idea: sizes are rounded up to quarter octaves (waste at most 25 %). A freed block goes to the free list of its size
+// class. The last block grows in place, so that the pair list, the one array of unpredictable size, is not copied.
+// Natively the same arrays use malloc, so that AddressSanitizer sees them. When memory runs out, `fail` is called
+// before anything has changed. It does not return: in wasm it traps, which the JavaScript side turns into an error;
+// natively it throws.
 #pragma once
 #include "base/simd.hpp"
 
-// Code that runs rarely: optimized for size, and kept out of line from the code that runs often.
+// Optimized for size and never inlined: code that runs rarely, or spends its time in faster functions that it calls.
 #if defined(__clang__)
 #define SMALL __attribute__((noinline, minsize))
 // Before a loop that is not worth unrolling.
@@ -15,10 +16,8 @@
 #define SMALL __attribute__((noinline, cold))
 #define ROLLED  // g++ builds only the tests, and warns if its own pragma has no effect
 #endif
-// One copy for all callers: code that runs long each time it is called.
-#define SHARED __attribute__((noinline))
-
-// One copy of what several callers share.
+// Never inlined, but optimized for speed: one copy for several callers, which keeps the module small, or a hot loop that
+// is better compiled apart from its caller.
 #define NOINLINE __attribute__((noinline))
 
 enum class Fault : u32 { none = 0, out_of_memory = 1 };
@@ -62,7 +61,7 @@ NOINLINE inline void read_rows(const void* rows, u32 bytes, const u32* numbers, 
 namespace heap {
 
 inline constexpr u32 least = 64;  // bytes of the smallest block; all are aligned to 16
-inline size_t used = 0;  // bytes in blocks that are handed out
+inline size_t used = 0;  // bytes in blocks that are in use
 
 /// The size class of a request: class c holds blocks of (4 + c % 4) << (c / 4) times `least` / 4 bytes.
 inline u32 size_class(size_t bytes) {
@@ -82,9 +81,9 @@ inline u32 checked_class(u64 bytes) {
 
 #if defined(__wasm__)
 extern "C" u8 __heap_base;
-inline u8* top = nullptr;  // first byte never handed out
-inline u8* highest = nullptr;  // where `top` stood before it last went down, at most
-inline u8* waiting[112] = {};  // per size class, the given-back blocks, each holding the address of the next
+inline u8* top = nullptr;  // first byte after all blocks
+inline u8* highest = nullptr;  // the largest `top` before it was lowered
+inline u8* waiting[112] = {};  // per size class, the free list: each block begins with the address of the next
 
 /// Makes the memory extend `bytes` beyond `top`; false if it cannot. Growing detaches every view that JavaScript holds,
 /// so it takes a quarter more than needed, and 1 MiB: untouched pages cost nothing.
@@ -167,7 +166,7 @@ class Block {
 
   u64 bytes() const { return at_ ? heap::class_bytes(class_) : 0; }
 
-  /// At least that many bytes; what was inside is lost when it has to grow.
+  /// Makes room for `wanted` bytes; the contents are lost if the block has to grow.
   NOINLINE void* reserve_bytes(u64 wanted) {
     if (wanted <= bytes() && at_) return at_;
     u32 to = heap::checked_class(wanted);
@@ -176,7 +175,7 @@ class Block {
     return at_ = heap::take(to);
   }
 
-  /// At least that many bytes, and at least half as many again as before; the first `keep` are preserved.
+  /// Makes room for `wanted` bytes and preserves the first `keep`. A block that has to grow does so by at least half.
   NOINLINE void* grow_bytes(u64 wanted, u64 keep) {
     if (wanted <= bytes() && at_) return at_;
     u32 to = heap::checked_class(larger(wanted, bytes() + bytes() / 2));
@@ -224,9 +223,9 @@ template <class T> class Buffer : public Block {
   T& operator[](size_t i) const { return data()[i]; }
   u64 capacity() const { return bytes() / sizeof(T); }
 
-  /// Room for n values; what was inside is lost when it has to grow.
+  /// Makes room for n values; the contents are lost if the array has to grow.
   T* reserve(u64 n) { return static_cast<T*>(reserve_bytes(n * sizeof(T))); }
 
-  /// Room for n values; the first `keep` are preserved.
+  /// Makes room for n values and preserves the first `keep`.
   T* grow(u64 n, u64 keep) { return static_cast<T*>(grow_bytes(n * sizeof(T), keep * sizeof(T))); }
 };

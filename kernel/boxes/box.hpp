@@ -1,9 +1,9 @@
 // Boxes as the techniques see them.
-// A scene is a dense array of float32 boxes; a box's place in it is its slot. Inside a technique a box is an
-// item: its bounds with the axes reordered (the sweep axis first), and a tag: the slot in 24 bits and 8
-// exclusion bits. Two items that share an exclusion bit are never reported as a pair. One AND thus answers
-// three questions at once: did both continue into this cell from an earlier one (then they have met there), are
-// both static, are both of one colour (bipartite search).
+// A scene is a dense array of float32 boxes; a box's place in it is its slot. Inside a technique a box is an item: its
+// bounds, with the axes reordered so that the sweep axis comes first, and a tag: the slot in 24 bits and 8 exclusion
+// bits. Two items that share an exclusion bit are never reported as a pair. So one AND rejects a pair for any of three
+// reasons: both continue into this cell from an earlier one (where they have met), both are static, or both have one
+// colour (bipartite search).
 #pragma once
 #include "boxes/changes.hpp"
 
@@ -111,7 +111,7 @@ template <int D> struct SceneItems {
   }
 };
 
-/// Items of the scene in another order, given as slots, which may carry marks.
+/// Items of the scene in another order, given as slots, whose upper bits may have exclusion bits to add.
 template <int D> struct PickedItems {
   SceneItems<D> items;
   const u32* slots;
@@ -122,7 +122,7 @@ template <int D> struct PickedItems {
 /// Items stored contiguously, in the order chosen by a technique.
 template <int D> struct Items {
   Buffer<f32x4> boxes;
-  Buffer<u32> tags;  // 2D; in 3D the tag travels in the box's spare lane
+  Buffer<u32> tags;  // in 2D; in 3D the tag is in the box's spare lane
 
   void grow(u64 n, u64 keep) {
     boxes.grow(n * (D - 1), keep * (D - 1));
@@ -164,7 +164,7 @@ template <int D> struct LaneView {
   const u32* tag;
 };
 
-/// Four rows of four, turned into columns.
+/// Transposes four rows of four.
 inline void transpose(f32x4 (&row)[4]) {
   f32x4 ab_low = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
   f32x4 ab_high = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);

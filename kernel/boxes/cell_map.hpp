@@ -1,4 +1,4 @@
-// From coordinates to cells. The map is monotone, so that boxes that overlap span cells that overlap.
+// From coordinates to cells. The map is monotone, so the cells of overlapping boxes overlap too.
 #pragma once
 #include "base/heap.hpp"
 

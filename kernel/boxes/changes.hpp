@@ -1,6 +1,6 @@
 // Which boxes have changed since the last update.
-// Idea: a list of slots and a mark for each, so that a slot enters once; or, if memory was written without a call, "all
-// may have changed". A slot that is not in it is unchanged, so an update of a world at rest costs nothing. A mark is a
+// Idea: a list of slots and a mark for each slot, so that it enters once. If memory was written without a call, all may
+// have changed. A slot that is not in the list is unchanged, so an update of a world at rest costs nothing. A mark is a
 // byte: neighbouring bits would form a dependency chain of reads and writes.
 // Cost: about 1 ns for each recorded change; 5 bytes for each box.
 #pragma once
@@ -25,7 +25,7 @@ class Changes {
   bool some_ = false;  // false: all may have changed
 
  public:
-  /// For many notes in a row: keeps the state in registers. `end` writes it back.
+  /// Notes many changes in a row, with the state in registers. `end` writes it back.
   struct Notes {
     u32* list;
     u8* marks;
@@ -40,7 +40,7 @@ class Changes {
   Notes begin() const { return {list_.data(), marks_.data(), count_}; }
   void end(const Notes& notes) { count_ = notes.count; }
 
-  /// Room for that many slots; nothing is lost if memory runs out.
+  /// Makes room for this many slots; nothing is lost if memory runs out.
   void make_room(u64 slots) {
     if (slots <= room_) return;
     list_.grow(slots + 1, count_);  // one more: a slot that is already listed is written, but not counted

@@ -36,7 +36,7 @@ template <int D> class GapMap {
     plain_ = true;
   }
 
-  /// A box whose numbers are all exact in float32: its first and its last four numbers.
+  /// A box in float32, without the map: its first and its last four numbers.
   static void narrowed(const f64* box, f32x4& first, f32x4& last) {
     f32x4 pairs[D];
     for (u32 k = 0; k < D; k++) pairs[k] = narrow(load<f64x2>(box + 2 * k));
@@ -66,7 +66,7 @@ template <int D> class GapMap {
     return collapses(box, to);
   }
 
-  /// The same, for many boxes. `plain`: that of this map, which the caller keeps in a register.
+  /// The same, for use in a loop. `plain` is `plain()`, which the caller keeps in a register.
   bool round(bool plain, const f64* box, f32* to) const {
     f32x4 first, last;
     narrowed(box, first, last);
@@ -76,9 +76,9 @@ template <int D> class GapMap {
     return false;
   }
 
-  /// What `narrowed` has made of many boxes: whether each has a size and an end, so that this is all there is to do.
+  /// Checks many results of `narrowed`: if all boxes are finite and have a size, no further test is needed.
   class Sizes {
-    // As integers: what is no number, or negative, is above all others.
+    // Compared as integers, so NaN and negative numbers are above all others.
     u32x4 least_ = splat(0xffffffffu), most_ = splat(0u);
 
    public:
@@ -94,14 +94,14 @@ template <int D> class GapMap {
     }
   };
 
-  /// What came of rounding many boxes.
+  /// The result of rounding many boxes.
   struct Rounded {
     i32 bad = -1;  // the first bad box; those after it are not rounded
     bool inexact = false;  // some numbers are not exact in float32
     u32 collapsed = 0;  // boxes that rounding collapsed along an axis
   };
 
-  /// Many boxes as float32: unchanged if all their numbers are exact in float32, otherwise as `round` gives them.
+  /// Writes many boxes as float32: unchanged if all their numbers are exact in float32, otherwise as `round` does.
   NOINLINE Rounded round_all(const f64* from, u32 count, f32* to) const {
     const bool plain = plain_;
     bool mapped = !plain, inexact = false;
@@ -213,8 +213,8 @@ template <int D> class GapMap {
     return bits<i32x4>((bits<u32x4>(x) & splat(0x7fffffffu)) == splat(0x7f800000u));
   }
 
-  /// Finite numbers beyond float32 become its largest number. They are then equal to others, so their pairs are in
-  /// doubt. Only infinite ones stay infinite, so differences of bounds are numbers.
+  /// Finite numbers beyond float32 become its largest number. They may then be equal to others, so their pairs are in
+  /// doubt. Only infinite ones stay infinite, so differences of bounds are not NaN.
   SMALL void bound(const f64* box, f32* to) const {
     for (u32 n = 0; n < width; n++) {
       bool is_low = n < D;

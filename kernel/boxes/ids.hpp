@@ -12,10 +12,10 @@ class Ids {
   bool named_ = false;  // ids are stored; else slot == id for all (all zero, so that it takes no room in the wasm)
   u32 count_ = 0;
   Buffer<u32> id_of_;              // per slot
-  Buffer<u32> next_;               // what `replace` puts in place of it
+  Buffer<u32> next_;               // the ids that `replace` puts in its place
   Buffer<u32> pages_[page_count];  // per 4,096 ids: slot + 1 of each, 0 where the id is free
   u32 clock_ = 0;                  // the next sequence number; 0: slots are in order
-  Buffer<u32> since_;              // per slot, if they are not: its sequence number
+  Buffer<u32> since_;              // per slot, if they are not in order: its sequence number
   RadixSort sort_;
 
   u32* page(u32 id) {
@@ -68,7 +68,7 @@ class Ids {
 
   u32 count() const { return count_; }
   bool same() const { return !named_; }
-  /// The id of each slot, or null where slot and id are the same.
+  /// The id of each slot, or null if slots and ids are the same.
   const u32* names() const { return named_ ? id_of_.data() : nullptr; }
   /// Per 4,096 ids: the address of their page, which holds slots + 1; 0 if none of these ids was ever used.
   const Buffer<u32>* pages() const { return pages_; }
@@ -136,8 +136,8 @@ class Ids {
     sort_.release();
   }
 
-  /// Replaces the ids by these, added in this order, or as the sequence numbers in `since` say. False, and nothing has
-  /// changed, if some are not ids or are there twice.
+  /// Replaces the ids by these, added in this order, or as the sequence numbers in `since` say. Returns
+  /// false, and changes nothing, if some are not ids or are there twice.
   SMALL bool replace(const u32* ids, u32 count, const u32* since, u32 clock) {
     for (u32 s = 0; s < count; s++) {
       if (ids[s] >= page_size * page_count) return false;

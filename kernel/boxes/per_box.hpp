@@ -1,6 +1,6 @@
 // A number per box that most spaces never use. It belongs to the id, and is 0 by default.
 // Idea: nothing is stored until the first box has one; then one is stored for each slot.
-// Cost: one number for each box that there is room for.
+// Cost: then one number for each slot, free ones included.
 #pragma once
 #include "boxes/ids.hpp"
 
@@ -8,7 +8,7 @@ template <class T> class PerBox {
   bool some_ = false;     // some box may have a number
   bool changed_ = false;  // since the last update
   Buffer<T> values_;      // per slot
-  Buffer<T> staged_;      // what `replace` puts in place of them
+  Buffer<T> staged_;      // the values that `replace` puts in their place
 
  public:
   bool some() const { return some_; }
@@ -28,7 +28,7 @@ template <class T> class PerBox {
     values_[slot] = value;
   }
 
-  /// Room for the numbers that `replace` will put in place of all.
+  /// Room for the values that `replace` puts in place of all.
   SMALL T* stage(u32 count) { return staged_.reserve(larger(count, 1u)); }
   SMALL void replace() {
     values_.swap(staged_);

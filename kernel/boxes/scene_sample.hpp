@@ -51,8 +51,8 @@ inline constexpr u32 most_samples = 1024;
 inline f32 sample[6][most_samples];  // per axis the minima, then per axis the maxima
 inline f32 sorted[most_samples];
 
-/// The k-th smallest of n values, which are reordered (quickselect with the median of three). Values may be `width`
-/// apart, as one coordinate of points is.
+/// The k-th smallest of n values, which are reordered (quickselect with the median of three). With a `width` above 1,
+/// they are points of that many coordinates, compared along one axis.
 template <int width = 1> SMALL f32 select(f32* points, i32 n, i32 k, int axis = 0) {
   f32* v = points + axis;
   i32 from = 0, to = n - 1;
@@ -99,7 +99,7 @@ inline u32 samples_of(u32 count) { return smaller(count, smaller(larger(count / 
 
 inline bool is_finite(f32 x) { return x - x == 0; }
 
-/// The extent of the finite ones of n values, without outliers.
+/// The extent of the finite values among n, without outliers.
 SMALL inline void extents(const f32* v, u32 n, f64& low, f64& high) {
   // In float32, values near the largest float would overflow; in double none do.
   f64 least = __builtin_inf(), most = -__builtin_inf(), sum = 0, squares = 0;
@@ -127,8 +127,8 @@ SMALL inline void extents(const f32* v, u32 n, f64& low, f64& high) {
     low = high = 0;
     return;
   }
-  // Cut off a tail of 2 % on each side, and one of 12 % where that makes the extent much smaller still: values outside
-  // go to the border cells.
+  // Cuts off 2 % on each side, or 12 % if that leaves less than a sixteenth. Values outside go to the border
+  // cells.
   for (i32 share = 50; share > 0; share = share == 50 ? 8 : 0) {
     i32 tail = kept / share;
     f64 from = select(sorted, kept, tail), to = select(sorted, kept, kept - 1 - tail);
@@ -149,8 +149,8 @@ SMALL inline f64 common_size(int axis, int dimensions, u32 count, f64 share) {
   return kept ? select(sorted, kept, i32((kept - 1) * share)) : 0;
 }
 
-/// The sample of the n items sampled.
-template <int D> SHARED SceneSample<D> judge(u32 n) {
+/// Evaluates the n items in `sample`.
+template <int D> NOINLINE SceneSample<D> judge(u32 n) {
   SceneSample<D> found;
   constexpr u32 side = D == 2 ? 64 : 16;
   static u16 cell[most_samples];
@@ -183,7 +183,7 @@ template <int D> SHARED SceneSample<D> judge(u32 n) {
 }  // namespace detail
 
 /// A sample of `count` items (Source: SceneItems or ItemsAt), along the axes as the source gives them.
-template <int D, class Source> SHARED SceneSample<D> measure(const Source& items, u32 count) {
+template <int D, class Source> NOINLINE SceneSample<D> measure(const Source& items, u32 count) {
   using detail::sample;
   u32 n = detail::samples_of(count);
   detail::Sampling sampling(count, n);

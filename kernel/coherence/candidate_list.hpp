@@ -1,12 +1,13 @@
 // The list of candidates: the regions in which they hold, and how boxes that leave theirs are served.
 //
-// Idea: each box has a region, which is the box as it was when the list was made, with a margin on all sides. If that pays,
-// it also reaches ahead, to where the box will be if it goes on as it has moved since the list before was made. Two boxes
-// whose regions touch are a candidate. While boxes stay in their regions, an update checks all boxes and tests the
-// candidates.
-//   - Late: a box that has left its region gets another, and the candidates that follow from it. Its base, which is its
+// Idea: each box has a region: the box as it was when the list was made, with a margin on all sides. If that pays, the
+// region also reaches ahead, to where the box will be if it keeps moving as it has since the previous list was made.
+// Two boxes whose regions touch are a candidate. While boxes stay in their regions, an update only checks all boxes and
+// tests the candidates.
+//   - Late: a box that has left its region gets another, with the candidates that this adds. Its base, which is its
 //     first region, still determines which candidates are listed.
-//   - At rest: a box that has not moved since the list before was made is its own region. Pairs of two such boxes are settled: they are at the head of the list of pairs, and are not tested again.
+//   - At rest: a box that has not moved since the previous list was made is its own region. Pairs of two such boxes are
+//     settled: they are at the head of the list of pairs and are not tested again.
 // Cost: about 1 ns per box and 2 ns per candidate; 0.1 (2D) to 0.6 µs per late box; 1.5 to two strip sweeps to make the
 // list. Memory, in addition to that of strip sweep: about 71 (2D) or 95 (3D) bytes per box, and 8 per candidate.
 // From: L. Verlet, "Computer Experiments on Classical Fluids", 1967.
@@ -17,35 +18,35 @@
 
 template <int D> class CandidateList {
   static constexpr u32 width = 2 * D;
-  static constexpr u32 room_step = 4096;  // candidates between two looks whether there is room for their pairs
-  static constexpr u32 doubt_step = 32;  // candidates whose pairs are in doubt together
+  static constexpr u32 room_step = 4096;  // candidates tested between two checks for room in the list of pairs
+  static constexpr u32 doubt_step = 32;  // candidates whose pairs are recorded as in doubt together
   static constexpr u32 padding = 4;  // vector loads may read this many floats past the last box
   static constexpr Tuning<D> tuning = {};
   // In a tag, below the exclusion bits:
   enum : u32 { rests = 1, late = 2, fresh = 4 };
 
   StripSweep<D>& anew_;
-  u32 count_ = 0;  // boxes that are followed; 0: there is no list
-  bool watched_ = false;  // pairs in doubt are to be noted
+  u32 count_ = 0;  // boxes in the list; 0: there is no list
+  bool watched_ = false;  // pairs in doubt are recorded
   bool filtered_ = false;  // some have exclusion bits
   bool grouped_ = false;  // some have a group
   // Per slot:
   Buffer<f32> regions_;
-  Buffer<f32> origins_;  // boxes as they were when the list was made, or while there is none, when the watch began
-  u32 origin_count_ = 0, origin_age_ = 0;  // of how many boxes; updates since
-  Buffer<u32> tags_;  // exclusion bits, and ours below them
-  Buffer<u32> groups_;  // while `grouped_`: two of one group are no candidate
-  Buffer<u32> late_;  // slots; and behind them those that a search has met
-  Places<D> places_;  // of the regions, and those when the list was made: from when the first box was late
+  Buffer<f32> origins_;  // boxes as they were when the list was made; without a list, when the samples were taken
+  u32 origin_count_ = 0, origin_age_ = 0;  // number of these boxes; updates since
+  Buffer<u32> tags_;  // exclusion bits, and below them `rests`, `late` and `fresh`
+  Buffer<u32> groups_;  // while `grouped_`: two boxes of one group are not a candidate
+  Buffer<u32> late_;  // slots of late boxes; after them, those that a search finds
+  Places<D> places_;  // of the regions and the bases; filled when the first box is late
   bool placed_ = false;
   u32 late_count_ = 0, resting_ = 0;
-  u64 met_ = 0;  // regions that a search for the late has met in this update
-  Pairs candidates_, extra_, settled_;  // extra: those of boxes that have been late
+  u64 met_ = 0;  // regions that the searches for late boxes have tested in this update
+  Pairs candidates_, extra_, settled_;  // extra: those added by late boxes
   u64 head_ = 0;  // length of the prefix of `settled_` that the last report has
-  Stats built_ = {};  // of the sweep that made the list; its candidates are all, settled ones among them
+  Stats built_ = {};  // of the sweep that made the list; its candidates include settled pairs
   f32 margin_ = 0;
-  Shift common_;  // what the watch said of common motion when the list was made
-  Shift shift_;  // takes back what all have moved in common since
+  Shift common_;  // the common motion until the list was made
+  Shift shift_;  // undoes the common motion since then
 
  public:
   constexpr explicit CandidateList(StripSweep<D>& anew) : anew_(anew) {}
@@ -54,24 +55,24 @@ template <int D> class CandidateList {
   u32 resting() const { return resting_; }
   /// Candidates that are tested in each update.
   u64 tested() const { return candidates_.count + extra_.count; }
-  /// What the sweep that made the list did.
+  /// The statistics of the sweep that made the list.
   const Stats& built() const { return built_; }
 
-  /// Work that this update took for the late, and what it takes even if none is.
+  /// The work of this update for late boxes, and of any update without them. `looked`: boxes that it checks.
   f64 late_work() const { return late_count_ * tuning.late + (met_ + extra_.count) * tuning.candidate; }
   f64 least_work(f64 looked) const { return candidates_.count * tuning.candidate + looked * tuning.look; }
-  /// Work that it took to make the list.
+  /// The work of making the list.
   f64 made_work() const {
     return tuning.entry * built_.entries + built_.tests + built_.candidates + 2 * tuning.look * count_;
   }
 
-  /// Whether pairs in doubt are to be noted: if that is new, what is settled may be in doubt.
+  /// Sets whether pairs in doubt are recorded. If that is new, settled pairs may be in doubt, so the list is dropped.
   void watch(bool watched) {
     if (watched && !watched_) forget();
     watched_ = watched;
   }
 
-  /// Gives up the list, but not the memory.
+  /// Drops the list, but keeps the memory.
   SMALL void forget() {
     count_ = resting_ = 0;
     candidates_.count = extra_.count = settled_.count = 0;
@@ -100,10 +101,11 @@ template <int D> class CandidateList {
     common_ = common;
   }
 
-  /// An update has passed.
+  /// Counts an update.
   void pass() { origin_age_++; }
 
-  /// A list of these boxes. `some_rest`: not all move. Regions reach ahead no further than `far`.
+  /// Makes a list of these boxes. `some_rest`: some may be at rest. Regions that would reach further ahead than `far`
+  /// do not reach ahead at all.
   SMALL void build(const Scene<D>& scene, const Plan& plan, const Shift& common, bool some_rest, f32 far) {
     u32 n = scene.count;
     make_room(n, smaller(count_, n));
@@ -130,8 +132,8 @@ template <int D> class CandidateList {
     met_ = 0;
   }
 
-  /// Sees to it that boxes are in their regions; false where a new list is due, since that would take more than `most` work
-  /// for each box. `size`: of boxes.
+  /// Gives new regions to boxes that have left theirs. Returns false if that would take more than `most` work per box:
+  /// then a new list is due. `size`: the size of boxes.
   SMALL bool follow(const Scene<D>& scene, const Shift& common, f64 most, f32 size) {
     u32 n = scene.count, had = count_, both = smaller(n, had);
     u32* list = late_.reserve(2 * u64(n) + 4);
@@ -163,7 +165,7 @@ template <int D> class CandidateList {
     return serve(scene, list, had, u64(most * n / tuning.candidate), f32(tuning.late_margin) * size);
   }
 
-  /// Reports what is settled, and the candidates that overlap. Only here does a pair become one.
+  /// Reports the settled pairs and the candidates that overlap. Nothing else in this file reports pairs.
   SMALL void report(const Scene<D>& scene, Pairs& pairs, Stats& stats) {
     u64 head = settled_.count, same = smaller(smaller(pairs.stable, head_), head);
     pairs.same = same == head && head == head_ && resting_ == count_ && late_count_ + candidates_.count == 0;
@@ -181,7 +183,7 @@ template <int D> class CandidateList {
  private:
   f32* region(u32 slot) const { return regions_.data() + u64(slot) * width; }
 
-  // --- a list is made ---
+  // --- making a list ---
 
   SMALL void make_room(u64 n, u64 had) {
     regions_.grow(n * width + padding, had * width);
@@ -189,7 +191,7 @@ template <int D> class CandidateList {
     if (n > had) __builtin_memset(tags_.data() + had, 0, (n - had) * sizeof(u32));
   }
 
-  /// Marks those that are where they were.
+  /// Marks the boxes that have not moved since their origins were recorded.
   NOINLINE void find_resting(const Scene<D>& scene, u32 known) {
     bool steady = !shift_.differs({});
     for (u32 slot = 0; slot < known; slot++) {
@@ -215,7 +217,7 @@ template <int D> class CandidateList {
     }
   }
 
-  /// Enlarges a box by `aside` on all sides, and by `ahead` in its direction. Writes up to four numbers past the region.
+  /// Enlarges a box by `aside` on all sides, and by `ahead` in its direction. In 3D, writes one number past the region.
   static void widen(const f32* box, f32 aside, f32x4 ahead, f32* out) {
     f32x4 low = min(ahead, f32x4{}) - splat(aside), high = max(ahead, f32x4{}) + splat(aside);
     if constexpr (D == 2) store(out, load<f32x4>(box) + __builtin_shufflevector(low, high, 0, 1, 4, 5));
@@ -225,7 +227,7 @@ template <int D> class CandidateList {
     }
   }
 
-  /// Of the candidates, those of two boxes at rest are settled, but for those that will be in doubt.
+  /// Moves candidates of two boxes at rest to the settled pairs, except those in doubt, if these are recorded.
   NOINLINE void settle(const Scene<D>& scene) {
     u64 left = 0;
     u64* list = candidates_.list.data();
@@ -244,7 +246,7 @@ template <int D> class CandidateList {
 
   // --- boxes that leave their regions ---
 
-  /// Whether a box is where it is expected: in its region, and where it rests it is just that.
+  /// Whether a box is where it is expected: within its region, or equal to it if the box is at rest.
   template <bool some_rest> static bool is_expected(const f32* box, const f32* region, u32 tag, const Shift& shift) {
     f32x4 low = shift(load<f32x4>(box)), its_low = load<f32x4>(region);
     u32 moves = (tag & rests) - 1;  // a mask: no branch, since which boxes rest is unpredictable
@@ -262,7 +264,8 @@ template <int D> class CandidateList {
     return is_expected<true>(scene.box(slot), region(slot), tags_[slot], shift_);
   }
 
-  /// Writes the slots of boxes that are not where they are expected; gives how many. More than enough it does not seek.
+  /// Writes the slots of boxes that are not where they are expected; returns how many. Stops once there are more than
+  /// `enough`.
   template <bool some_rest> NOINLINE u32 look(const Scene<D>& scene, u32 until, u32* out, u32 enough) const {
     const f32 *box = scene.boxes, *its = regions_.data();
     const u32* tags = tags_.data();
@@ -285,7 +288,7 @@ template <int D> class CandidateList {
     return found;
   }
 
-  /// The same, of those that may have changed.
+  /// The same, for the boxes that may have changed.
   NOINLINE u32 look_at(const Scene<D>& scene, u32 until, u32* out) const {
     u32 found = 0;
     for (u32 k = 0; k < scene.changes->count(); k++) {
@@ -295,7 +298,7 @@ template <int D> class CandidateList {
     return found;
   }
 
-  /// Adds those to the late whose exclusion bits or group have changed, which makes them as good as new.
+  /// Adds boxes whose exclusion bits or group have changed to the late boxes, marked as new ones.
   SMALL void refilter(const Scene<D>& scene, u32 until, u32* list) {
     filtered_ = scene.excluded != nullptr;
     bool were_grouped = grouped_;
@@ -305,11 +308,11 @@ template <int D> class CandidateList {
       bool one = ((grouped_ | were_grouped) ? groups_[slot] : 0) == scene.group_of(slot);
       if (one && (tags_[slot] & ~slot_mask) == scene.excluded_of(slot)) continue;
       tags_[slot] |= fresh;
-      list[late_count_++] = slot;  // perhaps once more: `serve` sees that
+      list[late_count_++] = slot;  // perhaps for the second time: `serve` skips it then
     }
   }
 
-  /// Sees where all regions are, for the late to be searched among them.
+  /// Puts all regions into grids, in which the neighbours of late boxes are searched.
   NOINLINE void place() {
     f64 low[D], high[D], sizes[D];
     anew_.bounds(low, high, sizes);
@@ -328,7 +331,8 @@ template <int D> class CandidateList {
     pairs.count = left;
   }
 
-  /// Gives new regions to the late; those from slot `had` on had none. False where they meet more regions than `enough`.
+  /// Gives new regions to the late boxes; those from slot `had` on had none. Returns false if that means testing more
+  /// regions than `enough`.
   SMALL bool serve(const Scene<D>& scene, u32* list, u32 had, u64 enough, f32 margin) {
     u32 many = 0, were = 0;
     for (u32 k = 0; k < late_count_; k++) {
@@ -338,7 +342,7 @@ template <int D> class CandidateList {
       were |= tag;
       resting_ -= tag & rests;
       if (slot < had) places_.remove(region(slot), slot);
-      if (tag & fresh) {  // no candidate of it is listed
+      if (tag & fresh) {  // its listed candidates are dropped below
         tag = fresh | scene.excluded_of(slot);
         if (grouped_) groups_[slot] = scene.group_of(slot);
         places_.forget_base(slot);
@@ -359,7 +363,7 @@ template <int D> class CandidateList {
     return met_ <= enough;
   }
 
-  /// The settled pairs of boxes that do not rest become candidates.
+  /// Makes the settled pairs of boxes that are no longer at rest candidates.
   SMALL void unsettle() {
     u64* list = settled_.list.data();
     u64 left = 0, many = settled_.count;
@@ -379,7 +383,7 @@ template <int D> class CandidateList {
     settled_.count = left;
   }
 
-  /// A new region for a box that is late. `near`: room for as many slots as there are.
+  /// Gives a late box a new region. `near`: room for all slots.
   NOINLINE void enlarge(const Scene<D>& scene, u32 slot, f32 aside, u32* near) {
     f32 box[width + padding], larger_one[width + padding];
     u32 tag = tags_[slot];
@@ -399,7 +403,7 @@ template <int D> class CandidateList {
     places_.put(larger_one, slot);
   }
 
-  /// A box where it would be, had the world not moved since the list was made.
+  /// Writes a box without the common motion since the list was made.
   void shifted(const f32* box, f32* out) const {
     store(out, shift_(load<f32x4>(box)));
     if constexpr (D == 3) store(out + D, shift_(load<f32x4>(box + D)));

@@ -3,8 +3,8 @@
 // Idea: candidate_list.hpp has the list; this file decides when one is made, with which margin, and when it ends.
 //   - The margin comes from measured displacements, not predictions: see watch.hpp. If no margin is expected to pay,
 //     strip sweep runs, and a list is tried again after 8 to 512 updates.
-//   - A list ends when late boxes cost more than a new list would, on average, or much more in one update. Bounded motion
-//     never ends one.
+//   - A list ends when late boxes cost more than a new list would, on average, or much more in one update.
+//     Bounded motion never ends one.
 // Nothing here reads a clock: work is counted, so the order of the pairs depends on the calls alone.
 // Wins when boxes are at rest, jitter, turn, or move by less than a tenth of their size. Equals strip sweep when they
 // jump.
@@ -22,8 +22,8 @@ template <int D> class Incremental {
   PairOrder order_;
   bool ended_ = false;  // a new list is due
   u32 age_ = 0;  // of the list, in updates
-  f64 made_ = 0;  // work, for each box: to make the list
-  f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // and since then: for the late; of an update; all
+  f64 made_ = 0;  // work per box: of making the list
+  f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // since then: for late boxes; the running mean of that; in all
   u32 pause_ = 0, pauses_ = tuning.watched;
 
  public:
@@ -45,7 +45,7 @@ template <int D> class Incremental {
                                                                     : Reason::watching));
     if (!scene.ordered) return;
     order_.sort(pairs.list.data(), pairs.count, scene.count);
-    pairs.doubt_count = 0;  // they stand elsewhere now
+    pairs.doubt_count = 0;  // the pairs have moved
     if (pairs.watch) pairs.doubt(pairs.list.data(), pairs.list.data() + pairs.count);
     pairs.stable = 0;
     pairs.same = false;
@@ -75,7 +75,7 @@ template <int D> class Incremental {
       forget();
       return false;
     }
-    if (pause_ > Watch<D>::longest) {  // nobody will ask yet how far boxes have got
+    if (pause_ > Watch<D>::longest) {  // too early to measure motion
       pause_--;
       return false;
     }
@@ -135,7 +135,8 @@ template <int D> class Incremental {
     lateness_ = smooth_ = life_ = 0;
     made_ = list_.made_work() / n;
     prospect_.rest = list_.resting() / n;
-    // Too little is mended by the rebuild that follows when the list is given up; too much would never be.
+    // These two estimates may only go down. One that is too low is corrected by the rebuild after the list is given up.
+    // One that is too high would keep the list alive, so it would never be corrected.
     const Stats& built = list_.built();
     prospect_.tests = smaller(prospect_.tests, built.tests / n / prospect_.more_tests(growth));
     prospect_.fresh = smaller(prospect_.fresh, tuning.entry * built.entries / n + prospect_.tests);
@@ -143,7 +144,7 @@ template <int D> class Incremental {
     prospect_.pairs = larger((settled + list_.tested() / growth) / n, tuning.least_pairs);
   }
 
-  /// The mean size of boxes along the axis where it is least, but no less than a share of their spacing.
+  /// Learns the mean size of boxes along the axis where it is smallest, which is at least a share of their spacing.
   SMALL void learn_sizes(u32 boxes) {
     f64 low[D], high[D], sizes[D], across = D == 2 ? __builtin_sqrt(f64(boxes)) : cube_root(boxes);
     anew_.bounds(low, high, sizes);
@@ -155,7 +156,7 @@ template <int D> class Incremental {
     }
   }
 
-  /// Gives up what is kept, but not the memory.
+  /// Drops the list, but keeps the memory.
   SMALL void forget() {
     if (!list_.is_empty()) pause_ = 0;
     list_.forget();
@@ -169,7 +170,7 @@ template <int D> class Incremental {
     pauses_ = smaller(tuning.longest_pause, pauses_ * 2);
   }
 
-  /// What the update has cost, and whether the list is worth going on with.
+  /// Adds up the work of this update, and decides whether the list ends.
   SMALL void account(const Scene<D>& scene) {
     f64 n = scene.count;
     f64 late = list_.late_work() / n;
@@ -181,7 +182,7 @@ template <int D> class Incremental {
     age_++;
     ended_ |= least > tuning.worth * prospect_.fresh;
     ended_ |= smooth_ * age_ > made_ + lateness_;
-    // Boxes have come to rest: a new list will not test their pairs.
+    // If more boxes have come to rest, a new list will not test their pairs.
     bool judged = (age_ & (age_ - 1)) == 0 || watch_.is_new();
     ended_ |= judged && age_ >= tuning.watched && list_.tested() > 0 && watch_.more_rest(list_.resting() / n);
   }

@@ -1,7 +1,7 @@
-// The regions in grids, to be searched when boxes leave theirs.
+// The regions of all boxes in grids, which are searched when a box leaves its region.
 // Idea: grids whose cells double in width from one to the next. A region is stored once, in the finest grid in which it
-// spans no more than two cells along each axis, in the cell of its lower corner. So a search starts one cell further
-// back. The first regions of boxes, their bases, are stored in the order of the cells: a row of cells is one run of
+// spans no more than two cells along each axis, in the cell of its lower corner. So a search begins one cell before its
+// range. The first regions of boxes, their bases, are stored in the order of the cells: a row of cells is one run of
 // memory. The later regions of late boxes are in chains, one for each cell.
 // Cost: about 6 ns to insert a base; in a search 1 ns for each region nearby. 8 bytes per box besides its base, 5 for
 // cells.
@@ -15,18 +15,18 @@ template <int D> class Places {
   static constexpr u32 boxes_a_cell = 2, most_grids = 13, width = 2 * D, nobody = ~0u;
 
   struct Range {
-    u32x4 low, high;  // cells along the axes, and in the other lanes 0
+    u32x4 low, high;  // cells along the axes; 0 in the other lanes
   };
   struct Grid {
     Axes axes;
-    u32 side, first;  // cells along an axis; its first one
+    u32 side, first;  // number of cells along each axis; its first cell
     bool used;
   };
 
   struct Spot {
     u32 grid, cell;
   };
-  /// A base, and whose it is: nobody's, once that box has left it.
+  /// A base and the slot of its box, or `nobody` once that box has left it.
   struct Entry {
     f32 region[width];
     u32 slot;
@@ -34,14 +34,14 @@ template <int D> class Places {
 
   Grid grids_[most_grids] = {};
   u32 grid_count_ = 0, count_ = 0;  // of bases
-  Buffer<Entry> entries_;  // the bases, and behind them one that touches nothing
-  Buffer<u32> starts_;  // per cell: its first entry; and behind them the end
-  Buffer<u32> heads_;  // per cell: the slot that stands at the head of its chain, counted from 1
-  Buffer<u32> next_;  // per slot: the one behind it
+  Buffer<Entry> entries_;  // the bases, and after them one that touches nothing
+  Buffer<u32> starts_;  // per cell: its first entry; after the last cell: the end
+  Buffer<u32> heads_;  // per cell: 1 + the first slot of its chain; 0: the chain is empty
+  Buffer<u32> next_;  // per slot: 1 + the next slot of its chain; 0: it is the last
   Buffer<u32> entry_of_;  // per slot
 
  public:
-  /// Takes over the regions of so many boxes, whose lower corners have these bounds.
+  /// Stores the regions of `count` boxes as their bases. `low` and `high` bound the lower corners.
   NOINLINE void fill(const f32* regions, u32 count, const f64* low, const f64* high) {
     u32 cells = divide(low, high, count);
     u32* starts = starts_.reserve(cells + 1);
@@ -75,10 +75,10 @@ template <int D> class Places {
 
   const f32* base(u32 slot) const { return entries_[entry_of_[slot]].region; }
 
-  /// From now on the base of a box touches nothing. The box is not in its region.
+  /// Makes the base of a box touch nothing. The box must not be in the grids.
   void forget_base(u32 slot) { entry_of_[slot] = count_; }
 
-  /// A box that was removed gets this region.
+  /// Adds a box that is not in the grids, with this region.
   void put(const f32* region, u32 slot) {
     Spot spot = spot_of(region);
     grids_[spot.grid].used = true;
@@ -86,7 +86,7 @@ template <int D> class Places {
     heads_[spot.cell] = slot + 1;
   }
 
-  /// A box leaves this region.
+  /// Removes a box, which has this region.
   void remove(const f32* region, u32 slot) {
     u32& whose = entries_[entry_of_[slot]].slot;
     if (whose == slot) {
@@ -98,8 +98,8 @@ template <int D> class Places {
     *link = next_[slot];
   }
 
-  /// Writes the slots of boxes whose regions touch this one; returns how many. `regions`: of all; `met`: counts those that
-  /// were tested.
+  /// Writes the slots of boxes whose regions touch this one; returns how many. `regions` has those of all boxes; `met`
+  /// counts the ones tested.
   NOINLINE u32 near(const f32* region, const f32* regions, u32* out, u64& met) const {
     u32 found = 0;
     for (u32 g = 0; g < grid_count_; g++) {
@@ -143,7 +143,7 @@ template <int D> class Places {
   }
 
  private:
-  /// Empty grids for so many boxes; returns how many cells they have.
+  /// Makes empty grids for this many boxes; returns how many cells they have.
   SMALL u32 divide(const f64* low, const f64* high, u32 boxes) {
     f64 cells = f64(boxes) / boxes_a_cell;
     u32 side = u32(larger(1.0, D == 2 ? __builtin_sqrt(cells) : cube_root(cells))), all = 0;
@@ -156,7 +156,7 @@ template <int D> class Places {
     return all;
   }
 
-  /// Where a region stands.
+  /// The grid and the cell in which a region is stored.
   Spot spot_of(const f32* region) const {
     for (u32 g = 0;; g++) {
       Range range = range_of(grids_[g], region);

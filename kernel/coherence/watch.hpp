@@ -1,16 +1,16 @@
 // How far boxes move, measured on a sample, and the margin that costs least.
-// Idea: for each box of the sample, the largest displacement after 1, 2, 4 … 64 updates is measured. Nothing is
-// extrapolated. Regions may also reach ahead, by how far a box has moved in as many updates before: for that, too, it is
-// measured how far boxes really were from there. For a list with margin m that lives for that many updates, the cost per
-// update is: testing its candidates, its share of making the list, and serving the boxes that moved further than m. The
-// cheapest is chosen. Motion common to most boxes (a world that scrolls or zooms) is subtracted first.
+// Idea: for each box of the sample, the largest displacement within 1, 2, 4 … 64 updates is measured. Nothing is
+// extrapolated. Regions may also reach ahead by as far as a box moved in the same number of updates before. How far
+// boxes then were from that path is measured too. For a list with margin m that lives for that many updates, the cost
+// per update is: testing its candidates, its share of making the list, and serving the boxes that moved further than m.
+// The cheapest plan is chosen. Motion common to most boxes (a world that scrolls or zooms) is subtracted first.
 #pragma once
 #include "base/box_tests.hpp"
 #include "boxes/scene_sample.hpp"
 #include "coherence/tuning.hpp"
 
-/// A motion that boxes have in common: along each axis, in the lanes of the first numbers of a box, they are scaled and
-/// moved. Rounding is monotone, so boxes that overlap do so after it.
+/// A motion that boxes have in common: along each axis, they are scaled and moved. The lanes are those of the first
+/// four numbers of a box. Rounding is monotone, so boxes that overlap still do so after it.
 struct Shift {
   f32x4 scale = {1, 1, 1, 1}, offset = {};
 
@@ -20,32 +20,32 @@ struct Shift {
   bool differs(const Shift& other) const {
     return any((bits<i32x4>(scale) ^ bits<i32x4>(other.scale)) | (bits<i32x4>(offset) ^ bits<i32x4>(other.offset)));
   }
-  /// Whether no number becomes NaN by it.
+  /// Whether it makes no number NaN.
   bool is_sound() const {
     return bitmask((scale > splat(0.25f)) & (scale < splat(4.0f)) & (offset - offset == f32x4{})) == 15;
   }
 };
 
-/// What is known of the lists to come, for each box, in tests of strip sweep.
+/// What is known about the next list, per box; work in tests of strip sweep.
 template <int D> struct Prospect {
-  f64 size = 0;  // of boxes on average, along the axis where they are least, but no less than the next
-  f64 least[D] = {};  // an eighth of what they are apart
-  f64 looked = 0;  // the share of boxes that an update looks at
+  f64 size = 0;  // mean size of boxes along the axis where it is smallest, at least `least`
+  f64 least[D] = {};  // the spacing of boxes, divided by Tuning::apart
+  f64 looked = 0;  // the share of boxes that an update checks
   f64 pairs = 0;  // candidates of a list without a margin
-  f64 fresh = 0;  // a rebuild
-  f64 tests = 0;  // of it, the tests
+  f64 fresh = 0;  // work of a rebuild
+  f64 tests = 0;  // the tests in that
   f64 rest = 0;  // the share of boxes that will be known to rest
 
-  /// What is tested in an update: not the pairs of two that rest, which do not grow.
+  /// Candidates that an update tests: all but the pairs of two boxes at rest.
   f64 candidates(f64 growth) const { return pairs * growth * (1 - rest * rest); }
-  /// How many times as much a list takes in as a rebuild: boxes at rest have no margin.
+  /// How many times as many candidates a list has as without a margin. Boxes at rest have none.
   f64 widening(f64 growth) const { return 1 + (growth - 1) * (1 - rest * rest); }
-  /// How many times as many tests the sweep of it takes: what the growth is along all axes but one.
+  /// How many times as many tests its sweep takes as a rebuild: the growth along all axes but one.
   f64 more_tests(f64 growth) const {
     f64 root = D == 2 ? __builtin_sqrt(widening(growth)) : cube_root(widening(growth));
     return D == 2 ? root : root * root;
   }
-  /// What it takes to make a list: a rebuild with larger boxes, which finds more, and a look at all of them twice.
+  /// The work of making a list: a rebuild with larger boxes, which finds more, and twice the check of all boxes.
   f64 build(f64 growth, const Tuning<D>& tuning) const {
     return fresh + tests * (more_tests(growth) - 1) + pairs * (widening(growth) - 1) + 2 * tuning.look;
   }
@@ -53,18 +53,19 @@ template <int D> struct Prospect {
 
 struct Plan {
   f32 margin = 0;
-  f64 growth = 1;  // candidates, in numbers of pairs
-  u32 lead = 0;  // for so many updates regions reach ahead
-  f64 work = __builtin_inf();  // for each box and update
+  f64 growth = 1;  // how many times as many candidates as without a margin
+  u32 lead = 0;  // updates that regions reach ahead
+  f64 work = __builtin_inf();  // per box and update
 };
 
-/// How far regions reach ahead: none where that would be too far to be likely.
+/// How far regions reach ahead: not at all if `lead` is longer than `most`, which is unlikely to come true.
 inline f32x4 bounded(f32x4 lead, f32 most) {
   i32x4 near = (lead <= splat(most)) & (lead >= splat(-most));
   return bitmask(near) == 15 ? lead : f32x4{};
 }
 
-/// The space that pairs of regions take, as a polynomial in four times their margin.
+/// The volume of the relative positions in which two regions touch, as a polynomial in four times their margin. Summed
+/// over several pairs.
 template <int D> struct Growth {
   f64 of[D + 1] = {};
   f64 operator()(f64 margin) const {
@@ -75,23 +76,23 @@ template <int D> struct Growth {
 };
 
 template <int D> class Watch {
-  // One box in so many is watched, within these limits.
+  // One box in `watched_share` is watched, within these limits.
   static constexpr u32 watched_share = 16, least_watched = 32, most_watched = 256;
-  static constexpr f64 common_share = 0.75;  // of all motion: what is common is taken out where no more is left
+  static constexpr f64 common_share = 0.75;  // common motion is subtracted if it leaves less than this share
   static constexpr u32 width = 2 * D, horizons = 7, buckets = 24, voters = 31;
 
   struct Sample {
-    // The minima and the maxima of the box, and what stands behind them.
+    // The minima and the maxima of the box: where it began, and in the last update. Spare lanes have what follows them.
     f32x4 at[2], last[2];
-    f32x4 far;  // from where it began
-    f32x4 lead;  // what it had moved by at the last horizon
-    f32x4 led;  // since then: how far it was from the way that goes on like that
+    f32x4 far;  // the furthest it got from where it began
+    f32x4 lead;  // its displacement at the last horizon
+    f32x4 led;  // the furthest it has been since then from the path that goes on like that
     u32 slot, jumps;
   };
-  /// How far the samples got in so many updates, and how often they jumped.
+  /// How far the samples got within 1, 2, 4 … updates, and how often they jumped.
   struct Horizon {
-    f32 reach[2]
-             [most_watched];  // from where they began; in as many updates more, from where regions that reach ahead are
+    // From where they began; and in as many further updates, from regions that reach ahead.
+    f32 reach[2][most_watched];
     f32x4 lead[2 * voters];
     u32 jumps[most_watched];
   };
@@ -100,19 +101,19 @@ template <int D> class Watch {
   Buffer<Horizon> horizons_;
   u32 many_ = 0, age_ = 0, known_ = 0;
   bool common_ = false;
-  Shift total_, begun_;  // since ever, and until these samples were taken
+  Shift total_, begun_;  // common motion so far, and until these samples were taken
 
  public:
-  static constexpr f32 farthest = 4;  // of a box's size: motion beyond counts as that much, so that one jump is not all
+  static constexpr f32 farthest = 4;  // of a box's size: longer motion counts as this, so that one jump does not decide
   static constexpr u32 longest = 1u << (horizons - 1);  // updates
 
-  /// Common motion since ever.
+  /// The common motion so far.
   const Shift& common() const { return total_; }
-  /// Of how many updates it is known how far boxes get.
+  /// The largest number of updates for which it is known how far boxes get.
   u32 known() const { return known_ ? 1u << (known_ - 1) : 0; }
-  /// Whether samples were taken in this update: what is known is new.
+  /// Whether new samples were taken in this update.
   bool is_new() const { return many_ > 0 && age_ == 0; }
-  /// The next look is the first one of new samples.
+  /// Makes the next `look` take new samples.
   void forget() { many_ = 0; }
   SMALL void release() {
     many_ = known_ = 0;
@@ -120,7 +121,7 @@ template <int D> class Watch {
     horizons_.release();
   }
 
-  /// The share of boxes that have not moved for as long as is known.
+  /// The share of boxes that have not moved within `known` updates.
   f64 resting() const {
     u32 count = 0;
     for (u32 k = 0; known_ > 0 && !common_ && k < many_; k++)
@@ -128,13 +129,13 @@ template <int D> class Watch {
     return count ? f64(count) / many_ : 0;
   }
 
-  /// Whether all rest, or more than a share by twice what a sample varies.
+  /// Whether all boxes are at rest, or significantly more than `share`: by two standard deviations of such a sample.
   bool more_rest(f64 share) const {
     f64 more = resting() - share;
     return more > 0 && (share + more == 1 || more * more * many_ > 4 * share * (1 - share));
   }
 
-  /// Sees where the boxes are in this update. `size`: of a box; what moves by more at once jumps.
+  /// Follows the samples in this update. `size`: of a box; one that moves further than this in one update has jumped.
   SMALL void look(const Scene<D>& scene, f32 size) {
     bool fits = many_ > 0 && scene.count >= smallest_;
     if (!fits) return begin(scene);
@@ -164,7 +165,7 @@ template <int D> class Watch {
     if (age_ == longest) begin(scene);
   }
 
-  /// The margin of least work.
+  /// The plan with the least work.
   SMALL Plan plan(const Prospect<D>& prospect, const Tuning<D>& tuning) const {
     Plan best;
     f64 scale = larger(prospect.size, 1e-30), plain = space(prospect, nullptr)(0);
@@ -176,16 +177,16 @@ template <int D> class Watch {
     return best;
   }
 
-  /// How many times as many candidates as pairs a margin makes, of boxes that stand anywhere: by some of the sample, two
-  /// and two. Sizes on average would not say: boxes that are long along different axes are thick on average.
+  /// How many times as many candidates a margin makes, for boxes at random places: estimated from pairs of samples.
+  /// Mean sizes would mislead: boxes that are long along different axes are thick on average.
   SMALL f64 growth(f64 margin, const Prospect<D>& prospect) const {
     return space(prospect, nullptr)(margin) / space(prospect, nullptr)(0);
   }
 
  private:
-  u32 smallest_ = 0;  // boxes without which the sample is none
+  u32 smallest_ = 0;  // with fewer boxes, some samples are gone
 
-  /// The space that pairs of some of the sample take, with regions that reach ahead by so much.
+  /// The growth of some pairs of samples, with regions that reach ahead by `lead` unless that is null.
   SMALL Growth<D> space(const Prospect<D>& prospect, const f32x4* lead) const {
     Growth<D> all;
     for (u32 k = 0; k + 1 < many_ && k < 2 * voters; k += 2) {
@@ -206,7 +207,7 @@ template <int D> class Watch {
 
   static f32 most_of(f32x4 far) { return larger(larger(far[0], far[1]), larger(far[2], far[3])); }
 
-  /// 0 in the lanes that are no axis.
+  /// Sets the lanes that are not an axis to 0.
   static f32x4 on_axes(f32x4 v) { return bits<f32x4>(bits<u32x4>(v) & u32x4{~0u, ~0u, D == 2 ? 0 : ~0u, 0}); }
 
   /// The magnitudes of numbers along the axes, and 0 in the other lanes.
@@ -250,7 +251,8 @@ template <int D> class Watch {
     sample.led = max(max(from - min(by_low, by_high), max(by_low, by_high) - until), sample.led);
   }
 
-  /// Where some of the sample have gone: the median of the lower half along each axis, and that of the upper half.
+  /// The motion that some of the samples have in common. Along each axis, it is the line through two medians: of the
+  /// samples in the lower half, and of those in the upper half.
   SMALL Shift vote(const Scene<D>& scene) const {
     Shift found;
     u32 step = larger(1u, many_ / voters);
@@ -269,7 +271,7 @@ template <int D> class Watch {
       }
       f64 place[2], move[2];
       for (int k = 0; k < 2; k++) {
-        i32 odd = (votes[k] - 1) | 1;  // so that both medians are of one box where all move alike
+        i32 odd = (votes[k] - 1) | 1;  // so that both medians are of one box if all move alike
         place[k] = votes[k] ? detail::select(places[k], odd, odd / 2) : 0;
         move[k] = votes[k] ? detail::select(moves[k], odd, odd / 2) : 0;
       }
@@ -282,7 +284,7 @@ template <int D> class Watch {
     return found;
   }
 
-  /// Whether it changes that common motion is taken out.
+  /// Decides whether common motion is subtracted; returns whether that has changed.
   SMALL bool judge(const Scene<D>& scene, const Shift& shift, f32 size) {
     f64 with = 0, without = 0;
     for (u32 k = 0; k < many_; k++) {
@@ -300,17 +302,18 @@ template <int D> class Watch {
     return true;
   }
 
-  /// The upper end of a bucket of reaches, in mean sizes: half octaves.
+  /// The upper end of a bucket of distances, in mean sizes. Buckets are half octaves.
   static f64 edge(u32 bucket) {
     f64 octave = bits<f64>(u64(1023 + bucket / 2 - 10) << 52);
     return bucket & 1 ? octave * 1.5 : octave;
   }
 
-  /// `led`: regions reach ahead. `lates`: how many were late by half as many updates; `bursts`: how many in one of them at most.
+  /// Weighs all margins for one horizon, and replaces `best` if one takes less work. `led`: regions reach ahead. Per
+  /// margin, `lates`: samples that were late in half as many updates; `bursts`: the most per update so far.
   SMALL void weigh(u32 h, u32 led, f64 scale, f64 plain, u32* lates, f64* bursts, const Prospect<D>& prospect,
                    const Tuning<D>& tuning, Plan& best) const {
     Growth<D> all = space(prospect, led ? horizons_[h].lead : nullptr);
-    u32 tail[buckets + 1] = {};  // how many reach into a bucket
+    u32 tail[buckets + 1] = {};  // samples whose distance is in a bucket
     f64 jumps = 0, updates = 1u << h;
     f32 unit = f32(1 / scale);
     u32 lowest = bits<u32>(f32(edge(0))) >> 22;
@@ -319,7 +322,7 @@ template <int D> class Watch {
       tail[larger(0, smaller(bucket, i32(buckets)))]++;
       jumps += horizons_[h].jumps[k];
     }
-    // A box is late once, and once more for each further margin of the late.
+    // A box is late once, and once more for each `late_margin` that it moves further.
     f64 events[buckets + 1] = {}, beyond = 0, sum = 0;
     for (u32 m = buckets + 1; m-- > 0;) {
       if (m < buckets) {

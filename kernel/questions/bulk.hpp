@@ -1,23 +1,24 @@
 // Many queries in one call.
 // Idea: the queries are stored one after the other, as doubles, and answered in that order. All answers go into one
-// list, with the end of each query's answers beside it. Boxes and points go down the index together: see together.hpp.
-// Cost: half of that of single queries, or less, for boxes and points; for others that of the single queries, less the
-// calls. Running them in Hilbert order was slower in all but a few cases: see docs/decisions/0011-many-queries.md.
+// list. A second list has the offset at which the answers of each query begin. Boxes and points go down the index
+// together: see together.hpp.
+// Cost: for boxes and points, at most half of that of single queries; for other queries, the same without the calls.
+// Running them in Hilbert order was slower in all but a few cases: see docs/decisions/0011-many-queries.md.
 #pragma once
 #include "questions/queries.hpp"
 #include "questions/together.hpp"
 
-/// What all the questions of a call are.
+/// The kind of all queries of a call.
 enum class Asks : u32 { nearest, ray, way, box, within, point, circle, others, meeting };
 
 template <int D> class Bulk {
   static constexpr u32 width = 2 * D;
-  // Answers of a query so far, in the mean: to more, single queries, which take whole subtrees, are faster.
+  // Mean number of answers per query so far. Above this, single queries are faster, since they take whole subtrees.
   static constexpr u32 crowded = 1000;
 
-  Buffer<f64> given_;  // numbers of all questions, then of each the id it ignores
+  Buffer<f64> given_;  // the numbers of all queries, then the id that each ignores
   Together<D> together_;
-  Buffer<u32> offsets_;  // of each question, where its answers begin; and where those of the last end
+  Buffer<u32> offsets_;  // per query, where its answers begin; then where those of the last end
 
   static bool has_box(Asks kind) {
     return kind == Asks::way || kind == Asks::box || kind == Asks::within || kind == Asks::meeting;
@@ -32,16 +33,16 @@ template <int D> class Bulk {
   static bool is_finite(f64 x) { return x - x == 0; }
 
  public:
-  Buffer<u32> ids;  // the answers of all questions: of areas
-  Buffer<Hit> hits;  // and where they ask for an order
-  u64 looks = 0;  // at blocks, by all questions of a call
+  Buffer<u32> ids;  // the answers of queries for areas
+  Buffer<Hit> hits;  // the answers of queries with an order
+  u64 looks = 0;  // blocks visited by all queries of a call
 
   const u32* offsets() const { return offsets_.data(); }
 
-  /// Room for the numbers of questions.
+  /// Room for the numbers of queries.
   SMALL f64* stage(u32 numbers) { return given_.reserve(numbers); }
 
-  /// The first question whose numbers are bad, or -1.
+  /// The first query with bad numbers, or -1.
   SMALL i32 first_bad(Asks kind, u32 count) const {
     Question<D> asked;
     for (u32 k = 0; k < count; k++) {
@@ -50,8 +51,8 @@ template <int D> class Bulk {
     return -1;
   }
 
-  /// Answers so many questions, which are good, each with at most so many boxes where it asks for an order. What they
-  /// have in common stands in `asked`.
+  /// Answers `count` queries, whose numbers are good. Those with an order get at most `most` answers each. `asked` has
+  /// what all queries have in common.
   SMALL void answer(const Index<D>& index, Question<D> asked, Asks kind, u32 count, u32 most, Hits& best) {
     offsets_.reserve(u64(count) + 1)[0] = 0;
     looks = 0;
@@ -71,8 +72,8 @@ template <int D> class Bulk {
     }
   }
 
-  /// Rows of what the last update saw, each of which has a slot: in place of it comes the id, or -1 where the box meets
-  /// nobody, and behind it the box's numbers, as far as it reaches, its layer and mask.
+  /// Fills rows with what the last update saw. A row begins with a slot, which becomes the id, or -1 if the box meets
+  /// nobody. After it come the box, enlarged by its reach, its layer and its mask.
   SMALL void fill_rows(const Index<D>& index, u32 count) {
     f64* row = given_.data();
     for (u32 k = 0; k < count; k++, row += width + 3) {
@@ -88,7 +89,7 @@ template <int D> class Bulk {
     }
   }
 
-  /// As if so many questions had found nothing.
+  /// Answers `count` queries with nothing.
   SMALL void answer_nothing(u32 count) {
     u32* offsets = offsets_.reserve(u64(count) + 1);
     __builtin_memset(offsets, 0, (u64(count) + 1) * sizeof(u32));
@@ -103,7 +104,7 @@ template <int D> class Bulk {
   }
 
  private:
-  /// Reads a question; false where its numbers are bad.
+  /// Reads a query; false if its numbers are bad.
   bool read(Asks kind, u32 k, Question<D>& to) const {
     const f64* from = given_.data() + u64(k) * stride(kind);
     bool boxed = has_box(kind), good = true;
@@ -130,7 +131,7 @@ template <int D> class Bulk {
     return good;
   }
 
-  /// Has a batch of boxes ask together, from question `first` on; the places of what they touch begin at `found`.
+  /// Runs a batch of box queries together, from query `first` on. The places of the boxes they touch begin at `found`.
   SMALL void ask_together(const Index<D>& index, Question<D>& asked, Asks kind, u32 first, u32 count, u32 found) {
     u32 many = together_.begin(index, count - first);
     for (u32 n = 0; n < many; n++) {
@@ -140,9 +141,9 @@ template <int D> class Bulk {
     looks += together_.search(many, ids, found);
   }
 
-  /// Puts the names of the boxes in these places, which a question touches in float32, behind those found before, but
-  /// where it is not about them. `from` becomes the next place.
-  SHARED u32 name(const Index<D>& index, const Question<D>& asked, u32& from, u32 until, u32 found) {
+  /// Appends the names of the boxes that a query touches in float32: those at the places from `from` on. Leaves out
+  /// those that it does not touch in double precision or that it does not ask for. Raises `from` to `until`.
+  NOINLINE u32 name(const Index<D>& index, const Question<D>& asked, u32& from, u32 until, u32 found) {
     const Wanted<D> wanted(index, asked);
     const u32* names = asked.layer ? index.slots() : index.ids();
     const bool every = wanted.all(), rounded = index.rounded();
@@ -158,7 +159,7 @@ template <int D> class Bulk {
     return found;
   }
 
-  /// Has a box ask for the others; false where it is off.
+  /// Makes the box in a slot the query; false if it is off.
   static bool take_box(const Index<D>& index, u32 slot, Question<D>& to) {
     u32 place = index.place(slot);
     if (place == Index<D>::nowhere) return false;
@@ -170,7 +171,7 @@ template <int D> class Bulk {
     return true;
   }
 
-  /// Adds the answers of one question behind those that were found; returns how many there are then.
+  /// Appends the answers of one query; returns how many there are then.
   u32 ask(const Index<D>& index, const Question<D>& asked, Asks kind, u32 most, u32 found, Hits& best) {
     Queries<D> queries(index, asked);
     if (kind == Asks::nearest || kind == Asks::others || moves(kind)) {

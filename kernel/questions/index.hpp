@@ -79,7 +79,7 @@ template <int D> class Index {
   const u32* slots() const { return slots_.data(); }
   u32 layer(u32 place) const { return seen_.filtered ? seen_.rules[slots_[place]].layer : 0xffffffff; }
   /// The numbers the box was given with.
-  SHARED void box(u32 place, f64* to) const {
+  NOINLINE void box(u32 place, f64* to) const {
     if (seen_.rounded) {
       __builtin_memcpy(to, seen_.exact.data() + u64(slots_[place]) * width, width * sizeof(f64));
       return;
@@ -134,7 +134,7 @@ template <int D> class Index {
   void looked_at(u64 blocks) { looks_ += blocks; }
 
   /// Builds the index, if necessary. It stays the same until the next update, since answers may be read in parts.
-  SHARED void build() {
+  NOINLINE void build() {
     if (built_) return;
     seen_.round_all();
     room_ = seen_.count + seen_.count / 32 + 64;
@@ -254,7 +254,7 @@ template <int D> class Index {
   }
 
   /// The blocks of boxes.
-  SHARED void fill() {
+  NOINLINE void fill() {
     const f32* boxes = seen_.boxes.data();
     for (u32 k = 0; k < sorted_; k += 4) {
       // Boxes as rows; in 3D the second half begins with the last minimum.
@@ -279,7 +279,7 @@ template <int D> class Index {
   }
 
   /// Fills slots_ with the boxes that are not off.
-  SHARED void put_in_order() {
+  NOINLINE void put_in_order() {
     u32 n = seen_.count, some = 0;
     looks_ = sorted_ = 0;
     make_room(0);

@@ -85,7 +85,7 @@ template <int D> class PlaneQuery {
 
   /// Tests the eight boxes of a block against a set of planes, one bit each. Returns a bit for each box that is behind
   /// none; `front` gets, for each plane, a bit for each box in front of it.
-  SHARED u32 look(const Block& block, u32 planes, u32 (&front)[Planes<D>::most_planes]) const {
+  NOINLINE u32 look(const Block& block, u32 planes, u32 (&front)[Planes<D>::most_planes]) const {
     u32 left = 0;
     for (u32 half = 0; half < 8; half += 4) {
       f32x4 lo = load<f32x4>(block.lo[0] + half);

@@ -174,7 +174,7 @@ template <int D> class Queries {
   bool wanted(u32 place) const { return all_wanted_ || wanted_(place); }
 
   /// One bit for each of eight boxes that touch the region searched.
-  SHARED u32 touched(const Block& block) const {
+  NOINLINE u32 touched(const Block& block) const {
     u32 found = 0;
     ROLLED for (u32 half = 0; half < 8; half += 4) {
       i32x4 all = bits<i32x4>(u32x4{} == u32x4{});
@@ -273,7 +273,7 @@ template <int D> class Queries {
   /// Writes lower bounds for the squared distances of the point to eight boxes, reduced by the possible rounding error.
   /// The last three bits are replaced by the lane, so that the results can be sorted as integers. Returns one bit for
   /// each box that may be within the limit.
-  SHARED u32 least_distances(const Block& block, u32 (&to)[8]) const {
+  NOINLINE u32 least_distances(const Block& block, u32 (&to)[8]) const {
     f32x4 most = splat(most_rank_);
     u32 close = 0;
     ROLLED for (u32 half = 0; half < 8; half += 4) {
@@ -292,7 +292,7 @@ template <int D> class Queries {
   }
 
   /// The same for the times at which the moving box meets eight boxes, as shares of its path.
-  SHARED u32 least_times(const Block& block, u32 (&to)[8]) const {
+  NOINLINE u32 least_times(const Block& block, u32 (&to)[8]) const {
     // If it moves along all axes, the times suffice.
     u32 close = all_move_ ? 0xff : touched(block);
     if (!is_tame_) {
@@ -360,7 +360,7 @@ template <int D> class Queries {
   }
 
   /// Writes the squared distances to eight boxes. Returns one bit for each within the limit, and perhaps more.
-  SHARED u32 distances(u32 number, f64 limit, f64 (&to)[8]) const {
+  NOINLINE u32 distances(u32 number, f64 limit, f64 (&to)[8]) const {
     const Block& block = index_.block(0, number);
     u32 close = 0, is_box = 0;
     ROLLED for (u32 lane = 0; lane < 8; lane += 2) {
@@ -391,7 +391,7 @@ template <int D> class Queries {
   }
 
   /// Offers boxes by their distance to the point.
-  SHARED void offer_near(u32 number, Hits& hits) const {
+  NOINLINE void offer_near(u32 number, Hits& hits) const {
     if (world_) return offer_near_around(number, hits);
     f64 ranks[8];
     for (u32 left = distances(number, squared_limit(hits.limit), ranks); left; left &= left - 1) {
@@ -411,7 +411,7 @@ template <int D> class Queries {
   }
 
   /// How the moving box meets a box; false where it does not.
-  SHARED bool meets_box(const f64* box, u32 id, Hit& hit) const {
+  NOINLINE bool meets_box(const f64* box, u32 id, Hit& hit) const {
     Meeting met;
     if (!meets<D>(asked_.lo, asked_.hi, asked_.along, box, asked_.stops, met)) return false;
     hit = {met.time * asked_.length, id | (met.corner ? Hit::corner : 0), met.side};

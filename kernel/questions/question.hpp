@@ -57,7 +57,7 @@ template <int D> class Wanted {
 
   /// Whether no box is excluded by its layer or id.
   bool all() const { return ignored_ > slot_mask && (own_ ? !index_.filtered() : mask_ == 0xffffffff); }
-  SHARED bool operator()(u32 place) const {
+  NOINLINE bool operator()(u32 place) const {
     if (own_) return meets(index_.rule(index_.slot(place)));
     return (mask_ == 0xffffffff || (index_.layer(place) & mask_)) && index_.id(place) != ignored_;
   }
@@ -119,7 +119,7 @@ class Hits {
     if (after) last_ = *after;
   }
 
-  SHARED void offer(Hit hit) {
+  NOINLINE void offer(Hit hit) {
     if (!(hit.rank <= limit) || (after_ && !(last_ < hit))) return;
     bool ordered = most_ <= few;
     if (count_ < most_) {

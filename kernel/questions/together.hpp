@@ -1,7 +1,7 @@
-// Many box queries at once: the places of the boxes that each touches, in float32.
-// Idea: a batch of queries goes down the index together, level by level. A list holds which query visits which block.
-// Each entry is tested against the eight children of its block, and those it touches are appended to the list of the
-// level below. Appending takes no branch, where a single query has an unpredictable branch per child. Lists are
+// Many box queries at once: for each, the places of the boxes that it touches in float32.
+// Idea: a batch of queries goes down the index together, level by level. A list has an entry for each block that a
+// query visits. Each entry is tested against the eight children of its block, and those it touches are appended to the
+// list of the level below. Appending takes no branch; a single query has an unpredictable branch per child. Lists are
 // processed in parts, which bounds their size, and in order, so each query finds the same boxes in the same order as
 // alone.
 // Cost: about half of that of single queries; 19 KB for the lists.
@@ -11,8 +11,8 @@
 
 template <int D> class Together {
   using Block = typename Index<D>::Block;
-  static constexpr u32 number_bits = 26;  // of a block; above them stands the question
-  static constexpr u32 part = 64;  // entries that are followed at once
+  static constexpr u32 number_bits = 26;  // of a block's number; above them is that of the query
+  static constexpr u32 part = 64;  // entries that are expanded at once
   static constexpr u32 list_room = 8 * part + 4;
   struct Aim {
     f32 lo[D], hi[D];
@@ -24,10 +24,10 @@ template <int D> class Together {
   u32 found_ = 0;
 
  public:
-  static constexpr u32 most = 64;  // questions
-  u32 ends[most] = {};  // of each question, where what it touches ends; or less, where it touches nothing
+  static constexpr u32 most = 64;  // queries
+  u32 ends[most] = {};  // per query, where the places it touches end; 0 if it touches none
 
-  /// Begins with as many of the questions that are left as go together; returns how many.
+  /// Begins a batch of the `left` queries that remain; returns its size.
   u32 begin(const Index<D>& index, u32 left) {
     index_ = &index;
     aims_.reserve(most);
@@ -41,7 +41,7 @@ template <int D> class Together {
     ROLLED for (int a = 0; a < D; a++) round_inward(asked.lo[a], asked.hi[a], asked.touching, aim.lo[a], aim.hi[a]);
   }
 
-  /// Writes what so many questions touch behind what was found before. Returns how many blocks they looked at.
+  /// Appends the places that `count` queries touch, after the first `found`. Returns the number of blocks visited.
   SMALL u32 search(u32 count, Buffer<u32>& places, u32 found) {
     u32* list = lists_.data() + index_->top() * list_room;
     for (u32 k = 0; k < count; k++) list[k] = k << number_bits;
@@ -70,8 +70,8 @@ template <int D> class Together {
     return looks;
   }
 
-  /// Writes what each entry touches, of the level below or of the boxes; returns how many.
-  SHARED u32 expand(u32 level, const u32* entries, u32 count, u32* to) {
+  /// Writes what each entry touches: entries of the level below, or on the lowest level boxes. Returns how many.
+  NOINLINE u32 expand(u32 level, const u32* entries, u32 count, u32* to) {
     const Block* blocks = &index_->block(level, 0);
     const u32 kept = level > 0 ? ~0u << number_bits : 0;
     u32 n = 0;

@@ -26,7 +26,7 @@ template <int D> class HilbertCurve {
   }
 
   /// From centres to cells, and from cells to the curve.
-  SHARED u32x4 operator()(const SceneItems<D>& items, const u32 (&index)[4]) const {
+  NOINLINE u32x4 operator()(const SceneItems<D>& items, const u32 (&index)[4]) const {
     f32x4 centres[4];
     for (int k = 0; k < 4; k++) {
       Item<D> item = items[index[k]];
@@ -85,7 +85,7 @@ template <int D> class HilbertOrder {
 
  public:
   /// Orders the boxes of a scene, which is not empty, into lanes that have room for them.
-  SHARED void make(const Scene<D>& scene, bool by_size, const Lanes<D>& lanes) {
+  NOINLINE void make(const Scene<D>& scene, bool by_size, const Lanes<D>& lanes) {
     u32 n = scene.count;
     SceneItems<D> items{scene, AxisOrder<D>::make(0)};
     SceneSample<D> world = measure<D>(items, n);

@@ -32,7 +32,7 @@ struct Common {
 };
 
 /// Computes one number of each node of a level from those of its four children. After the last node come empty ones.
-template <class Unite> SHARED void unite(const f32* from, u32 size, f32* to, u32 room, Unite both) {
+template <class Unite> NOINLINE void unite(const f32* from, u32 size, f32* to, u32 room, Unite both) {
   u32 k = 0;
   for (; 4 * k < size; k += 4) {
     f32x4 row[4];
@@ -60,7 +60,7 @@ template <int D> class PackedTree {
  public:
   /// Orders the boxes of a scene that is not empty, and builds all levels over them. After the last box, `spare` places
   /// are left for others.
-  SHARED void build(const Scene<D>& scene, u32 spare) {
+  NOINLINE void build(const Scene<D>& scene, u32 spare) {
     u32 n = scene.count;
     u32 total = 0;
     levels_ = 0;
@@ -86,7 +86,7 @@ template <int D> class PackedTree {
   }
 
   /// Puts an item into a place, or empties it. Call `refit` afterwards.
-  SHARED void put(u32 place, const f32* box, u32 tag) {
+  NOINLINE void put(u32 place, const f32* box, u32 tag) {
     for (int a = 0; a < D; a++) {
       lanes_.lo(a)[place] = box[a];
       lanes_.hi(a)[place] = box[D + a];
@@ -104,7 +104,7 @@ template <int D> class PackedTree {
   }
 
   /// Bounds and tags of all nodes, from the items up.
-  SHARED void refit() {
+  NOINLINE void refit() {
     for (u32 l = 1; l < levels_; l++) {
       u32 from = first_[l - 1], to = first_[l], size = padded(sizes_[l - 1]), room = padded(sizes_[l]);
       for (int a = 0; a < D; a++) {
@@ -117,7 +117,7 @@ template <int D> class PackedTree {
   }
 
   /// Finds all pairs of items that overlap and share no exclusion bit.
-  SHARED void join(Pairs& pairs, Stats& stats) {
+  NOINLINE void join(Pairs& pairs, Stats& stats) {
     for (u32 l = levels_; l-- > 0;) siblings(l, pairs, stats);
   }
 
@@ -159,7 +159,7 @@ template <int D> class PackedTree {
 
   /// Tests the smaller node of each pair against the four children of the larger, a node of `level`. Appends the
   /// overlapping pairs: of slots if `last`, when all are items, else of lanes.
-  SHARED u64* expand(const u64* from, u32 count, u32 level, bool last, u64* out, Stats& stats) const {
+  NOINLINE u64* expand(const u64* from, u32 count, u32 level, bool last, u64* out, Stats& stats) const {
     const LaneView<D> lanes = lanes_.view();
     const Names names(last);
     u32 parents = first_[level], children = first_[level - 1];
@@ -178,7 +178,7 @@ template <int D> class PackedTree {
   }
 
   /// Follows pairs of nodes of a level, which is not that of the items, down to the items.
-  SHARED void descend(u32 level, u32 count, Pairs& pairs, Stats& stats) const {
+  NOINLINE void descend(u32 level, u32 count, Pairs& pairs, Stats& stats) const {
     const u64* nodes = list(2 * level);
     u64* halves = list(2 * level + 1);
     for (u32 k = 0; k < count; k += chunk) {
@@ -223,7 +223,7 @@ template <int D> class PackedTree {
   }
 
   /// Empties the list of siblings up to `end`.
-  SHARED u64* pass_on(u32 level, const u64* end, Pairs& pairs, Stats& stats) const {
+  NOINLINE u64* pass_on(u32 level, const u64* end, Pairs& pairs, Stats& stats) const {
     u64* from = list(2 * level);
     u32 count = u32(end - from);
     if (level) {

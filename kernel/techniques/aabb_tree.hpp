@@ -192,7 +192,7 @@ template <int D> class AabbTree {
     return moved;
   }
 
-  SHARED void fatten(u32 slot, const f32* box, bool is_new, f32 margin) {
+  NOINLINE void fatten(u32 slot, const f32* box, bool is_new, f32 margin) {
     f32* fat = fat_.data() + u64(slot) * width;
     f32* origin = origin_.data() + u64(slot) * (D + 1);
     // Fat boxes reach ahead by different amounts, or all boxes would leave them at once. Neighbours get the same, since

@@ -152,7 +152,7 @@ template <int D> class Quadtree {
   }
 
   /// Tests the boxes of one node against those of another, or of the same, that come after them.
-  SHARED u32 test(const Node& one, const Node& other, Pairs& pairs) const {
+  NOINLINE u32 test(const Node& one, const Node& other, Pairs& pairs) const {
     const LaneView<D> lanes = lanes_.view();
     u64* out = pairs.list.data() + pairs.count;
     u32 tests = 0, until = other.last;

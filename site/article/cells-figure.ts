@@ -1,5 +1,5 @@
-// What figures 6 to 8 have in common: boxes on a grid, a slider for the cell size, the cells that have to be visited
-// shaded, and the work that comes of it beside that of brute force.
+// What figures 6 to 8 have in common: boxes on a grid, a slider for the cell size, the visited cells shaded, and the
+// resulting work beside that of brute force.
 import { ro } from 'broadphase/ro';
 import { demoColumns } from './demo.ts';
 import { type Box, bestCellSize, countWork, place } from './demos/cells.ts';
@@ -19,7 +19,7 @@ const finest = 3;
 
 export interface CellsFigure {
   boxes: readonly Box[];
-  /** The cell size to begin with. */
+  /** The initial cell size. */
   cellSize: number;
   /** What the boxes are, in words. */
   what: string;
@@ -149,7 +149,7 @@ function nearest(cellSize: number): number {
   return distances.indexOf(Math.min(...distances));
 }
 
-/** A horizontal bar in parts, with its name before and its sum behind it. */
+/** A horizontal bar in parts, with its name before it and its sum after it. */
 function bar(name: string, parts: readonly string[]) {
   const pieces = parts.map((part) => element('span', { 'data-part': part }));
   const sum = element('b');

@@ -1,8 +1,8 @@
-// What the demos have in common: their look, and the place for the picture beside that for the source.
+// What the demos have in common: their look, and places for the picture and for the source.
 import { columns } from './kit/index.ts';
 import './demos.css';
 
-/** Two places: for the picture with its controls, and for the source. */
+/** Makes two places: for the picture with its controls, and for the source. */
 export function demoColumns(root: HTMLElement): [picture: HTMLElement, source: HTMLElement] {
   root.classList.add('demo');
   return columns(root);

@@ -6,7 +6,7 @@ export const gridSize: GridSize = { width: 200, height: 150, cellSize: 50 };
 const columns = gridSize.width / gridSize.cellSize;
 const rows = gridSize.height / gridSize.cellSize;
 
-/** Two that overlap and share two cells, two that overlap in one cell, two that share a cell only, and one alone. */
+/** Two that overlap and share two cells, two that overlap in one cell, two that only share a cell, and one alone. */
 export const boxes: readonly Box[] = [
   [6, 6, 20, 18],
   [30, 30, 34, 36],
@@ -17,11 +17,11 @@ export const boxes: readonly Box[] = [
 ];
 
 export interface GridPicture {
-  /** The cells that hold something so far. */
+  /** The cells filled so far. */
   filled: readonly Place[];
-  /** The cells that the step at hand is about. */
+  /** The cells of the current step. */
   at?: readonly Place[];
-  /** The boxes that the step at hand is about. */
+  /** The boxes of the current step. */
   now?: readonly number[];
   /** The boxes known to collide. */
   hit?: ReadonlySet<number>;

@@ -1,4 +1,4 @@
-// Brings the figures to life: each is loaded and mounted shortly before it comes into sight, and told when it leaves.
+// Brings the figures to life: each is loaded and mounted shortly before it comes into sight, and notified when it leaves.
 
 interface FigureModule {
   // biome-ignore lint/suspicious/noConfusingVoidType: a figure that has nothing to stop returns nothing
@@ -6,7 +6,7 @@ interface FigureModule {
 }
 
 const modules = import.meta.glob<FigureModule>('./figures/*.ts');
-/** How far below the screen a figure is mounted, so that it is there when it is scrolled to. */
+/** How far below the screen a figure is mounted, so that it is ready when the reader scrolls to it. */
 const ahead = '900px 0px';
 
 async function mount(figure: HTMLElement): Promise<void> {

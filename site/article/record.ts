@@ -1,7 +1,7 @@
 // Records what the engine's techniques do, operation by operation, while they really run.
 //
-// The code that is shown beside a step-through is the code that ran: nothing is acted out. The technique's public
-// fields are replaced by watched ones, and its arrays by proxies that tell when they are read or written.
+// The code shown beside the steps is the code that ran: nothing is simulated. The technique's public fields are
+// replaced by watched ones, and its arrays by proxies that report reads and writes.
 import { type AABB, coltech, type Entity, Entity as RoEntity, World } from 'broadphase/ro';
 
 /** x, y, width, height. */
@@ -28,7 +28,7 @@ function watch<T extends object, K extends keyof T>(target: T, key: K, changed: 
 
 const isIndex = (key: string | symbol): key is string => typeof key === 'string' && /^\d+$/.test(key);
 
-/** An array that tells of its elements being read and written; `write` may put something else in their place. */
+/** An array that reports reads and writes of its elements; `write` may replace what is written. */
 function spy<T>(array: T[], { read, write }: { read?(index: number): void; write?(index: number, value: T): T }): T[] {
   return new Proxy(array, {
     get(target, key) {
@@ -58,7 +58,7 @@ export function recordBruteForce(boxes: readonly Box[]): BruteForceOperation[] {
   let i = -1;
   let j = entities.length;
 
-  // Both loops ask for the length before each turn: the inner one until it is through, and then the outer one.
+  // Both loops read the length before each iteration: the inner one until it ends, then the outer one.
   Object.defineProperty(technique, 'entities', {
     get: () =>
       new Proxy(entities, {
@@ -134,7 +134,7 @@ export function recordGrid(
   let populating = true;
   let id = -1;
   let here: Place = { col: 0, cell: 0 };
-  /** The ids last read from a cell: those of the pair at hand. */
+  /** The ids last read from a cell: the current pair. */
   let a = -1;
   let b = -1;
 
@@ -149,7 +149,7 @@ export function recordGrid(
       }),
   });
 
-  // The four ends are asked for in the order right, top, bottom, left; the last one completes the span.
+  // The four ends are read in the order right, top, bottom, left; the last one completes the span.
   const asked: number[] = [];
   const ask = (index: number) => {
     if (asked.push(index) < 4) return index;
@@ -207,7 +207,7 @@ export function recordGrid(
 
   populating = false;
   watch(technique, 'hashChecks', (checks) => {
-    // That it was in the table shows by no test following.
+    // If no test follows, the pair was in the table.
     if (checks > 0) query.push({ kind: 'look-up', a, b, known: true, ...here });
     return checks;
   });
@@ -243,7 +243,7 @@ export const stages = [
 ] as const;
 export type Stage = (typeof stages)[number];
 
-/** How things stand at the end of a stage. */
+/** The state at the end of a stage. */
 export interface StageRecord {
   stage: Stage;
   /** Which step of the world, from 1. */
@@ -251,7 +251,7 @@ export interface StageRecord {
   entities: { pos: Box; ppos: readonly [x: number, y: number]; aabb: AABB; accel: readonly [number, number] }[];
   /** What is on the screen: the boxes as they were when they were drawn. */
   drawn: { box: Box; hit: boolean }[];
-  /** The cells that hold something, as x, y, width, height. */
+  /** The filled cells, as x, y, width, height. */
   cells: Box[];
   pairs: readonly (readonly [number, number])[];
 }
@@ -294,7 +294,7 @@ export function recordStages(
     });
     stage = undefined;
   };
-  /** Closes the stage before, unless this one is going on. */
+  /** Ends the previous stage, unless it is this one. */
   const begin = (next: Stage) => {
     if (stage === next) return;
     close();
@@ -321,7 +321,7 @@ export function recordStages(
     },
   });
 
-  /** Turns an entity that is beyond a wall back, with its speed: it is put on the wall, having come from outside. */
+  /** Turns back an entity that is beyond a wall, with its speed: puts it on the wall, as if it came from outside. */
   const bounce = ({ pos, ppos, size }: Entity, axis: 'x' | 'y', length: number) => {
     const velocity = pos[axis] - ppos[axis];
     const wall = Math.min(Math.max(pos[axis], 0), length - size[axis]);
@@ -379,7 +379,7 @@ export function recordStages(
 
 export type AddingOperation = 'asked' | 'aabb' | 'id' | 'technique' | 'uniq' | 'world' | 'done';
 
-/** Adds an entity to a world and tells the operations of `World.addEntity`, in their order. */
+/** Adds an entity to a world, and returns the operations of `World.addEntity` in order. */
 export function recordAdding(world: World, entity: Entity): AddingOperation[] {
   const operations: AddingOperation[] = ['asked'];
   const { updateAABB } = entity;

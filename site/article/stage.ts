@@ -1,5 +1,5 @@
-// The stage of a figure whose world moves: a canvas that runs while the reader attends to it, a Step button for who
-// wants no motion, numbers that are read while it runs, and a text alternative that stays true.
+// The stage of a figure whose world moves: a canvas that runs while the reader attends to it, a Step button for readers
+// who want no motion, live numbers, and a text alternative that is kept up to date.
 import type { World } from 'broadphase/ro';
 import {
   button,
@@ -13,18 +13,18 @@ import {
   worldCanvas,
 } from './kit/index.ts';
 
-/** How often the numbers are read while it runs, in milliseconds. */
+/** Milliseconds between updates of the numbers while it runs. */
 const refresh = 100;
 
 export interface StageOptions<D extends { readonly world: World }> {
   /** In world units. */
   width: number;
   height: number;
-  /** Sets up the demo. The colours are kept those of the theme: the object stays the same. */
+  /** Sets up the demo. The colours object stays the same, and is updated with the theme. */
   build(canvas: HTMLCanvasElement, colors: Colors): D;
-  /** The counters below the canvas: the key of each, and how it is called on the page. */
+  /** The counters below the canvas: the key of each, and its name on the page. */
   counters: Readonly<Record<string, string>>;
-  /** What they are now. `rate` is the frames per second, 0 at rest. */
+  /** Their current values. `rate` is the frames per second, 0 at rest. */
   count(demo: D, rate: number): Readonly<Record<string, string | number>>;
   /** Called for every frame that is shown: for a second picture beside the world's own. */
   frame?(demo: D): void;
@@ -37,7 +37,7 @@ export interface Stage<D> {
   readonly canvas: HTMLCanvasElement;
   /** The row of buttons below the canvas. */
   readonly controls: HTMLElement;
-  /** Draws and counts anew without moving on, after something was changed. */
+  /** Draws and counts again without a step, after a change. */
   refresh(): void;
   /** Stops it. */
   rest(): void;
@@ -72,7 +72,7 @@ export function createStage<D extends { readonly world: World }>(
     tell();
   };
 
-  /** Counts the frames of the display while the world runs, and tells now and then. */
+  /** Counts the frames of the display while the world runs, and updates the numbers now and then. */
   const watch = () => {
     let frames = 0;
     let since = performance.now();

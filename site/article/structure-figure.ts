@@ -1,5 +1,5 @@
-// What the pictures of the library's techniques have in common: a crowd of moving boxes, and over it the cells, strips
-// or nodes that the technique has in memory.
+// What the figures of the library's techniques have in common: a crowd of moving boxes, and over it the cells, strips
+// or nodes of the technique.
 
 import type { TechniqueName } from 'broadphase';
 import { ro } from 'broadphase/ro';
@@ -67,7 +67,7 @@ export function structureFigure(root: HTMLElement, { techniques, unit, most, ...
   return stage.rest;
 }
 
-/** What part of all pairs of so many boxes was tested. */
+/** The share of all pairs of these boxes that was tested. */
 function share(tests: number, boxes: number): string {
   const percent = (100 * tests) / ((boxes * (boxes - 1)) / 2);
   return `${percent < 10 ? percent.toFixed(1) : Math.round(percent)} %`;

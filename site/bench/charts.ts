@@ -9,10 +9,10 @@ const others = 'var(--control-line)';
 const style = { fontSize: '12px', background: 'none', overflow: 'visible' };
 const rowHeight = 22;
 const lineHeight = 14;
-/** What names take on the left, and what stands behind the longest bar. */
+/** Room for the names on the left, and for the label after the longest bar. */
 const [nameRoom, labelRoom] = [132, 62];
 
-/** Where a logarithmic axis has its marks: at powers of ten, and between them where they are few. */
+/** The marks of a logarithmic axis: at powers of ten, and between them if those are few. */
 function marks(from: number, to: number): number[] {
   const between = Math.log10(to / from) < 2.2 ? [1, 3] : [1];
   const found: number[] = [];
@@ -28,7 +28,7 @@ export type Chart = (SVGSVGElement | HTMLElement) & Plot.Plot;
 export const times = (ratio: number) => `${ratio < 10 ? ratio.toPrecision(2) : formatCount(ratio)}×`;
 const shortName = (name: string) => (name.length > 19 ? `${name.slice(0, 18)}…` : name);
 
-/** One bar for each contender, its median frame; behind it what it is of ours; a line reaches to its 95th percentile. */
+/** A bar for each contender: its median frame, then its ratio to ours; a line reaches to its 95th percentile. */
 export function bars(race: Race, width: number): Chart {
   const us = reference(race);
   const rows = timed(race).map((result) => ({
@@ -138,7 +138,7 @@ export function growth(lines: readonly Curve[], width: number): Chart {
   });
 }
 
-/** Names at the ends of lines, moved up by factors where they would cover one another. */
+/** Names at the ends of lines, moved up by a factor if they would cover each other. */
 function spread<Point extends { ms: number }>(points: readonly Point[], apart: number): (Point & { at: number })[] {
   const sorted = [...points].sort((a, b) => a.ms - b.ms);
   let below = 0;
@@ -149,7 +149,7 @@ function spread<Point extends { ms: number }>(points: readonly Point[], apart: n
   });
 }
 
-/** A row for each race, a column for each technique: how many times as long as the best it took. */
+/** A row for each race, a column for each technique: its time in multiples of the best. */
 export function heat(races: readonly Race[], width: number): Chart {
   const rowOf = ({ name, count }: Race) => `${name} ${short(count)}`;
   const cells = races.flatMap((race) => ratios(race).map(({ name, ratio }) => ({ row: rowOf(race), name, ratio })));
@@ -185,7 +185,7 @@ export function heat(races: readonly Race[], width: number): Chart {
   });
 }
 
-/** Between two colours of the page, whichever it shows. */
+/** A mix of two colours of the page, in its current colour scheme. */
 const warmth = (share: number) => `color-mix(in oklab, var(--heat-best) ${100 * (1 - share)}%, var(--heat-worst))`;
 
 const short = (count: number) =>

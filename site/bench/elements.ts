@@ -1,6 +1,6 @@
 // Small pieces of the page, made by script.
 
-/** The element of that id, which the page has. */
+/** The element with this id, which must exist. */
 export const find = <E extends HTMLElement = HTMLElement>(id: string): E => document.querySelector<E>(`#${id}`)!;
 
 export function make<Name extends keyof HTMLElementTagNameMap>(
@@ -13,7 +13,7 @@ export function make<Name extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** Cells that are no numbers are words, on the left. */
+/** Cells that are not numbers are words, aligned left. */
 export function table(header: readonly string[], rows: readonly (readonly string[])[]): HTMLTableElement {
   const isWords = header.map((_, k) => rows.some((row) => row[k] !== '' && !/^[-+\d]/.test(row[k])));
   const line = (name: 'th' | 'td', cells: readonly string[]) =>
@@ -26,7 +26,7 @@ export function table(header: readonly string[], rows: readonly (readonly string
   );
 }
 
-/** Replaces the options of a menu and keeps what was chosen, if that is still there. */
+/** Replaces the options of a menu and keeps the choice, if it still exists. */
 export function fillMenu(
   menu: HTMLSelectElement,
   options: readonly (readonly [value: string, text: string])[],

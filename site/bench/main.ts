@@ -9,7 +9,7 @@ import { setUpRun } from './run.ts';
 
 /** Charts are no narrower, in pixels. */
 const leastWidth = 280;
-/** How many things a game has, unless the reader says otherwise. */
+/** The number of boxes until the reader chooses another. */
 const usualThings = '1000';
 
 /** The results that are in the repository, by file. */
@@ -46,7 +46,7 @@ const numbersOf = (races: readonly Race[]) =>
     .sort((a, b) => a - b)
     .map((each) => [`${each}`, formatCount(each)] as const);
 
-/** Those that the menus let through. */
+/** The races that the menus select. */
 const filtered = (races: readonly Race[]) =>
   withTimes(races).filter(
     (race) =>
@@ -76,7 +76,7 @@ function show(): void {
   showMotions(results);
 }
 
-/** The question a reader comes with: how long does a frame of my game take? */
+/** Answers the reader's first question: how long does a frame of my game take? */
 function showFrame(objects: readonly Race[]): void {
   const race = objects.find(({ name, count }) => name === moves.value && `${count}` === things.value);
   const place = find('frame-chart');
@@ -187,7 +187,7 @@ const loaded = Promise.all(
 find<HTMLInputElement>('file').addEventListener('change', async ({ target }) => {
   const [file] = (target as HTMLInputElement).files ?? [];
   if (!file) return;
-  await loaded; // what is said of the file must not be overwritten
+  await loaded; // so that it does not overwrite the message about the file
   try {
     learn(readResults(await file.text()), file.name);
     machine.value = file.name;

@@ -1,2 +1,2 @@
-// In place of Node's 'buffer', which box-intersect's pool of arrays asks for, though it is never given one.
+// Replaces Node's 'buffer', which box-intersect's pool of arrays imports, though it never gets one.
 export const Buffer = { isBuffer: () => false };

@@ -1,5 +1,5 @@
-// Who takes part when the benchmark runs in a browser: our techniques, and of the peers of bench/ those that are plain
-// JavaScript, by the same adapters.
+// The contenders when the benchmark runs in a browser: our techniques, and the peers of bench/ in plain JavaScript,
+// with the same adapters.
 import { BroadPhase, type TechniqueName } from 'broadphase';
 
 export interface Contender {
@@ -10,7 +10,7 @@ export interface Contender {
 }
 
 export interface Running {
-  /** Takes in a frame, finds all pairs, and says how many. */
+  /** Takes a frame, finds all pairs, and returns how many. */
   update(boxes: Float32Array | Float64Array): number;
   pairs(): ArrayLike<number>;
 }

@@ -1,10 +1,10 @@
-// Files of results, as bench/harness/run.mjs writes them and as this page's own run does, and what can be read out of them.
+// Files of results, as bench/harness/run.mjs and this page's own run write them, and what can be computed from them.
 import type { Contender, Figures, Judged } from '../../bench/harness/judge.mjs';
 
-/** Who has taken part in a race: with `total`, the milliseconds of a frame; too slow; or failed. */
+/** A contender of a race: with `total`, the milliseconds of a frame; too slow; or failed. */
 export type Result = Contender;
 
-/** A row of results: one scene or motion, with so many boxes, and all who took part. */
+/** A row of results: one scene or motion, with a number of boxes, and all contenders. */
 export interface Race extends Judged {
   kind: string;
   name: string;
@@ -31,7 +31,7 @@ const isTimed = (result: Result): result is Timed => result.total !== undefined;
 export const timed = (race: Race): Timed[] =>
   race.contenders.filter(isTimed).sort((a, b) => a.total.median - b.total.median);
 
-/** Whom all are compared with: `auto`, or `set` where things are objects, or else the best of ours. */
+/** The contender that all are compared with: `auto`, or `set` if boxes are objects, or else the best of ours. */
 export function reference(race: Race): Timed | undefined {
   const ours = timed(race).filter(isOurs);
   return ours.find(({ name }) => name === 'auto' || name === 'set') ?? ours[0];
@@ -39,7 +39,7 @@ export function reference(race: Race): Timed | undefined {
 
 export const ofKind = ({ rows }: Results, kind: string): Race[] => rows.filter((row) => row.kind === kind);
 
-/** Reads a file of results; says what is wrong with one that is none. */
+/** Reads a file of results. Throws an error that says what is wrong if it is not one. */
 export function readResults(text: string): Results {
   const found = JSON.parse(text) as Results;
   const good =
@@ -71,7 +71,7 @@ export interface Curve {
   exponent: number | undefined;
 }
 
-/** For each contender of a scene its times against the number of boxes. */
+/** For each contender of a scene, its times against the number of boxes. */
 export function curves(races: readonly Race[]): Curve[] {
   const found = new Map<string, Curve>();
   for (const race of [...races].sort((a, b) => a.count - b.count)) {
@@ -89,19 +89,19 @@ export function curves(races: readonly Race[]): Curve[] {
   return [...found.values()].map((curve) => ({ ...curve, exponent: exponent(curve.points) }));
 }
 
-/** What our techniques took in a race, in multiples of the best fixed one. */
+/** The times of our techniques in a race, in multiples of the best fixed one. */
 export function ratios(race: Race): { name: string; ratio: number }[] {
   const ours = timed(race).filter(isOurs);
   const [best] = ours.filter(({ name }) => name !== 'auto').sort((a, b) => a.update!.median - b.update!.median);
   return best ? ours.map(({ name, update }) => ({ name, ratio: update!.median / best.update!.median })) : [];
 }
 
-/** Within this of the best a technique is as good, for advice. */
+/** For advice, a technique within this factor of the best is as good as the best. */
 const asGood = 1.1;
 
 export interface Advice {
   technique: string;
-  /** In how many of the races it was timed in it was the best, or as good. */
+  /** The number of races in which it was the best, or as good. */
   good: number;
   races: number;
   /** Its largest multiple of the best, and where. */
@@ -111,7 +111,7 @@ export interface Advice {
   scenes: string[];
 }
 
-/** For each technique where it is as good as the best, and how far off it can be; the most useful first. */
+/** For each technique, where it is as good as the best, and how far off it can be; the most useful first. */
 export function advice(races: readonly Race[]): Advice[] {
   const found = new Map<string, Advice>();
   for (const race of races) {

@@ -1,12 +1,12 @@
-// The benchmark in the reader's own browser: chooses who runs on what, shows how far the worker is and what came out, and
-// saves it as a file that this page can show again.
+// The benchmark in the reader's own browser: selects contenders and scenes, shows the worker's progress and results,
+// and saves them as a file that this page can show again.
 import { type SceneName, sceneNames } from '../../src/scenes/index.ts';
 import { fillMenu, find, make } from './elements.ts';
 import { raceFigure } from './race-figure.ts';
 import type { Race, Results } from './records.ts';
 import type { Answer, Order } from './worker.ts';
 
-/** Who takes part unless the reader says otherwise. */
+/** The contenders until the reader chooses others. */
 const usual = ['auto', 'strip-sweep', 'aabb-tree', 'flatbush', 'rbush (load)', 'box-intersect', 'tutorial-grid'];
 
 /** Of the chart, in pixels. */
@@ -27,9 +27,9 @@ export function setUpRun(): void {
     'uniform2d',
   );
   scene.addEventListener('change', enable);
-  enable(); // nobody can run a race before it is known who there is
+  enable(); // a race needs the list of contenders first
 
-  /** The worker says first who there is: the page itself does without the library. */
+  /** The worker first sends the list of contenders, since the page itself does not load the library. */
   function open(): Worker {
     const made = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
     made.onmessage = ({ data }: MessageEvent<Answer>) => take(data);
@@ -61,7 +61,7 @@ export function setUpRun(): void {
     }
   }
 
-  /** Some do the plane only. */
+  /** Some contenders are 2D only. */
   function enable(): void {
     const dimensions = scene.value.endsWith('3d') ? 3 : 2;
     for (const each of able) each.box.disabled = !each.dimensions.includes(dimensions);
@@ -102,6 +102,6 @@ export function setUpRun(): void {
       download: 'broadphase-benchmark.json',
     });
     link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // some browsers read it only after the click is over
+    setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // some browsers read it only after the click
   });
 }

@@ -1,5 +1,5 @@
-// Runs one race in a worker, so that the page stays quick: as bench/ does in Node, all contenders play the same frames, in
-// turns, and what they find in them is compared.
+// Runs one race in a worker, so that the page stays responsive. As bench/ does in Node, all contenders take turns on
+// the same frames, and their results are compared.
 import { framesFor, strideFor } from '../../bench/harness/frames.mjs';
 import { type Entrant, judge } from '../../bench/harness/judge.mjs';
 import { Player } from '../../bench/harness/player.mjs';
@@ -19,12 +19,12 @@ export type Answer =
   | { race: Race }
   | { failed: string };
 
-/** What a contender may take in all, in milliseconds, and how many frames tell how slow it is. */
+/** The milliseconds that a contender may take in all, and the number of frames that show how slow it is. */
 const [budget, probed] = [800, 20];
 /** Frames that a contender plays before it is another's turn. */
 const turn = 20;
 
-/** What no mean of frames that are timed so coarsely is below, in milliseconds. */
+/** The least mean of a frame in milliseconds: the clock is too coarse for less. */
 const leastMean = 1e-4;
 
 const say = (answer: Answer) => postMessage(answer);
@@ -57,7 +57,7 @@ async function run({ scene: name, count, names }: Order): Promise<Race> {
   }
   for (const entrant of running) entrant.notes = [entrant.player!.notes];
   const race = judge({ kind: 'scenes', name, dimensions, numbers: 'float32', plan }, entrants);
-  // The clock of a page is coarse: of short frames the mean says more than the median does.
+  // The clock of a page is coarse, so for short frames the mean says more than the median.
   for (const { total } of race.contenders) if (total) total.median = Math.max(leastMean, total.mean);
   return race;
 }

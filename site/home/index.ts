@@ -1,5 +1,5 @@
 // The first page: boxes that move, their pairs found every frame, and what that costs.
-// What is chosen stands in the address, so that a view can be sent to someone.
+// Choices are in the URL, so that a view can be sent to someone.
 import { BroadPhase, type TechniqueName } from 'broadphase';
 import rain from '../../recordings/rain.trace.gz?url';
 import type { SceneName } from '../../src/scenes/index.ts';
@@ -10,7 +10,7 @@ import { numberPanel } from '../shared/numbers.ts';
 import type { RendererKind } from '../shared/renderer.ts';
 import { fetchRecording, type LiveScene, recordedScene, seededScene } from '../shared/scenes.ts';
 
-/** The scenes of the menu: name, label, and a word about them. */
+/** The scenes of the menu: name, label, and a short description. */
 const scenes: readonly (readonly [SceneName | 'rain', string, string])[] = [
   ['uniform2d', 'Uniform', 'All of one size, evenly spread.'],
   ['mixed2d', 'Mixed sizes', 'From 2 to 2,000 wide: no cell size of a plain grid suits them all.'],
@@ -25,13 +25,13 @@ const scenes: readonly (readonly [SceneName | 'rain', string, string])[] = [
 
 const fewest = 100;
 const most = 200_000;
-/** Brute force makes a test for every two boxes: from here on a frame would take seconds. */
+/** Brute force tests every two boxes: with more boxes a frame would take seconds. */
 const mostByBruteForce = 20_000;
-/** What a visitor sees who has chosen nothing: the most of these that this machine moves smoothly. */
+/** The number of boxes until the visitor chooses one: the largest of these that runs smoothly on this machine. */
 const greetings = [100_000, 50_000, 20_000, 10_000, 5_000];
-/** Frames a second. */
+/** Frames per second. */
 const smooth = 28;
-/** Milliseconds of play in which that is found out. */
+/** Milliseconds of play in which this is measured. */
 const trial = 1500;
 const frameBudget = 1000 / 60;
 const refresh = 250;
@@ -44,7 +44,7 @@ const meter = find('meter');
 const canvas = find('boxes');
 const write = numberPanel(document);
 
-/** How to draw can be chosen in the address, to compare: ?renderer=canvas-2d. */
+/** For comparison, the renderer can be chosen in the URL: ?renderer=canvas-2d. */
 const kinds: readonly RendererKind[] = ['webgl2', 'canvas-2d'];
 const address = new URLSearchParams(location.search);
 const space = new BroadPhase();
@@ -70,7 +70,7 @@ function boxesAt(position: number): number {
 
 const positionOf = (count: number) => Math.log(count / fewest) / Math.log(most / fewest);
 
-/** The number of boxes on the slider, or fewer where the technique cannot take so many. */
+/** The number of boxes on the slider, or fewer if it is too many for the technique. */
 function wanted(): number {
   const count = boxesAt(slider.valueAsNumber / Number(slider.max));
   return space.technique === 'brute-force' ? Math.min(count, mostByBruteForce) : count;
@@ -112,7 +112,7 @@ function remember(count: number): void {
   history.replaceState(null, '', `?${address}`);
 }
 
-/** Shows fewer boxes where those of the greeting do not move smoothly here. Drawing them is most of the work. */
+/** Shows fewer boxes if those of the greeting do not run smoothly here. Drawing them is most of the work. */
 function greet(): void {
   const { timings, loop, scene } = figure;
   if (!greeting || !loop.playing || !scene || slider.disabled || performance.now() - movingSince < trial) return;
@@ -157,7 +157,7 @@ function play(playing: boolean): void {
   caption();
 }
 
-/** What the picture shows, for those who cannot see it: brought up to date when it stops, not while it runs. */
+/** Describes the picture for people who cannot see it: updated when it stops, not while it runs. */
 function caption(): void {
   const { scene } = figure;
   if (!scene) return;
@@ -229,6 +229,6 @@ setInterval(() => {
 }, refresh);
 fillMenus();
 await show();
-// Where nothing moves one update stands for all: not one of the first, in which the browser compiles and memory grows.
+// With reduced motion one update stands for all: not one of the first, in which the browser compiles and memory grows.
 for (let k = 0; still.matches && k < 5; k++) await show();
 play(!still.matches);

@@ -1,4 +1,4 @@
-// What the lab can show: every generator of src/scenes, and the recorded traces that come with the page.
+// What the lab can show: all generators of src/scenes, and the recorded traces that come with the page.
 import junkyard from '../../recordings/junkyard.trace.gz?url';
 import rain from '../../recordings/rain.trace.gz?url';
 import gravity from '../../recordings/rapier3d-gravity8k.trace.gz?url';
@@ -18,7 +18,7 @@ export const traces: Readonly<Record<string, { label: string; url: string }>> = 
   gravity: { label: 'Turning gravity, 3D (Rapier)', url: gravity },
 };
 
-/** What the scenes are called where their own name does not say it. */
+/** Labels of scenes whose own name does not say enough. */
 const labels: Readonly<Record<string, string>> = {
   uniform: 'Uniform',
   sparse: 'Sparse',

@@ -32,5 +32,5 @@ export function save(bytes: Uint8Array<ArrayBuffer>, name: string): void {
   link.href = URL.createObjectURL(new Blob([bytes], { type: 'application/octet-stream' }));
   link.download = name;
   link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // some browsers read it only after the click is over
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // some browsers read it only after the click
 }

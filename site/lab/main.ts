@@ -1,5 +1,5 @@
-// The lab: a scene, a technique, what it costs. This file ties the parts together; the work is done in workers.
-// What is shown stands in the address, so that it can be sent to someone.
+// The lab: a scene, a technique, and what it costs. This file connects the parts; workers do the work.
+// The state is in the URL, so that it can be sent to someone.
 import type { TechniqueName } from 'broadphase';
 import { find, showPlaying } from '../shared/elements.ts';
 import { formatCount, formatMilliseconds, formatRate } from '../shared/format.ts';
@@ -29,11 +29,11 @@ import { createFlatView } from './views/view-2d.ts';
 import type { Opened, Picture, Requests, Source, Wanted } from './worker/messages.ts';
 import { Pilot, TooSlow } from './worker/pilot.ts';
 
-/** Milliseconds that a worker may take for an answer. */
+/** Milliseconds that a worker may take to answer. */
 const patience = 10_000;
-/** Brute force makes a test for every two boxes: from here on a frame would take seconds. */
+/** Brute force tests every two boxes: with more boxes a frame would take seconds. */
 const mostByBruteForce = 20_000;
-/** Every racer has all boxes in its own memory. */
+/** Limited, because every racer has all boxes in its own memory. */
 const mostInRace = 100_000;
 const refresh = 200;
 const rememberAfter = 300;
@@ -47,7 +47,7 @@ const { state: given, faults } = readState(location.search);
 const state: LabState = given;
 let source: Source;
 let opened: Opened | undefined;
-/** The file that is shown, where it is one of the user's. */
+/** The file that is shown, if it is the user's own. */
 let ownFile: File | undefined;
 let view: LabView;
 let picture: Picture | undefined;
@@ -64,7 +64,7 @@ const slider = createCountSlider(find('count'), state.boxes, (count) => {
   openSoon();
 });
 const cellSize = createCellSize(find('cells'), setCell, (cell) => ask('cost', cell));
-/** How flat scenes are drawn can be chosen in the address, to compare: ?renderer=canvas-2d. */
+/** For comparison, the renderer of flat scenes can be chosen in the URL: ?renderer=canvas-2d. */
 const kinds: readonly RendererKind[] = ['webgl2', 'canvas-2d'];
 const flat = createFlatView(
   find('flat'),
@@ -74,7 +74,7 @@ const flat = createFlatView(
 view = flat;
 let solid: Promise<LabView> | undefined;
 
-/** Says something; what went wrong is shown more strongly. */
+/** Shows a message; an error more prominently. */
 function say(text: string, bad = false): void {
   note.textContent = text;
   note.classList.toggle('bad', bad);
@@ -82,7 +82,7 @@ function say(text: string, bad = false): void {
 
 const reasonOf = (error: unknown) => (error instanceof Error ? error.message : String(error));
 
-/** Asks the worker; where it had to be ended, what was shown is opened again, with the technique that never fails. */
+/** Asks the worker. If it had to be stopped, opens the same scene again, with the technique that never fails. */
 async function ask<Name extends keyof Requests>(
   name: Name,
   ...args: Parameters<Requests[Name]>
@@ -123,13 +123,13 @@ async function makeFrame(steps: number): Promise<void> {
       view.show(picture!);
     }
   } catch (error) {
-    if (error instanceof TooSlow) return; // said where it was noticed
+    if (error instanceof TooSlow) return; // already reported
     play(false);
     say(`This stopped: ${reasonOf(error)}`, true);
   }
 }
 
-/** The picture before the last, whose arrays can be used again. */
+/** The picture before the last, whose arrays can be reused. */
 let spare: Wanted['spare'];
 
 function wanted(steps: number): Wanted {
@@ -171,7 +171,7 @@ function sourceOf(): Source {
 }
 
 let opening = new AbortController();
-/** Opens what is chosen, at a frame; gives up what was being opened. */
+/** Opens what is chosen, at a frame; cancels what was being opened. */
 async function open(frame: number, look?: readonly number[]): Promise<void> {
   opening.abort();
   opening = new AbortController();
@@ -187,7 +187,7 @@ async function openAt(frame: number, look: readonly number[] | undefined, signal
   source = sourceOf();
   if (race) {
     race.end();
-    picture = spare = undefined; // its arrays may be on their way to a racer: they cannot be lent twice
+    picture = spare = undefined; // its arrays may be on the way to a racer, and cannot be sent twice
   }
   race = undefined;
   recording = false;
@@ -213,7 +213,7 @@ async function openAt(frame: number, look: readonly number[] | undefined, signal
   remember();
 }
 
-/** Opens something else; where that fails, what was there stays. */
+/** Opens something else; if that fails, the old scene stays. */
 async function change(next: { scene: string; own?: File }): Promise<void> {
   const before = { scene: state.scene, own: ownFile, opened };
   state.scene = next.scene;
@@ -232,7 +232,7 @@ async function change(next: { scene: string; own?: File }): Promise<void> {
     ownFile = before.own;
     setRate(rate);
     sceneMenu.value = was;
-    // Its worker may be gone, or hold what cannot be shown.
+    // Its worker may be gone, or may have a scene that cannot be shown.
     if (error instanceof TooSlow || opened !== before.opened) await open(0);
     const name = next.own ? next.own.name : next.scene;
     say(`${name} cannot be shown: ${reasonOf(error)}`, true);
@@ -241,7 +241,7 @@ async function change(next: { scene: string; own?: File }): Promise<void> {
 
 async function useView(dimensions: 2 | 3): Promise<void> {
   if (dimensions === 3) {
-    // The library for it is fetched only by those who look at a solid scene.
+    // three.js is fetched only for a solid scene.
     solid ??= import('./views/view-3d.ts').then(({ createSolidView }) => {
       find('solid').hidden = false;
       const made = createSolidView(find('solid'), () => remember());
@@ -268,7 +268,7 @@ async function lookAtCells(): Promise<void> {
   if (sizes && !signal.aborted && !state.race) cellSize.begin(sizes, state.cell);
 }
 
-/** A word about what is shown, where it is not what was asked for. */
+/** Explains what is shown if it is not what was chosen. */
 function explain(): void {
   const asked = isTrace(state.scene) || ownFile ? 0 : state.boxes;
   const fewer = opened!.boxes < asked;
@@ -318,7 +318,7 @@ function showFileInMenu(): void {
 }
 
 let pendingMemory: ReturnType<typeof setTimeout> | undefined;
-/** Writes the state into the address, a little later: browsers allow that only so often. */
+/** Writes the state into the URL, after a delay: browsers limit how often that is allowed. */
 function remember(): void {
   clearTimeout(pendingMemory);
   pendingMemory = setTimeout(() => {
@@ -372,7 +372,7 @@ function play(playing: boolean): void {
   remember();
 }
 
-/** What the picture shows, for those who cannot see it: brought up to date when it stops, not while it runs. */
+/** Describes the picture for people who cannot see it: updated when it stops, not while it runs. */
 function caption(): void {
   if (!picture) return;
   view.element
@@ -482,7 +482,7 @@ addEventListener('keydown', (event) => {
   event.preventDefault();
   play(!playback.playing);
 });
-// Without an error it is a notice, as of elements that were resized twice in a frame.
+// Without an error it is only a notice, such as that elements were resized twice in a frame.
 addEventListener('error', (event) => event.error && failed(event.error));
 addEventListener('unhandledrejection', (event) => failed(event.reason));
 still.addEventListener('change', () => play(!still.matches));

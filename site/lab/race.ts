@@ -1,6 +1,6 @@
-// The race: the same frames with several techniques, each in a worker of its own. In each frame they take turns, so
-// that no two measure at once, and one that takes far too long is given up without holding up the page. Each has a
-// tile that shows its cells over the boxes, and a bar for the median of its last frames.
+// The race: the same frames with several techniques, each in its own worker. In each frame they take turns, so that no
+// two measure at once. One that takes far too long is dropped without blocking the page. Each has a tile that shows its
+// cells over the boxes, and a bar for the median of its last frames.
 import type { TechniqueName } from 'broadphase';
 import { Camera, type World } from '../shared/camera.ts';
 import { formatCount, formatMilliseconds } from '../shared/format.ts';
@@ -11,9 +11,9 @@ import { Pilot, TooSlow } from './worker/pilot.ts';
 
 /** Milliseconds that a frame may take in a race. */
 const patience = 3000;
-/** The median is that of so many frames. */
+/** The median is over this many frames. */
 const kept = 60;
-/** More cells than this are a haze in a tile: then only some are drawn. */
+/** More cells than this would be a haze in a tile, so only some are drawn. */
 const mostCells = 3000;
 const clearCells = 300;
 const strongest = 0.6;
@@ -22,9 +22,9 @@ const faintest = 0.05;
 const reach = 1000;
 
 export interface Race {
-  /** One frame of all that are still in. */
+  /** Runs one frame of all racers that are still in. */
   step(): Promise<void>;
-  /** What the leader's picture is: its numbers are those of the frame. */
+  /** The leader's picture: its numbers are those of the frame. */
   readonly picture: Picture | undefined;
   end(): void;
 }
@@ -41,13 +41,13 @@ interface Racer {
   frames: number;
   median: number;
   picture: Picture | undefined;
-  /** Why it is out. */
+  /** Why it has dropped out. */
   out: string | undefined;
 }
 
 /**
  * Opens the scene for every racer, at a frame.
- * @param abandoned aborted when something else is to be shown: the workers are then ended, and there is no race
+ * @param abandoned aborted when something else is to be shown: then the workers are stopped, and there is no race
  */
 export async function createRace(
   places: { tiles: HTMLElement; bars: HTMLElement; note: HTMLElement },
@@ -113,7 +113,7 @@ export async function createRace(
       drop(racer, error);
       if (!opened && !(error instanceof TooSlow)) {
         end();
-        throw error; // what one cannot open, none can
+        throw error; // what one cannot open, no other can
       }
     }
   }
@@ -125,10 +125,10 @@ export async function createRace(
   const renderer = createRenderer(backdrop, () => {}, 'canvas-2d');
   camera.fit(dimensions === 2 ? (world as World) : [world[0], world[1], world[3], world[4]]);
   const dark = matchMedia('(prefers-color-scheme: dark)');
-  /** The first that is still in: the boxes are asked of it alone. */
+  /** The first racer that is still in: only it sends the boxes. */
   let leader: Racer | undefined;
 
-  /** Boxes once for all, then each tile's cells over them. Solid scenes are seen from the front. */
+  /** Draws the boxes once for all tiles, then each tile's cells over them. Solid scenes are seen from the front. */
   const draw = () => {
     const style = getComputedStyle(tiles);
     renderer.setPalette(makePalette(dark.matches, style.getPropertyValue('--page').trim()));

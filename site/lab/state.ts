@@ -1,13 +1,12 @@
-// The state of the lab as it stands in the address: what a link to it shows. Every value of an address is checked
-// before it is used; what does not hold is left at its default, and said. So no address can ask for more than the
-// controls of the page can.
+// The state of the lab in the URL: what a link to it shows. Every value is checked before it is used; an invalid one is
+// reported and keeps its default. So no URL can ask for more than the controls of the page can.
 import { BroadPhase, type TechniqueName } from 'broadphase';
 import { fewestBoxes, isScene, isTrace, mostBoxes } from './catalog.ts';
 
 export const layers = ['structure', 'pairs', 'heat'] as const;
 export type Layer = (typeof layers)[number];
 
-/** Frames a second: as many as the display shows, or fewer. */
+/** Frames per second: as many as the display shows, or fewer. */
 export const rates = ['60', '10', '2'] as const;
 export type Rate = (typeof rates)[number];
 
@@ -19,9 +18,9 @@ export interface LabState {
   cell: number | undefined;
   show: readonly Layer[];
   rate: Rate;
-  /** The frame at which it stands; undefined while it plays. */
+  /** The frame at which it is paused; undefined while it plays. */
   frame: number | undefined;
-  /** 2D: the middle of the view in shares of the world, and the zoom. 3D: where the eye is, and what it looks at. */
+  /** 2D: the centre of the view in shares of the world, and the zoom. 3D: where the eye is, and what it looks at. */
   view: readonly number[] | undefined;
   /** The id of the box that was clicked. */
   box: number | undefined;
@@ -42,26 +41,26 @@ export const defaults: LabState = {
   race: undefined,
 };
 
-/** A frame of an address is reached by making all before it: no more than so many moves of boxes. */
+/** To reach a frame of the URL, all frames before it are made: at most this many moves of boxes. */
 const mostMoves = 1e8;
 const mostId = 2 ** 24 - 1;
 const farthestView = 1000;
-/** More of an address than this is no state of the lab. */
+/** A longer value in the URL is not a state of the lab. */
 const longestValue = 400;
 
 export const latestFrame = (boxes: number): number => Math.floor(mostMoves / boxes);
 
 export interface ReadState {
   state: LabState;
-  /** What in the address did not hold, in words. */
+  /** Messages about invalid values in the URL. */
   faults: string[];
 }
 
-/** Reads what follows the question mark of an address. */
+/** Reads the query string of a URL. */
 export function readState(query: string): ReadState {
   const given = new URLSearchParams(query);
   const faults: string[] = [];
-  /** The value of a name, where there is one and `read` makes something of it. */
+  /** The value of a name, if there is one and `read` accepts it. */
   const take = <T>(name: string, expected: string, read: (text: string) => T | undefined): T | undefined => {
     const text = given.get(name);
     if (text === null) return undefined;
@@ -114,10 +113,10 @@ export function readState(query: string): ReadState {
   return { state, faults };
 }
 
-/** A number as short as it can be without showing another picture. */
+/** A number, as short as possible for the same picture. */
 const short = (value: number) => String(Number(value.toPrecision(5)));
 
-/** What follows the question mark of an address that shows this. Defaults are left out. */
+/** The query string of a URL that shows this state. Defaults are left out. */
 export function writeState(state: LabState): string {
   const given = new URLSearchParams();
   if (isScene(state.scene)) given.set('scene', state.scene); // a file of the user's cannot be in a link

@@ -1,5 +1,5 @@
-// The page of what comes after the pairs: the worlds of examples/narrow-phase, drawn. Thin lines are the boxes of the
-// broad phase and their pairs, as broadphase/draw shows them; what is in colour really touches.
+// The page of the narrow phase: the worlds of examples/narrow-phase, drawn. Thin lines are the boxes of the broad phase
+// and their pairs, as broadphase/draw shows them. Shapes in colour really touch.
 import { drawSpace } from 'broadphase/draw';
 import {
   type FastThing,
@@ -18,7 +18,7 @@ import { Timings } from '../shared/timings.ts';
 
 const sharpest = 2;
 const refresh = 250;
-/** Frames before the first that is shown. */
+/** Frames before the first one shown. */
 const settling = 60;
 
 const canvas = find<HTMLCanvasElement>('canvas');
@@ -66,7 +66,7 @@ function step(): void {
   solve();
 }
 
-/** Finds what touches as things have moved on. */
+/** Finds what touches after things have moved. */
 function solve(): void {
   const started = performance.now();
   scene.move();
@@ -169,12 +169,12 @@ function show(name: string): void {
   find('word').textContent = kind.word;
   find('code').textContent = kind.code;
   scene = kind.make(Number(countMenu.value));
-  // What lies over one another at first is pushed apart, and the browser has compiled what runs often.
+  // Pushes apart what overlaps at first, and lets the browser compile what runs often.
   for (let frame = 0; frame < settling; frame++) step();
   broad.clear();
   narrow.clear();
   step();
-  // A picture that stands still is to show something that touches.
+  // A still picture should show something that touches.
   for (let frame = 0; frame < settling && scene.hits.length === 0; frame++) step();
   draw();
   report();
@@ -190,7 +190,7 @@ loop.watch(canvas);
 function play(playing: boolean): void {
   loop.playing = playing;
   showPlaying(playing);
-  report(); // the numbers are those of the picture, also where it stops between two reports
+  report(); // so that the numbers match the picture, even if it stops between two reports
 }
 find('play').addEventListener('click', () => play(!loop.playing));
 find('step').addEventListener('click', () => {

@@ -1,5 +1,5 @@
-// Every page is a folder, and its links are relative: the address of a folder without the slash at its end leads to the
-// one with it, as on any file server. Vite would answer with the page itself, and every link on it would be wrong.
+// Every page is a folder, and its links are relative. So the URL of a folder without a trailing slash redirects to the
+// one with it, as on any file server. Vite would serve the page itself, and every link on it would be wrong.
 import type { IncomingMessage, ServerResponse } from 'node:http';
 import type { Plugin } from 'vite';
 

@@ -1,5 +1,5 @@
-// The search of the reference takes Enter: it leads to the first result where none was chosen with the arrows. Results
-// come a moment after the last key, so Enter waits for those of what was typed.
+// Makes Enter work in the search of the reference: it opens the first result, if none was chosen with the arrows.
+// Results come a moment after the last key, so Enter waits for them.
 const wait = 250; // typedoc's own pause is 200 ms
 
 addEventListener('keydown', ({ key, target }) => {

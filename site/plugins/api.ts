@@ -1,5 +1,5 @@
-// The reference of the library's API, made by typedoc of the doc comments, as pages under api/. What is public and has
-// no comment, or links to nothing, is an error. In development it is made at the first visit.
+// The reference of the library's API, made by typedoc from the doc comments, as pages under api/. A public name
+// without a comment, or a broken link, is an error. In development it is made at the first visit.
 import { existsSync } from 'node:fs';
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { extname } from 'node:path';
@@ -28,7 +28,7 @@ const kinds: Record<string, string> = {
   '.txt': 'text/plain; charset=utf-8',
 };
 
-/** What can be called or made, and does not show how. What is documented elsewhere need not. */
+/** Functions, methods and classes without an example. Those documented elsewhere need none. */
 const withoutExample = (project: ProjectReflection): string[] =>
   project
     .getReflectionsByKind(ReflectionKind.Class | ReflectionKind.Function | ReflectionKind.Method)
@@ -42,7 +42,7 @@ const withoutExample = (project: ProjectReflection): string[] =>
     .filter((each) => !(each.signatures ?? [each]).some(({ comment }) => comment?.getTag('@example')))
     .map((each) => each.getFullName());
 
-/** Writes the reference into a folder api/ of this one, and beside it the texts for programs. */
+/** Writes the reference into the folder api/ in this one, and beside it the texts for programs. */
 async function writeReference(folder: string): Promise<void> {
   const customCss = path('../../build/api.css');
   const styles = [path('../shared/frame.css'), path('api.css')];

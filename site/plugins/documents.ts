@@ -1,6 +1,5 @@
-// Pages made of the repository's Markdown, so that a text stands in one place and reads well in both: the guides and
-// the other documents under guides/, and the examples with their source under examples/. A link to what is
-// not there is an error.
+// Pages made from the repository's Markdown, so that each text has one source and reads well in both places: the guides
+// and the other documents under guides/, and the examples with their source under examples/. A broken link is an error.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { basename, posix } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -12,7 +11,7 @@ import { rootFrom } from './frame.ts';
 import { names as live, waysTo } from './live.ts';
 import { addressOf } from './names.ts';
 
-/** The text of an example, which not all have. */
+/** The text of an example, if it has one. */
 const readme = 'README.md';
 const repository = fileURLToPath(new URL('../..', import.meta.url));
 const site = fileURLToPath(new URL('..', import.meta.url));
@@ -86,13 +85,13 @@ function linkFrom(file: string, page: string, href: string): string | undefined 
 const paint = (code: string, language: string) =>
   highlight.getLanguage(language) ? highlight.highlight(code, { language }).value : '';
 
-/** The first time that a page names something of the API in its text, it leads to the reference. */
+/** Links the first mention of each API name in the text of a page to the reference. */
 function linkNames(markdown: MarkdownIt, page: string): void {
   markdown.core.ruler.push('names', ({ tokens }) => {
     const linked = new Set<string>();
     tokens.forEach(({ type, children }, k) => {
       if (type !== 'inline' || tokens[k - 1].type === 'heading_open') return;
-      let depth = 0; // inside of a link
+      let depth = 0; // inside a link
       for (const child of children!) {
         if (child.type === 'link_open') depth++;
         if (child.type === 'link_close') depth--;
@@ -114,10 +113,10 @@ function render(file: string, page: string): string {
     const { tag } = tokens[k];
     return tag === 'h1' ? '<h1>' : `<${tag} id="${slugOf(tokens[k + 1].content)}">`;
   };
-  // What scrolls must be reached by the keyboard.
+  // A scrollable element must be reachable by keyboard.
   rules.table_open = () => '<div class="scroll" tabindex="0" role="group" aria-label="A table"><table>';
   rules.table_close = () => '</table></div>';
-  rules.image = () => ''; // what they show is live on the page of showcases
+  rules.image = () => ''; // the showcases page has them live
   const { fence } = rules;
   rules.fence = (...given) => fence!(...given).replace('<pre>', '<pre tabindex="0">');
   rules.link_open = (tokens, k, options, _, self) => {
@@ -131,7 +130,7 @@ function render(file: string, page: string): string {
 
 const isIndex = (name: string) => name.startsWith('index.');
 
-/** What an example says of itself, and its source, file by file: the first is the one to begin with. */
+/** The text of an example and its source, file by file: the first is the one to begin with. */
 function source(folder: string, page: string): string {
   const files = readdirSync(repository + folder)
     .filter((name) => name !== readme && name !== 'package-lock.json')
@@ -147,12 +146,12 @@ function source(folder: string, page: string): string {
   const start = has(readme)
     ? render(`${folder}/${readme}`, page)
     : `<h1>${basename(folder)}</h1><p>${paragraph.renderInline(description)}</p>`;
-  // Of one that runs on its page it is said there.
+  // An example that runs on its page says so there.
   const ways = has('package.json') && !live.includes(basename(folder)) ? `${waysTo(folder, manifest)} ` : '';
   return `${start}<p>${ways}<a href="../">All examples</a></p>${listings.join('')}`;
 }
 
-/** The documents under guides/: their files, and from a page of them where each is and what it is called. */
+/** The documents under guides/: their files, and from a page of them the address and the title of each. */
 const listed = [...pages].filter(([, path]) => path.startsWith('guides/'));
 const nameOf = (file: string, path: string) => (path === 'guides/index.html' ? 'All guides' : titleOf(read(file)));
 const linkTo = (page: string, [file, path]: [string, string], attributes = '') =>
@@ -164,7 +163,7 @@ function listing(page: string): string {
   return `<nav class="documents" aria-label="Guides"><ul>${links.join('')}</ul></nav>`;
 }
 
-/** To the documents before and after, below one. */
+/** The links to the previous and next document, below one. */
 function beside(page: string): string {
   const at = listed.findIndex(([, path]) => path === page);
   const [before, after] = [listed[at - 1], listed[at + 1]];
@@ -173,7 +172,7 @@ function beside(page: string): string {
   return `<nav class="beside" aria-label="Previous and next">${previous}${next}</nav>`;
 }
 
-/** What there is to read, in order: the list of guides, the README, the guides, and the documents beside them. */
+/** All texts, in order: the list of guides, the README, the guides, and the documents beside them. */
 export const texts = [listed[0][0], 'README.md', ...listed.slice(1).map(([file]) => file)].map((file) => {
   const address = pages.get(file)?.replace('index.html', '') ?? '';
   return { file: basename(file), address, title: titleOf(read(file)), text: read(file) };

@@ -1,10 +1,10 @@
-// What all pages have in common, in one place: the start of their head, and the way from each to the others. A page
-// says where they go, with the comments `<!-- head -->` and `<!-- navigation -->`; `<!-- repository -->` leads to the source. Every address is relative, so that
-// the site works under any path.
+// What all pages have in common, in one place: the start of their head, and the navigation. A page says where they go,
+// with the comments `<!-- head -->` and `<!-- navigation -->`; `<!-- repository -->` becomes a link to the source.
+// Every URL is relative, so that the site works under any path.
 import type { Plugin } from 'vite';
 import manifest from '../../package.json' with { type: 'json' };
 
-/** Where one can go, by folder, in this order. */
+/** The sections of the navigation, by folder, in this order. */
 const sections = {
   article: 'Article',
   lab: 'Lab',
@@ -51,7 +51,7 @@ export function navigation(path: string): string {
     </nav>`;
 }
 
-/** The way to the source. While the address in package.json is a placeholder, it is where the reader has the site from. */
+/** The link to the source. While the URL in package.json is a placeholder, it leads to where the site came from. */
 function source(): string {
   const address = manifest.repository.url.replace(/^git\+/, '').replace(/\.git$/, '');
   if (new URL(address).hostname.endsWith('.invalid')) {
@@ -63,7 +63,7 @@ function source(): string {
 export const frame: Plugin = {
   name: 'frame',
   transformIndexHtml: {
-    order: 'pre', // Vite then treats what the head names as if it had stood there
+    order: 'pre', // so that Vite processes what the head names
     handler: (html, { path }) => {
       const page = path.replace(/^\//, '');
       return html

@@ -1,6 +1,6 @@
-// The examples that have a page run on the site, above their code, as they are in their folders: built into live/, and
-// while the site is worked on served from there. Where the packages of the examples are not installed, there is only
-// the code.
+// Examples with a page run on the site, above their code, as they are in their folders. A build puts them into live/;
+// in development they are served from there. If the packages of the examples are not installed, there is only the
+// code.
 import { existsSync, readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { build, createServer, type HttpServer, type Plugin, type ViteDevServer } from 'vite';
@@ -11,13 +11,13 @@ const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
 const examples = path('../../examples/');
 const configFile = `${examples}vite.config.mjs`;
 
-/** Has a server of its own, since a policy is what it is about. */
+/** Has its own server, since it demonstrates a policy. */
 const apart = ['csp'];
 export const names = existsSync(`${examples}node_modules/vite`)
   ? readdirSync(examples).filter((name) => !apart.includes(name) && existsSync(`${examples}${name}/index.html`))
   : [];
 
-/** How to get an example: its folder, and an editor that opens it, where the repository has an address. */
+/** How to get an example: its folder, and an editor that opens it, if the repository has a URL. */
 export function waysTo(
   folder: string,
   { repository, version }: { repository: { url: string }; version: string },
@@ -40,7 +40,7 @@ const frameOf = (name: string, page: string) => `
 
 let served: Promise<ViteDevServer> | undefined;
 
-/** A second server, made when the first example is asked for; it tells pages of changes by way of the site's own. */
+/** A second server, started with the first request for an example. It reports changes through the site's own server. */
 const serve = (site: HttpServer) =>
   createServer({
     configFile,
@@ -58,7 +58,7 @@ export const live: Plugin = {
       const page = path.replace(/^\//, '');
       const name = /^examples\/([^/]+)\/index\.html$/.exec(page)?.[1];
       if (!name || !names.includes(name)) return;
-      // Below the name, and what package.json says of it.
+      // Below the name, and the description from package.json.
       return html.replace(/<\/h1>(<p>.*?<\/p>)?/, (above) => above + frameOf(name, page));
     },
   },

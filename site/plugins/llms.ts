@@ -1,11 +1,11 @@
-// llms.txt and llms-full.txt (llmstxt.org): what the site has to read as plain Markdown, for programs that read it. Both
-// are made of the same texts and doc comments as the pages.
+// llms.txt and llms-full.txt (llmstxt.org): the texts of the site as plain Markdown, for programs. Both are made from
+// the same texts and doc comments as the pages.
 import { writeFile } from 'node:fs/promises';
 import { type Comment, type DeclarationReflection, type ProjectReflection, ReflectionKind } from 'typedoc';
 import manifest from '../../package.json' with { type: 'json' };
 import { texts } from './documents.ts';
 
-/** What the list of guides says of each, by its file; of what it does not have, the first sentence. */
+/** What the list of guides says about each, by its file; for texts that it does not list, the first sentence. */
 const says = new Map(
   Array.from(texts[0].text.matchAll(/\[[^\]]*\]\((.*?)\):? (.*)/g), ([, file, words]): [string, string] => [
     file,
@@ -18,7 +18,7 @@ const firstSentence = (markdown: string) =>
     .split(/(?<=[.?]) /)[0]
     .replace(/[.:]$/, '');
 
-/** Links lead to files of the repository, pictures show what words cannot. */
+/** Removes links to files of the repository, and pictures. */
 const withoutLinks = (markdown: string) =>
   markdown
     .replaceAll(/<picture>[\s\S]*?<\/picture>|<img [^>]*>|<!--[\s\S]*?-->/g, '')
@@ -40,7 +40,7 @@ const told = (comment: Comment | undefined): string => {
   return [(comment?.summary ?? []).map(({ text }) => text).join(''), ...tags].join('\n\n');
 };
 
-/** A function, a method or a property: how it is written, and what its comment says. */
+/** A function, a method or a property: its signature and its comment. */
 function member(each: DeclarationReflection): string {
   const signature = each.signatures?.[0] ?? each.getSignature;
   if (each.signatures) {
@@ -86,7 +86,7 @@ export async function writeTexts(project: ProjectReflection, folder: string): Pr
     '- [Examples](examples/): engines, renderers, servers, frameworks, each with its source\n',
   ];
   await writeFile(`${folder}/llms.txt`, list.join('\n'));
-  const left = ['Changelog', 'Architecture', 'Figures']; // long, and of no use to who writes a game
+  const left = ['Changelog', 'Architecture', 'Figures']; // long, and useless for writing a game
   const full = texts
     .slice(1)
     .filter(({ title }) => !left.includes(title))

@@ -1,5 +1,5 @@
-// The public names of the library and where the reference has each. The README's table of the API is the list: its
-// groups are those of the reference, and what it leaves out fails the build of the site.
+// The public names of the library, and where each is in the reference. The README's table of the API is the list: its
+// groups are those of the reference, and a name that it leaves out fails the build of the site.
 import { readFileSync } from 'node:fs';
 
 export interface Group {
@@ -7,7 +7,7 @@ export interface Group {
   names: readonly string[];
 }
 
-/** What the other entries have that can be called or made. */
+/** The functions and classes of the other entry points. */
 const functions = {
   broadphase: ['findPairs', 'findPairsBetween', 'init'],
   'broadphase/draw': ['drawSpace', 'boxesInCells'],
@@ -22,7 +22,7 @@ const classes = {
 
 const readme = readFileSync(new URL('../../README.md', import.meta.url), 'utf8');
 
-/** The groups of the README's table of the API: under each title in bold the names at the start of its rows. */
+/** The groups of the README's table of the API: for each title in bold, the names at the start of its rows. */
 export const groups: readonly Group[] = /## API\n([\s\S]*?)\n## /
   .exec(readme)![1]
   .split(/^\| \*\*/m)
@@ -46,11 +46,11 @@ const addresses = new Map<string, string>([
   ),
 ]);
 
-/** Words that stand for much else: they are taken for a name only as a call, or of a space. */
+/** Words with other meanings: they count as a name only in a call, or as a member of a space. */
 const plain =
   /^(size|keys|get|has|set|delete|clear|boxes|pairs|sweep|nearest|stats|technique|init|record|replay|compare|tune|World)$/;
 
-/** Where in the reference the name of a piece of code is told, if it is one: of `set`, `space.set` and `set(…)`. */
+/** The place in the reference of a name in a piece of code, if it is one, such as `set`, `space.set` or `set(…)`. */
 export function addressOf(code: string): string | undefined {
   const [, space, name, call] = /^(space\.|BroadPhase\.)?([a-zA-Z]+)(\([^)]*\))?$/.exec(code) ?? [];
   return name && (space || call || !plain.test(name)) ? addresses.get(name) : undefined;

@@ -1,6 +1,6 @@
-// What the reference says besides what typedoc makes of the doc comments: its first page, which has one line for each
-// member of BroadPhase, in the groups of the README; the same groups on the page of the class; and under each method the
-// options it takes, so that nobody has to follow a type to know them.
+// What the reference has besides what typedoc makes from the doc comments. Its first page has one line for each
+// member of BroadPhase, in the groups of the README. The page of the class has the same groups. Each method lists the
+// options it takes, so that nobody has to follow a type to find them.
 import {
   type Comment,
   type CommentDisplayPart,
@@ -26,7 +26,7 @@ const libraryOf = (project: ProjectReflection) => project.getChildByName('broadp
 const classOf = (project: ProjectReflection) =>
   libraryOf(project).getChildByName('BroadPhase') as DeclarationReflection;
 
-/** Where a comment of it stands: methods and accessors have theirs in their signature. */
+/** The comment of a member: methods and accessors have it in their signature. */
 const commentOf = (each: DeclarationReflection): Comment | undefined =>
   (each.signatures?.[0] ?? each.getSignature ?? each).comment;
 
@@ -63,7 +63,7 @@ const tableOf = (all: readonly DeclarationReflection[]): CommentDisplayPart[] =>
   text('\n'),
 ];
 
-/** Where a group of the README has its members: in the class, or in an entry. */
+/** The members of a group of the README: in the class, or in an entry point. */
 function membersOf(project: ProjectReflection, names: readonly string[]): DeclarationReflection[] {
   const places = [classOf(project), ...(project.children ?? [])];
   return names.flatMap((name) => {
@@ -72,7 +72,7 @@ function membersOf(project: ProjectReflection, names: readonly string[]): Declar
   });
 }
 
-/** In the order of the README; what it does not name, last. The class comes first of all. */
+/** Sorts members in the order of the README, with others last. The class comes first. */
 export function orderMembers(project: ProjectReflection): void {
   const space = classOf(project);
   const order = new Map(groups.flatMap(({ names }) => names).map((name, k): [string, number] => [name, k]));
@@ -85,8 +85,8 @@ export function orderMembers(project: ProjectReflection): void {
 }
 
 /**
- * Puts each member of BroadPhase into its group of the README. Gives what does not fit: members that are in none, and
- * names of the README that are nowhere.
+ * Puts each member of BroadPhase into its group of the README. Returns the mismatches: members in no group, and names
+ * of the README that do not exist.
  */
 export function groupMembers(project: ProjectReflection): string[] {
   const titles = new Map(groups.flatMap(({ title, names }) => names.map((name): [string, string] => [name, title])));
@@ -108,11 +108,11 @@ const entries: Record<string, string> = {
   'broadphase/ro': 'The small engine of the article.',
 };
 
-/** The first page: BroadPhase, a line for each member, then what else there is. */
+/** Writes the first page: BroadPhase, with a line for each member, then everything else. */
 export function writeLanding(project: ProjectReflection): void {
   const space = classOf(project);
   const [make] = space.children!.filter((each) => each.kindOf(ReflectionKind.Constructor));
-  // As a link of the Markdown it would be taken for a file to be copied.
+  // A Markdown link would count as a file to be copied.
   const parts = [
     text(' [The guides](../guides/) show how to use them.\n\n## '),
     link(space, 'BroadPhase'),
@@ -137,7 +137,7 @@ export function writeLanding(project: ProjectReflection): void {
   project.readme!.push(...parts);
 }
 
-/** The types of options that a type names, in whatever it is wrapped. */
+/** The types of options in a type, however it is wrapped. */
 function optionsIn(type: SomeType | undefined): DeclarationReflection[] {
   if (type?.type === 'union') return type.types.flatMap(optionsIn);
   if (type?.type !== 'reference') return [];
@@ -153,7 +153,7 @@ function optionOf(option: DeclarationReflection): CommentDisplayPart[] {
   return [text('\n- '), { kind: 'code', text: `\`${option.name}?: ${type}\`` }, text(' '), ...words];
 }
 
-/** Under each function and method that takes options, which there are. */
+/** Lists the options of each function and method that takes any. */
 export function tellOptions(project: ProjectReflection): void {
   const calls = project.getReflectionsByKind(
     ReflectionKind.CallSignature | ReflectionKind.ConstructorSignature,

@@ -1,4 +1,4 @@
-// For the page of showcases: `<!-- source examples/… -->` stands for the text of that file, coloured.
+// For the page of showcases: replaces `<!-- source examples/… -->` by the text of that file, coloured.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import highlight from 'highlight.js';

@@ -1,26 +1,26 @@
-// What a query of the page is, what it works with, and what all of them share.
+// The interface of a query on the page, what it works with, and what all queries share.
 import type { BroadPhase, TechniqueName } from 'broadphase';
 import { hues, shades } from '../shared/groups.ts';
 import type { Pen } from './pen.ts';
 
-/** What a query works with. */
+/** The data that a query works with. */
 export interface Desk {
   readonly space: BroadPhase<2 | 3>;
   readonly boxes: Float32Array;
   /** The colour slot of every box. */
   readonly slots: Uint8Array;
-  /** Side of the world. */
+  /** The side of the world. */
   readonly world: number;
-  /** Where the pointer went down, and where it is: x, y, x, y. */
+  /** Where the pointer went down, and where it is now: x, y, x, y. */
   readonly aim: Float64Array;
   /** Whether that has changed since the last answer. */
   readonly aimed: boolean;
   readonly k: number;
   readonly radius: number;
   readonly all: boolean;
-  /** Whether boxes are to be wholly inside. */
+  /** Whether boxes have to be wholly inside. */
   readonly within: boolean;
-  /** The layers that are looked for. */
+  /** The layers that the query asks for. */
   readonly mask: number;
   readonly pen: Pen;
 }
@@ -31,16 +31,16 @@ export interface Ask {
   readonly name: string;
   readonly label: string;
   readonly hint: string;
-  /** What the number of answers counts. */
+  /** The unit of the number of answers. */
   readonly counts: string;
   readonly options: readonly OptionName[];
-  /** How pairs are found meanwhile, where it is to be a certain one. */
+  /** The technique that finds the pairs, if the query needs a certain one. */
   readonly technique?: TechniqueName;
-  /** Asks, and marks what it found. This alone is timed. */
+  /** Makes the query, and marks what it found. This alone is timed. */
   ask(desk: Desk): number;
-  /** Draws what was asked and found. */
+  /** Draws the query and its answer. */
   draw(desk: Desk): void;
-  /** The call and its answer, as they would stand in a program. */
+  /** The call and its answer, as in a program. */
   text(desk: Desk): string;
 }
 
@@ -50,10 +50,10 @@ export const found = hueSlot(8);
 export const first = hueSlot(0);
 export const fresh = 4;
 export const gone = 0;
-/** For how many frames a pair flashes that began or ended. */
+/** The number of frames for which a pair that began or ended flashes. */
 export const flash = 40;
 
-/** Numbers as one would type them. */
+/** A number, rounded to one decimal. */
 export const short = (value: number) => String(Math.round(value * 10) / 10);
 export const list = (ids: readonly number[]) => `[${ids.slice(0, 24).join(', ')}${ids.length > 24 ? ', …' : ''}]`;
 export const maskText = ({ mask }: Desk) => (mask === 7 ? '' : `{ mask: ${mask} }`);

@@ -1,6 +1,5 @@
-// The queries of the page, one each: what it asks of the space, how the answer is marked among the boxes and drawn
-// above them, and how the call reads. They all aim with the same two points: where the pointer went down, and where it
-// is now.
+// The queries of the page. Each has the query to the space, the marks for the answer among the boxes, the drawing above
+// them, and the text of the call. All aim with the same two points: where the pointer went down, and where it is now.
 import type { BroadPhase, RayHit, SweepHit } from 'broadphase';
 import { shades } from '../shared/groups.ts';
 import { type Ask, first, flash, found, fresh, gone, hueSlot, join, list, maskText, short } from './ask.ts';
@@ -131,7 +130,7 @@ const rayCast: Ask = {
   },
 };
 
-/** Side of the box that is swept, as a share of the world. */
+/** The side of the swept box, as a share of the world. */
 const sweptSide = 0.05;
 
 const sweep: Ask = {
@@ -211,7 +210,7 @@ const partners: Ask = {
   counts: 'Boxes in a pair with it',
   options: [],
   ask({ space, aim, aimed, slots }) {
-    // What was chosen stays so while it moves.
+    // The chosen box stays chosen while it moves.
     if (aimed) [chosen = -1] = space.nearest(aim[2], aim[3], 1, { out: ids });
     if (chosen < 0 || !space.has(chosen)) return 0;
     space.collisionsOf(chosen, ids);
@@ -231,7 +230,7 @@ const partners: Ask = {
   },
 };
 
-/** Per box, how many frames its flash goes on; negative where its pair has ended. */
+/** Per box, the remaining frames of its flash; negative if its pair has ended. */
 let flashes = new Int8Array();
 
 const events: Ask = {

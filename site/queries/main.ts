@@ -1,5 +1,5 @@
-// The page of queries: boxes that move, one query asked of them in each frame, and its answer shown among them.
-// Where it aims is dragged, or moved by the arrow keys; which query it is stands in the address.
+// The page of queries: moving boxes, one query in each frame, and its answer shown among the boxes. The query is
+// aimed by dragging or with the arrow keys, and chosen by the URL.
 import { BroadPhase } from 'broadphase';
 import { Camera } from '../shared/camera.ts';
 import { find, showPlaying } from '../shared/elements.ts';
@@ -15,7 +15,7 @@ import { asks, setLayers } from './asks.ts';
 import { Pen } from './pen.ts';
 
 const sharpest = 2;
-/** Milliseconds between two readings of text that changes all the time. */
+/** Milliseconds between two updates of text that changes all the time. */
 const refresh = 200;
 /** Answers before the first that is timed: the browser compiles what runs often. */
 const warmUp = 30;
@@ -66,13 +66,13 @@ let found = 0;
 const timings = new Timings();
 let read = 0;
 
-/** Finds the pairs of the boxes as they stand. */
+/** Finds the pairs of the current boxes. */
 function update(): void {
   space.boxes(scene.count).set(scene.boxes);
   space.update();
 }
 
-/** Asks the query and draws its answer. */
+/** Makes the query and draws its answer. */
 function answer(): void {
   desk.slots.fill(0);
   const started = performance.now();
@@ -98,7 +98,7 @@ function report(): void {
 }
 
 let pending = 0;
-/** Answers once before the next frame, and brings the text up to date: something was moved or chosen. */
+/** Answers once before the next frame, and updates the text, after something was moved or chosen. */
 function answerSoon(): void {
   cancelAnimationFrame(pending);
   pending = requestAnimationFrame(() => {
@@ -114,7 +114,7 @@ const loop = new FrameLoop(() => {
   if (performance.now() - read > refresh) report();
 });
 
-/** Aims across the middle of the world, from a place with room around it where there is one. */
+/** Aims across the middle of the world, if possible from a place with room around it. */
 function aimAnew(): void {
   const { world, aim } = desk;
   const room = world / 30;
@@ -139,11 +139,11 @@ function showScene(): void {
   layers();
   update();
   aimAnew();
-  update(); // once more: what stands there now has not just begun
+  update(); // once more, so that the pairs there now have not just begun
   answerSoon();
 }
 
-/** Everybody meets everybody, but where the query is about just that. */
+/** Lets all layers meet, unless the query is about layers. */
 function layers(): void {
   space.boxes(scene.count).set(scene.boxes);
   const meets = [0, 0, 0];
@@ -266,7 +266,7 @@ view.addEventListener('keydown', (event) => {
 function play(playing: boolean): void {
   loop.playing = playing;
   showPlaying(playing);
-  report(); // the numbers are those of the picture, also where it stops between two reports
+  report(); // so that the numbers match the picture, even if it stops between two reports
 }
 find('play').addEventListener('click', () => play(!loop.playing));
 find('step').addEventListener('click', () => {

@@ -1,4 +1,5 @@
-// More queries of the page: what a camera sees, many rays in one call, the pairs of two spaces, and what a space holds.
+// More queries of the page: what a camera sees, many rays in one call, the pairs of two spaces, and the contents of
+// one.
 import { BroadPhase, type ManyRayHits } from 'broadphase';
 import { type Ask, first, found, join, maskText, short } from './ask.ts';
 
@@ -6,7 +7,7 @@ import { type Ask, first, found, join, maskText, short } from './ask.ts';
 const half = Math.PI / 7;
 const [sine, cosine] = [Math.sin(half), Math.cos(half)];
 
-/** Left, right and far side of the view: of each a normal, which points inside, and an offset. */
+/** Left, right and far side of the view: for each, a normal that points inside, and an offset. */
 const planes = new Float64Array(9);
 let whole = 0;
 let seen = 0;
@@ -62,7 +63,7 @@ export const view: Ask = {
 };
 
 const rayCount = 90;
-/** How far each reaches, as a share of the world. */
+/** How far each ray reaches, as a share of the world. */
 const reach = 0.3;
 const rays = new Float64Array(4 * rayCount);
 let hits: ManyRayHits | undefined;

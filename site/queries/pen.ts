@@ -1,9 +1,9 @@
-// Draws on top of the boxes what was asked and what was met, in coordinates of the world, whose y axis points up.
+// Draws the query and its answer on top of the boxes, in coordinates of the world, whose y axis points up.
 import type { BroadPhase } from 'broadphase';
 import { type DrawOptions, drawSpace } from 'broadphase/draw';
 import type { Camera } from '../shared/camera.ts';
 
-/** accent: what was asked; text: what was met; faint: what would be. */
+/** accent: the query; text: the answer; faint: what would be. */
 export type Ink = 'accent' | 'text' | 'faint';
 
 const tip = 9;
@@ -26,7 +26,7 @@ export class Pen {
     this.#inks.faint = style.getPropertyValue('--muted').trim();
   }
 
-  /** Device pixels in one of the page's. */
+  /** @param density device pixels per CSS pixel */
   begin(density: number): void {
     this.#density = density;
     this.#context.clearRect(0, 0, this.#camera.width, this.#camera.height);
@@ -57,7 +57,7 @@ export class Pen {
     context.stroke();
   }
 
-  /** What broadphase/draw shows of a space. */
+  /** Draws what broadphase/draw shows of a space. */
   space(space: BroadPhase<2 | 3>, options: DrawOptions): void {
     const context = this.#context;
     const { scale } = this.#camera;
@@ -76,7 +76,7 @@ export class Pen {
     context.stroke();
   }
 
-  /** A dot of that many pixels. */
+  /** A dot of this many pixels. */
   dot(x: number, y: number, size: number, ink: Ink): void {
     this.#use(ink, 1, false);
     this.#context.arc(this.#x(x), this.#y(y), size * this.#density, 0, 2 * Math.PI);
@@ -90,7 +90,7 @@ export class Pen {
     this.#context.stroke();
   }
 
-  /** A line of so many pixels from a point, with a tip. */
+  /** An arrow from a point, of this many pixels. */
   arrow(x: number, y: number, directionX: number, directionY: number, pixels: number, ink: Ink): void {
     const length = Math.hypot(directionX, directionY);
     if (length === 0) return;

@@ -1,5 +1,4 @@
-// What part of the world is in view. The world's y axis points up; pixels are device pixels with y up as well,
-// which is what WebGL draws in.
+// The part of the world in view. The world's y axis points up. Pixels are device pixels, also with y up, as in WebGL.
 
 /** minX, minY, maxX, maxY. */
 export type World = readonly [number, number, number, number];
@@ -33,12 +32,12 @@ export class Camera {
     this.fitted = true;
   }
 
-  /** How much larger than when all of the world is shown. */
+  /** The scale, relative to the one that shows the whole world. */
   get zoomed(): number {
     return this.scale / this.#fitScale();
   }
 
-  /** Puts a world point into the middle, so many times as large as when all is shown. */
+  /** Puts a world point into the middle, at a scale relative to the one that shows the whole world. */
   look(x: number, y: number, zoomed: number): void {
     this.fit();
     this.zoom(zoomed);
@@ -53,7 +52,7 @@ export class Camera {
     if (this.fitted) this.fit();
   }
 
-  /** Moves the view by pixels: what was under the pointer follows it. */
+  /** Moves the view by pixels, so that the world follows the pointer. */
   pan(dx: number, dy: number): void {
     const [minX, minY, maxX, maxY] = this.#world;
     this.x = Math.min(maxX, Math.max(minX, this.x - dx / this.scale));
@@ -61,7 +60,7 @@ export class Camera {
     this.fitted = false;
   }
 
-  /** Zooms by a factor about a pixel, which keeps showing the same point of the world. */
+  /** Zooms by a factor around a pixel, which keeps showing the same point of the world. */
   zoom(factor: number, px = this.width / 2, py = this.height / 2): void {
     const fit = this.#fitScale();
     const scale = Math.min(fit * closest, Math.max(fit * farthest, this.scale * factor));

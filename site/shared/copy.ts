@@ -1,5 +1,5 @@
-// A button at each block of code, which copies it.
-const said = 1500; // milliseconds for which the button says that it is done
+// A button at each code block, which copies it.
+const said = 1500; // milliseconds for which the button says that it has copied
 
 for (const block of document.querySelectorAll('.document pre')) {
   const button = Object.assign(document.createElement('button'), {

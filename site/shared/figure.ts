@@ -23,7 +23,7 @@ export class Figure {
   readonly #canvas: HTMLCanvasElement;
   #drawAgain = 0;
 
-  /** view holds the canvas and takes the pointer and the keys. */
+  /** @param view contains the canvas, and gets pointer and key events */
   constructor(view: HTMLElement, space: BroadPhase<2 | 3>, kind?: RendererKind) {
     this.#canvas = view.querySelector('canvas')!;
     this.#space = space;
@@ -45,7 +45,7 @@ export class Figure {
     this.#fitCanvas();
   }
 
-  /** Shows another scene, all of it. */
+  /** Shows the whole of another scene. */
   show(scene: LiveScene): void {
     this.scene = scene;
     this.#space.clear();
@@ -61,7 +61,7 @@ export class Figure {
     this.solve();
   }
 
-  /** Finds the pairs of the boxes as they stand, and draws them. */
+  /** Finds the pairs of the current boxes, and draws them. */
   solve(): void {
     const { scene, groups } = this;
     if (!scene) return;
@@ -75,7 +75,7 @@ export class Figure {
     this.#draw();
   }
 
-  /** Draws again before the next frame is shown, without a step: the view or the colours changed. */
+  /** Draws again before the next frame, without a step, after the view or the colours have changed. */
   readonly redraw = (): void => {
     cancelAnimationFrame(this.#drawAgain);
     this.#drawAgain = requestAnimationFrame(this.#draw);

@@ -4,7 +4,7 @@ const threeDigits = new Intl.NumberFormat('en', { minimumSignificantDigits: 3, m
 
 export const formatCount = (count: number): string => whole.format(count);
 
-/** Milliseconds with three digits, or none after the point from 100 on. The finest clocks tick every 0.005 ms. */
+/** Milliseconds with three digits, without decimals from 100 on. The finest clocks tick every 0.005 ms. */
 export function formatMilliseconds(ms: number): string {
   if (ms >= 100) return whole.format(ms);
   return ms < 0.1 ? ms.toFixed(3) : threeDigits.format(ms);

@@ -1,9 +1,9 @@
-// The size of the JavaScript heap, where the browser tells it: in Chromium, exactly on a page that is cross-origin
-// isolated, as this site is when served with its headers.
+// The size of the JavaScript heap, if the browser reports it. Chromium does; the size is exact on a cross-origin
+// isolated page, as this site is when served with its headers.
 
 interface HeapClock {
   readonly memory?: { readonly usedJSHeapSize: number };
 }
 
-/** Bytes in use on the JavaScript heap, or undefined where the browser does not say. */
+/** Bytes in use on the JavaScript heap, or undefined if the browser does not report them. */
 export const heapSize = (): number | undefined => (performance as HeapClock).memory?.usedJSHeapSize;

@@ -1,5 +1,5 @@
-// The run loop of a live figure: one call per display frame while it plays and can be seen. A hidden tab or a figure
-// scrolled out of sight costs nothing, and one whose frame throws stops.
+// The run loop of a live figure: one call per display frame while it plays and is visible. A hidden tab, or a figure
+// scrolled out of sight, costs nothing. A figure whose frame throws stops.
 export class FrameLoop {
   readonly #frame: (now: number) => void;
   #request = 0;

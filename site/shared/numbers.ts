@@ -1,5 +1,5 @@
 // A panel of live numbers: every element with data-number="name" below the root shows the text given for that name.
-// Text is replaced only where it changed, so a still figure costs no layout.
+// Text is replaced only if it has changed, so a still figure costs no layout.
 export type NumberPanel = (name: string, text: string) => void;
 
 export function numberPanel(root: ParentNode): NumberPanel {

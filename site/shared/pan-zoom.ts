@@ -1,5 +1,6 @@
-// Looking around in a view: wheel and drag, one and two fingers, arrows, + and -, and 0 for everything.
-// The page still scrolls: a wheel over a view nobody clicked, and a finger on one that shows everything, are the page's.
+// Navigation in a view: wheel and drag, one and two fingers, arrows, + and -, and 0 for the whole world.
+// The page still scrolls by a wheel over a view that was not clicked, and by a finger on one that shows the whole
+// world.
 import type { Camera } from './camera.ts';
 
 const wheelSpeed = 0.0016;
@@ -59,7 +60,7 @@ export function panZoom(view: HTMLElement, camera: Camera, changed: () => void):
   const lift = (event: PointerEvent) => fingers.delete(event.pointerId);
   view.addEventListener('pointerup', lift);
   view.addEventListener('pointercancel', lift);
-  // Two fingers are ours even where one scrolls the page.
+  // Two fingers move the view even if one finger scrolls the page.
   view.addEventListener('touchstart', (event) => event.touches.length > 1 && event.preventDefault(), {
     passive: false,
   });

@@ -1,15 +1,15 @@
-// Without a GPU: boxes painted into an array of pixels by hand, one pass, which shows them as the shaders do and
-// beats both a 2D canvas' own rectangles and a WebGL that runs in software by far.
+// Without a GPU: paints boxes into an array of pixels, in one pass, with the same look as the shaders. This is far
+// faster than the rectangles of a 2D canvas, or WebGL in software.
 import { cellSlot, slotCount } from './groups.ts';
 import type { BoxRenderer } from './renderer.ts';
 
 const opaque = 256;
-/** Smaller boxes are solid; from this many pixels on an outline shows, and the inside becomes light. */
+/** Smaller boxes are solid; from this many pixels on, a box has an outline and a light inside. */
 const outlineFrom = 4;
 const solid = 0.94;
 const light = 0.3;
 
-/** A colour over another by a share of alpha, 0 to 256. Red and blue are mixed at once: they lie a byte apart. */
+/** A colour over another, with alpha from 0 to 256. Red and blue are mixed at once: there is a byte between them. */
 function mix(under: number, over: number, alpha: number): number {
   const rest = opaque - alpha;
   const redBlue = (Math.imul(under & 0xff00ff, rest) + Math.imul(over & 0xff00ff, alpha)) >>> 8;
@@ -31,7 +31,7 @@ export function createCanvasRenderer(canvas: HTMLCanvasElement): BoxRenderer {
   const pack = (red: number, green: number, blue: number) =>
     (0xff000000 | (Math.round(blue * 255) << 16) | (Math.round(green * 255) << 8) | Math.round(red * 255)) >>> 0;
 
-  // A box to paint, in pixels, y down. It is handed over here because numbers with fractions that go in as arguments
+  // A box to paint, in pixels, y down. It is passed here because numbers with fractions that go in as arguments
   // would each be put on the heap.
   const edges = new Float64Array(4);
 
@@ -72,7 +72,7 @@ export function createCanvasRenderer(canvas: HTMLCanvasElement): BoxRenderer {
       const at = y * width;
       for (let x = x0; x < x1; x++) {
         if (x === x0 + band) {
-          // Away from both sides a row has one alpha.
+          // Between the two sides a row has one alpha.
           const end = x1 - band;
           if (plain === 0) x = Math.max(x, end);
           for (; x < end; x++) pixels[at + x] = mix(pixels[at + x], colour, plain);

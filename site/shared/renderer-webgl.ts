@@ -88,10 +88,10 @@ function build(gl: WebGL2RenderingContext): Program {
   return { boxes, slots, uniform: (name) => places.get(name) ?? null };
 }
 
-/** A WebGL of this name runs on the processor: far slower at this than the 2D canvas. */
+/** A WebGL renderer with one of these names runs on the CPU, far slower than the 2D canvas. */
 const software = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
-/** True where WebGL2 is there and runs on a GPU. A trial canvas tells, for a canvas is bound to its first context. */
+/** Whether WebGL2 runs on a GPU. Tested on a canvas of its own, since a canvas is bound to its first context. */
 export function hasFastWebgl(): boolean {
   const gl = document.createElement('canvas').getContext('webgl2', { failIfMajorPerformanceCaveat: true });
   if (!gl) return false;
@@ -101,7 +101,7 @@ export function hasFastWebgl(): boolean {
   return !software.test(name);
 }
 
-/** undefined where there is no WebGL2. */
+/** undefined if there is no WebGL2. */
 export function createWebglRenderer(canvas: HTMLCanvasElement, redraw: () => void): BoxRenderer | undefined {
   const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, depth: false });
   if (!gl) return undefined;

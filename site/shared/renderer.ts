@@ -1,4 +1,4 @@
-// Draws boxes in the colours of their slots: by WebGL2 on a GPU, else by hand on a 2D canvas.
+// Draws boxes in the colours of their slots: with WebGL2 on a GPU, otherwise in software on a 2D canvas.
 import type { Camera } from './camera.ts';
 import type { Palette } from './palette.ts';
 import { createCanvasRenderer } from './renderer-canvas.ts';
@@ -14,8 +14,8 @@ export interface BoxRenderer {
 export type RendererKind = BoxRenderer['kind'];
 
 /**
- * kind chooses one; left out, it is WebGL2 where it runs on a GPU, and the 2D canvas where it would not.
- * redraw is called when what was drawn is lost and has to be drawn again.
+ * @param redraw called when the picture is lost and has to be drawn again
+ * @param kind by default WebGL2 if it runs on a GPU, otherwise the 2D canvas
  */
 export function createRenderer(canvas: HTMLCanvasElement, redraw: () => void, kind?: RendererKind): BoxRenderer {
   const wanted = kind ?? (hasFastWebgl() ? 'webgl2' : 'canvas-2d');

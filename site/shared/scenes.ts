@@ -4,7 +4,7 @@ import { framesOf, type RecordedFrames } from '../../src/scenes/recorded.ts';
 import { openAny } from '../../src/trace/import.ts';
 import type { World } from './camera.ts';
 
-/** What a page runs: boxes that move by one frame at each step, in place. */
+/** A scene that a page runs: each step moves the boxes by one frame, in place. */
 export interface LiveScene {
   readonly count: number;
   readonly boxes: Float32Array;
@@ -14,7 +14,7 @@ export interface LiveScene {
 
 const topSpeed = 2;
 
-/** A seeded scene in the plane. With few boxes the world is small on its screen, so they move more slowly. */
+/** A seeded 2D scene. With few boxes the world is small, so they move more slowly. */
 export function seededScene(name: SceneName, count: number): LiveScene {
   const scene = createScene(name, count, { speed: Math.min(topSpeed, 0.02 * Math.sqrt(count)) });
   return {
@@ -25,7 +25,7 @@ export function seededScene(name: SceneName, count: number): LiveScene {
   };
 }
 
-/** Fetches a recording. Some servers unpack a .gz on the way, so the bytes tell whether it is still packed. */
+/** Fetches a recording. Some servers unpack a .gz, so its bytes decide whether it is still packed. */
 export async function fetchRecording(url: string): Promise<RecordedFrames> {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
@@ -35,7 +35,7 @@ export async function fetchRecording(url: string): Promise<RecordedFrames> {
 /** Steps between two recorded frames: the short recordings are shown in slow motion. */
 const slowness = 8;
 
-/** A recording in slow motion, forth and back without end. */
+/** A recording in slow motion, forwards and backwards without end. */
 export function recordedScene(recording: RecordedFrames): LiveScene {
   const { count, frames } = recording;
   const boxes = recording.frame(0).slice();

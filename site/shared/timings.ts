@@ -1,4 +1,4 @@
-// Durations of the last second, summed up as median and 95th percentile, and how many there were per second.
+// Durations of the last second: their median, 95th percentile, and number per second.
 const kept = 1024;
 const span = 1000;
 
@@ -23,7 +23,7 @@ export class Timings {
     this.#count = 0;
   }
 
-  /** Brings median, p95 and rate up to date. False when there is nothing to sum up. */
+  /** Updates median, p95 and rate. Returns false if there are no samples. */
   summarise(): boolean {
     if (this.#count === 0) return false;
     const last = this.#at[(this.#count - 1) % kept];

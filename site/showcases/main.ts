@@ -1,9 +1,9 @@
-// The page of showcases: each is fetched and started when it comes near the view. Code is copied in one piece.
+// The page of showcases: each is fetched and started when it comes near the window. Code can be copied with one button.
 import { runShowcase } from '../../examples/page/showcase.mjs';
 import { showcases } from '../../examples/page/showcases.mjs';
 import '../../examples/page/showcase.css';
 
-/** How far below the window a showcase is fetched. */
+/** How far below the window a showcase is fetched already. */
 const ahead = '400px';
 /** How long a button says that it has copied, in milliseconds. */
 const said = 1500;
@@ -31,7 +31,7 @@ const near = new IntersectionObserver(
 );
 for (const section of document.querySelectorAll<HTMLElement>('.showcase')) near.observe(section);
 
-for (const code of document.querySelectorAll('pre')) code.tabIndex = 0; // what scrolls is reached by keys
+for (const code of document.querySelectorAll('pre')) code.tabIndex = 0; // so that it can be scrolled by keyboard
 
 for (const button of document.querySelectorAll<HTMLButtonElement>('.copy')) {
   const label = button.textContent;
@@ -41,7 +41,7 @@ for (const button of document.querySelectorAll<HTMLButtonElement>('.copy')) {
       await navigator.clipboard.writeText(code.textContent!);
       button.textContent = 'Copied';
     } catch {
-      getSelection()!.selectAllChildren(code); // for the visitor to copy
+      getSelection()!.selectAllChildren(code); // so that the visitor can copy it
       button.textContent = 'Selected';
     }
     setTimeout(() => {

@@ -1,7 +1,7 @@
-// A ship, bullets and rocks: who meets whom is found by broadphase. Change anything, the page follows.
+// A ship, bullets and rocks: broadphase finds which of them meet. Change anything, and the page reloads.
 import { BroadPhase } from 'broadphase';
 
-/** Layers: what a thing is. Its mask says whom it meets. */
+/** Layers: what a thing is. Its mask says what it meets. */
 const ship = 1;
 const bullet = 2;
 const rock = 4;
@@ -13,14 +13,14 @@ type Thing = Record<'layer' | 'x' | 'y' | 'dx' | 'dy' | 'size', number>;
 const canvas = document.querySelector('canvas')!;
 const context = canvas.getContext('2d')!;
 const space = new BroadPhase({ events: true });
-const things: (Thing | undefined)[] = []; // the place of a thing is the id of its box
+const things: (Thing | undefined)[] = []; // the index of a thing is the id of its box
 const keys = new Set<string>();
 let player: Thing;
 let score = 0;
 let frame = 0;
 
 function add(layer: number, x: number, y: number, dx: number, dy: number, size: number): Thing {
-  let id = things.indexOf(undefined); // the place of one that is gone is used again
+  let id = things.indexOf(undefined); // free indices are reused
   if (id < 0) id = things.length;
   const thing = { layer, x, y, dx, dy, size };
   things[id] = thing;
@@ -56,10 +56,10 @@ function move(): void {
 }
 
 function collide(): void {
-  const { began } = space.update(); // the pairs that are new, [a, b, a, b, …]
+  const { began } = space.update(); // the new pairs, [a, b, a, b, …]
   for (let k = 0; k < began.length; k += 2) {
     const [a, b] = [things[began[k]], things[began[k + 1]]];
-    if (!a || !b) continue; // hit by another bullet in this very frame
+    if (!a || !b) continue; // already hit by another bullet in this frame
     if (a === player || b === player) {
       restart();
       return;

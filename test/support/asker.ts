@@ -1,4 +1,4 @@
-// Asks a space every query, at random places, and compares the answers with a look at every box.
+// Makes every query at random places, and compares the answers with a loop over all boxes.
 import type { BroadPhase, RayHit } from 'broadphase';
 import { expect } from 'vitest';
 import { type Asked, ahead, type Entries, inBox, inCircle, inPlanes, near, type Ranked } from './query-reference.ts';
@@ -7,11 +7,11 @@ export type Loose = Record<string, (...given: unknown[]) => unknown>;
 
 export const ascending = (ids: readonly number[]) => ids.toSorted((a, b) => a - b);
 
-/** What a ray or a moving box is told that it meets. */
+/** A hit as a ray cast or a sweep reports it. */
 const hitOf = (name: string, { id, rank, normal }: Ranked) =>
   name === 'sweep' ? { id, time: rank, normal } : { id, distance: rank, normal };
 
-/** Asks a space every query there is, at random places, and compares. */
+/** Makes all kinds of queries to a space, at random places, and compares. */
 export class Asker {
   readonly #space: BroadPhase<2 | 3>;
   readonly #ask: Loose;
@@ -29,7 +29,7 @@ export class Asker {
     return from[Math.floor(this.#random() * from.length)];
   }
 
-  /** Whole numbers mostly, some far outside, a few beyond what float32 can reckon with. */
+  /** Mostly whole numbers, some far outside, a few too large for float32. */
   #place(): number {
     const at = this.#random() * this.#world;
     if (this.#random() < 0.02) return this.#pick(1e-40, 1e35, 1e300) * (at - this.#world / 2);
@@ -49,7 +49,7 @@ export class Asker {
     return box;
   }
 
-  /** Whole numbers mostly, often along an axis, sometimes none at all. */
+  /** Mostly whole numbers, often along an axis, sometimes 0. */
   #way(): number[] {
     let reach = this.#pick(1, this.#world, this.#world * 10, 0.3);
     if (this.#random() < 0.1) reach = this.#pick(1e-45, 1e-35, 1e25, 1e35);
@@ -93,7 +93,7 @@ export class Asker {
     expect(visited).toEqual(expected.slice(0, stop).map(({ id, rank }) => ({ id, rank })));
   }
 
-  /** The first that is accepted, by some rule, after those before it were refused. */
+  /** Checks `accept`: if it refuses some hits, the answer is the next one. */
   #accepts(name: string, given: readonly number[], options: Asked, expected: readonly Ranked[]): void {
     const rest = this.#pick(0, 1, 3, 20, 100);
     const asked: number[] = [];

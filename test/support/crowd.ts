@@ -1,6 +1,6 @@
-// Thousands of boxes, some of which move: small scenes have few cells, and what goes wrong among many is not seen there.
-// All kinds of motion that techniques which keep something must bear, drawn at random: steady, turning, speeding up,
-// jumping; boxes of one size or of many; some that come and go, or become static; given one by one or in place.
+// Thousands of boxes, some of which move: small scenes have few cells, and do not show what goes wrong among many.
+// The motions that retained structure has to cope with are drawn at random: steady, turning, speeding up, jumping.
+// Boxes have one size or many; some come and go, or become static; they are given one by one or written in place.
 import { BroadPhase } from 'broadphase';
 import { fingerprint } from '../../bench/harness/fingerprint.mjs';
 import { createRandom } from '../../src/scenes/random.ts';
@@ -50,7 +50,7 @@ export class Crowd {
     }
   }
 
-  /** Everything moves on, and both spaces find their pairs. */
+  /** Moves everything on, and updates both spaces. */
   step(): void {
     const { jumping, churning, toggling, oneByOne } = this.#manners;
     const { dimensions } = this.kept;
@@ -72,7 +72,7 @@ export class Crowd {
     this.#frame++;
   }
 
-  /** What should be the same: the pairs by a technique that keeps nothing, and by the one that does. */
+  /** The pairs of a technique that retains nothing, and of the one under test: they should be the same. */
   get pairs(): { expected: string; found: string } {
     return { expected: fingerprint(this.#fresh.pairs), found: fingerprint(this.kept.pairs) };
   }

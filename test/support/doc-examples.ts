@@ -1,5 +1,5 @@
-// Finds the examples in doc comments and in Markdown, and turns each into a module that runs and checks itself: behind
-// a statement, `// → value` says what it gives, and `// throws …` how the message of its error begins.
+// Finds the examples in doc comments and in Markdown, and turns each into a module that runs and checks itself. After a
+// statement, `// → value` has its result, and `// throws …` the beginning of the message of its error.
 import ts from 'typescript';
 
 export interface Example {
@@ -22,7 +22,7 @@ export function examplesIn(file: string, source: string): Example[] {
   return examples;
 }
 
-/** The blocks of code of a Markdown file; one marked `continued` goes on from those before it. */
+/** The code blocks of a Markdown file; one marked `continued` continues those before it. */
 export function blocksIn(file: string, markdown: string): Example[] {
   const blocks: Example[] = [];
   for (const { 1: info, 2: code, index } of markdown.matchAll(/^```([tj]s.*)\n([\s\S]*?)^```/gm)) {
@@ -34,7 +34,7 @@ export function blocksIn(file: string, markdown: string): Example[] {
   return blocks;
 }
 
-/** An example as a module that checks itself, and how many checks are in it. `names` may be used without an import. */
+/** An example as a module that checks itself, and the number of its checks. `names` may be used without an import. */
 export function moduleOf({ code, language }: Example, names: Record<string, readonly string[]>) {
   const edits: { at: number; end: number; text: string }[] = [];
   const check = (node: ts.Node, kind: string, said: string): string => {

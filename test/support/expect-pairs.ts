@@ -1,5 +1,5 @@
-// What every test of a BroadPhase asks in the end: are its pairs the reference's, each once, a < b?
-// Compared in one pass with a message of a few pairs, for sets far too large to print.
+// What every test of a BroadPhase checks in the end: its pairs are the reference's, each once, a < b. They are compared
+// in one pass, and the message has only a few pairs, since the sets are far too large to print.
 import { expect } from 'vitest';
 import { keysOf, type Numbers, pairOf, referencePairs } from './reference.ts';
 
@@ -19,7 +19,7 @@ export function expectKeys(space: HasPairs, expected: Float64Array): void {
   expect.fail(firstDifference(keysOf(pairs), expected) ?? 'the pairs are not the same');
 }
 
-/** Where each pair of a set stands, so that many spaces can be compared with it and none has its pairs sorted. */
+/** A hash table of a set of pairs: many spaces can be compared with it without sorting their pairs. */
 class Places {
   readonly #pairs: Uint32Array;
   /** By hash: the place of a pair, or -1. */
@@ -37,7 +37,7 @@ class Places {
     }
   }
 
-  /** Where the table holds a pair, or would. */
+  /** The index of a pair in the table, or of the gap for it. */
   #slot(a: number, b: number): number {
     const pairs = this.#pairs;
     const table = this.#table;
@@ -65,7 +65,7 @@ class Places {
 
 const known = new WeakMap<Float64Array, Places | 'once'>();
 
-/** A set that comes for the second time is looked up from then on; pairs that come once are quicker sorted. */
+/** From its second use on, a set is compared by its table. For one use, sorting the pairs is faster. */
 function same(pairs: Uint32Array, expected: Float64Array): boolean {
   const places = known.get(expected);
   if (places === undefined) {
@@ -89,7 +89,7 @@ export function expectPairs(
   expectKeys(space, referencePairs(boxes, dimensions, ids));
 }
 
-/** The same numbers in the same order: quicker than `toEqual`, which looks at every property. */
+/** Expects the same numbers in the same order. Faster than `toEqual`, which compares every property. */
 export function expectSameWords(found: Uint32Array, expected: Uint32Array, what: string): void {
   if (found.length !== expected.length) expect.fail(`${what}: ${found.length} numbers, expected ${expected.length}`);
   for (let k = 0; k < found.length; k++) {
@@ -97,7 +97,7 @@ export function expectSameWords(found: Uint32Array, expected: Uint32Array, what:
   }
 }
 
-/** What is wrong with the sorted keys `found`, in words; undefined when nothing is. */
+/** What is wrong with the sorted keys `found`, in words; undefined if nothing is. */
 export function firstDifference(found: Float64Array, expected: Float64Array): string | undefined {
   const counts = `${found.length} pairs found, ${expected.length} expected`;
   const name = (key: number) => `[${pairOf(key).join(', ')}]`;

@@ -1,5 +1,5 @@
-// Sets of boxes that break broad phases: everything in one place, nothing near anything, no size, no end, and numbers
-// at the limits of float32 and beyond. Each set is made, and its exact pairs found, only once.
+// Sets of boxes that break broad phases: all in one place, all far apart, without size, infinite, and with numbers at
+// the limits of float32 and beyond. Each set is made, and its exact pairs found, only once.
 import { createRandom } from '../../src/scenes/random.ts';
 import { type Numbers, referencePairs } from './reference.ts';
 
@@ -8,7 +8,7 @@ export interface Case {
   readonly boxes: () => number[];
   /** The reference's pairs of `boxes`, as sorted keys. */
   readonly expected: () => Float64Array;
-  /** The same boxes rounded to float32, which makes other boxes of some. */
+  /** The same boxes rounded to float32, which changes some of them. */
   readonly floats: () => Float32Array;
   readonly expectedOfFloats: () => Float64Array;
 }

@@ -1,5 +1,6 @@
-// A space and a plain model of it, driven together by random calls: what the tests of filters, events and queries
-// compare. The model holds each box's numbers, layer, mask, group, reach, and whether it is static or off; its pairs are the reference's.
+// A space and a plain model of it, which get the same random calls. The tests of filters, events and queries compare
+// the two. The model has each box's numbers, layer, mask, group and reach, and whether it is static or off. Its pairs
+// are the reference's.
 import { BroadPhase, type BroadPhaseOptions } from 'broadphase';
 import { createRandom } from '../../src/scenes/random.ts';
 import { overlap, pairOf, referencePairs } from './reference.ts';
@@ -25,13 +26,13 @@ export const meet = (a: Entry, b: Entry): boolean =>
   (b.layer & a.mask) !== 0 &&
   !(a.isStatic && b.isStatic);
 
-/** Whether two boxes overlap and do not only touch. */
+/** Whether two boxes overlap, not only touch. */
 export function overlaps(a: readonly number[], b: readonly number[]): boolean {
   const d = a.length / 2;
   return a.every((x, k) => (k < d ? x < b[k + d]! : b[k - d]! < x));
 }
 
-/** The box of an entry with what it reaches. */
+/** The box of an entry, enlarged by its reach. */
 export function grown({ box, reach = 0 }: Entry): number[] {
   return box.map((x, k) => (k < box.length / 2 ? x - reach : x + reach));
 }
@@ -47,12 +48,12 @@ export function pairsOf(entries: ReadonlyMap<number, Entry>, dimensions: number)
 
 export const touches = (box: readonly number[], entry: Entry): boolean => overlap(box, 0, entry.box, 0, box.length / 2);
 
-/** A space with its model. `step` makes one random call; `update` does not belong to the calls. */
+/** A space with its model. `step` makes one random call, which is never `update`. */
 export class Modelled {
   readonly space: BroadPhase<2 | 3>;
   readonly entries = new Map<number, Entry>();
   readonly random: () => number;
-  /** Ids that were deleted, by whatever call, since this was last cleared. */
+  /** Ids that any call has deleted since this set was last cleared. */
   readonly deleted = new Set<number>();
   readonly #world: number;
   readonly #ids: number;
@@ -159,13 +160,13 @@ export class Modelled {
     else this.clear();
   }
 
-  /** Few kinds of bits mostly, so that boxes share them. */
+  /** Mostly one of a few values, so that boxes share bits. */
   #bits(): number {
     return this.random() < 0.9 ? [all, 1, 2, 4, 3, 6, 0, 0x80000000][this.integer(8)] : this.integer(2 ** 32);
   }
 }
 
-/** Whole numbers mostly, so that boxes touch, and fractions that float32 cannot hold. */
+/** Mostly whole numbers, so that boxes touch, and fractions that float32 cannot hold. */
 export function anyPlace(random: () => number): number {
   return random() < 0.8 ? 0 : random() < 0.5 ? 1e-12 : 0.1;
 }

@@ -1,4 +1,4 @@
-// The answers to every query, in doubles, by looking at every box: what the queries are compared with.
+// The reference for all queries: each tests every box, in doubles.
 import { type Entry, touches } from './model.ts';
 
 export type Entries = ReadonlyMap<number, Entry>;
@@ -40,7 +40,7 @@ export function inBox(entries: Entries, box: readonly number[], asked: Asked): n
   return ascending(found.map(([id]) => id));
 }
 
-/** What is not wholly behind any of the planes, by id, and whether it is wholly inside. */
+/** Boxes that are not wholly behind any of the planes: by id, whether the box is wholly inside. */
 export function inPlanes(
   entries: Entries,
   planes: readonly (readonly number[])[],
@@ -60,7 +60,7 @@ export function inPlanes(
     .sort((a, b) => a.id - b.id);
 }
 
-/** How far a box and an entry are apart along each axis; ends without a number may meet. */
+/** The gaps between a box and an entry along each axis: 0 if they overlap, or if a number is NaN. */
 function gaps(box: readonly number[], entry: Entry): number[] {
   const d = box.length / 2;
   return Array.from({ length: d }, (_, k) => {
@@ -85,7 +85,7 @@ export function distance(point: readonly number[], entry: Entry): number {
   return apart([...point, ...point], entry);
 }
 
-/** The distance from a box, whose square a double holds only where it is not very large. */
+/** The distance from a box. Its square may be too large for a double. */
 export function apart(box: readonly number[], entry: Entry): number {
   const away = gaps(box, entry);
   const square = squared(away);
@@ -98,7 +98,7 @@ export function near(entries: Entries, point: readonly number[], k: number, aske
   return nearBox(entries, [...point, ...point], k, asked);
 }
 
-/** What is nearest to a box: `near`, where the box is a point. */
+/** The entries nearest to a box; for `near` the box is a point. */
 export function nearBox(entries: Entries, box: readonly number[], k: number, asked: Asked): Ranked[] {
   const { maxDistance = Infinity } = asked;
   const all = [...wanted(entries, asked)].map(([id, entry]) => ({ id, rank: apart(box, entry), normal: [] }));
@@ -106,8 +106,8 @@ export function nearBox(entries: Entries, box: readonly number[], k: number, ask
 }
 
 /**
- * What a box meets that moves by `way`: with its time, as what is to be stopped at, or where `length` is that of the
- * way with its distance. What is met at a corner alone comes behind all that is met at the same time.
+ * The entries that a box meets when it moves by `way`, with the time of the hit as for a sweep. If `length` is given,
+ * with the distance as for a ray. Entries that are only met at a corner come after all others of the same time.
  */
 export function ahead(
   entries: Entries,
@@ -140,7 +140,7 @@ function below(x: number): number {
   return double[0]!;
 }
 
-/** The share of the way along one axis until lo … hi touches a face. */
+/** The share of the path along one axis after which lo … hi touches a face. */
 function timeTo(lo: number, hi: number, face: number, along: number, stops: boolean): number {
   const forth = along > 0;
   let gap = Math.max(0, forth ? face - hi : lo - face);

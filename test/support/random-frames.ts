@@ -1,12 +1,12 @@
-// Random frames, for the property tests of the trace format: boxes that rest, move, come and go, with numbers of every
-// kind, and ids of their own or none.
+// Random frames, for the property tests of the trace format: boxes that rest, move, come and go, with all kinds of
+// numbers, and with or without ids.
 import { TraceWriter } from 'broadphase/trace';
 import fc from 'fast-check';
 
 export interface GivenFrame {
   boxes: Float32Array | Float64Array;
   ids?: number[];
-  /** Layer, mask, static: for each box. */
+  /** Layer, mask and static, per box. */
   rules?: Uint32Array;
   groups?: Uint32Array;
   reaches?: Float64Array;
@@ -31,7 +31,7 @@ const bits = fc.constantFrom(0, 1, 2, 5, 0xffffffff);
 const aReach = fc.constantFrom(0, 0, 1, 0.1, 1e300, 5e-324);
 const aRule = fc.oneof(fc.constant([0xffffffff, 0xffffffff, 0]), fc.tuple(bits, bits, fc.integer({ min: 0, max: 1 })));
 
-/** Frames that follow from each other: some boxes stay, the others are replaced; doubles and floats take turns. */
+/** Consecutive frames: some boxes stay, the others are replaced; doubles and floats alternate. */
 export const someFrames = (dimensions: 2 | 3): fc.Arbitrary<GivenFrame[]> =>
   fc
     .array(
@@ -75,7 +75,7 @@ export function concat(pieces: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
   return new Uint8Array(pieces.flatMap((piece) => [...piece]));
 }
 
-/** What a frame says, kept for comparison: bits, so that -0 is not 0. */
+/** The contents of a frame, for comparison: as bits, so that -0 is not 0. */
 export function factsOf(
   dimensions: number,
   {

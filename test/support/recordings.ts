@@ -1,11 +1,11 @@
-// The recorded scenes of recordings/, of each a few frames that are quick to check.
+// The recorded scenes of recordings/, with a few frames of each that are quick to check.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { gunzipSync } from 'node:zlib';
 import { framesOf, type RecordedFrames } from '../../src/scenes/recorded.ts';
 import { openTrace } from '../../src/trace/reader.ts';
 
-/** Which frames: the first, and that before which to stop. */
+/** The first frame, and the one after the last. */
 const frames = {
   rain: [0, 20],
   junkyard: [14, 20],

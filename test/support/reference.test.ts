@@ -1,4 +1,4 @@
-// The reference is only worth something if it is right: sweep against naive, and both against hand-made cases.
+// The reference itself has to be right: the sweep is tested against the naive version, and both against cases by hand.
 import { expect, test } from 'vitest';
 import { createScene, sceneNames } from '../../src/scenes/index.ts';
 import { expectKeys, firstDifference } from './expect-pairs.ts';

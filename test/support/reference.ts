@@ -1,6 +1,6 @@
-// The exact answer, in doubles and written apart from the library: every pair of closed boxes that overlap.
-// `referencePairs` sorts along the axis that promises the fewest tests and sweeps: O(n log n + tests).
-// `naivePairs` tests every pair and is what the sweep itself is checked against.
+// The exact answer, in doubles and independent of the library: every pair of closed boxes that overlap.
+// `referencePairs` sorts along the axis that should need the fewest tests, and sweeps: O(n log n + tests).
+// `naivePairs` tests every pair; the sweep is checked against it.
 //
 // A set of pairs is a sorted Float64Array with one number per pair a < b: a * 2^24 + b.
 
@@ -10,7 +10,7 @@ export const keyOf = (a: number, b: number): number => Math.min(a, b) * 2 ** 24 
 
 export const pairOf = (key: number): [number, number] => [Math.floor(key / 2 ** 24), key % 2 ** 24];
 
-/** The keys of [a0, b0, a1, b1, …], sorted; a pair given twice is there twice. */
+/** The keys of [a0, b0, a1, b1, …], sorted; a pair given twice occurs twice. */
 export function keysOf(pairs: Numbers): Float64Array {
   const keys = new Float64Array(pairs.length / 2);
   for (let k = 0; k < keys.length; k++) keys[k] = keyOf(pairs[2 * k], pairs[2 * k + 1]);

@@ -1,6 +1,6 @@
-// How many random cases a test tries, and from which seed. Where CI is set all of them, else an eighth, for a
-// quicker `npm run check`; the seed is another each time and stands in what is printed.
-// RUNS=… says how many, SEED=… which.
+// How many random cases a test tries, and from which seed. If CI is set, it is all of them, otherwise an eighth, for
+// a faster `npm run check`. The seed differs each time, and is in the names of the tests. RUNS=… sets the number,
+// SEED=… the seed.
 
 export const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 31));
 

@@ -1,7 +1,7 @@
-// What the examples of the documentation say of themselves, checked: see doc-examples.ts.
+// Checks what the comments in the documentation's examples say: see doc-examples.ts.
 import { expect } from 'vitest';
 
-/** `said` is an expression of JavaScript, with the kind of a typed array before it; an ellipsis ends what is said. */
+/** `said` is a JavaScript expression, for a typed array with its kind before it. */
 export function gives(value: unknown, said: string): void {
   const [, kind, text] = /^(?:(\w+Array) )?(.*)$/s.exec(said)!;
   if (kind) expect((value as object).constructor.name).toBe(kind);

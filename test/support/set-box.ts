@@ -1,4 +1,4 @@
-// `set` with its numbers in an array, of whatever length: the types of `set` itself allow only the right number of them.
+// `set` with its numbers in an array of any length: the types of `set` itself allow only the right number of them.
 import type { BroadPhase } from 'broadphase';
 
 export function setBox(space: BroadPhase<2 | 3>, id: number, box: readonly unknown[]): BroadPhase<2 | 3> {

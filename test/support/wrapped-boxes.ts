@@ -1,9 +1,9 @@
-// Worlds that wrap around, and boxes of them that are hostile: at borders, worlds away, as long as the world.
+// Wrapped worlds with hostile boxes: at borders, several worlds away, as long as the world.
 import fc from 'fast-check';
 
 export const aWorld = fc.constantFrom([10, 7, 4], [0.1, 0.3, 0.7], [1000, 1e-3, 3], [1, 1e-320, 1e300]);
 
-/** Where a box begins and how long it is, along an axis so long: whole steps and borders mostly, and what is hostile. */
+/** The start and length of a box along an axis of this length: mostly whole steps and borders, and hostile values. */
 function aSpan(world: number): fc.Arbitrary<[number, number]> {
   const place = fc.oneof(
     { weight: 8, arbitrary: fc.integer({ min: 0, max: 9 }).map((tenths) => (world * tenths) / 10) },

@@ -1,8 +1,8 @@
-// The exact answer in a world that wraps around, in whole numbers without a limit: two boxes are a pair where, along each
-// axis, one can be moved by a whole number of worlds so that they overlap or touch.
+// The exact answer in a wrapped world, in integers of any size: two boxes are a pair if, along each axis, one can be
+// moved by a whole number of worlds so that they overlap or touch.
 import { keyOf } from './reference.ts';
 
-/** A double, in units of the smallest there is. */
+/** A double, as a multiple of the smallest double. */
 function exactly(value: number): bigint {
   const bits = new BigUint64Array(Float64Array.of(value).buffer)[0];
   const exponent = (bits >> 52n) & 0x7ffn;
@@ -13,15 +13,15 @@ function exactly(value: number): bigint {
 
 const floor = (a: bigint, b: bigint): bigint => (a >= 0n || a % b === 0n ? a / b : a / b - 1n);
 
-/** How many whole worlds a place is away from the one that begins at 0. */
+/** How many worlds a place is away from the one that begins at 0. */
 export const worldsOf = (place: number, world: number): number => Number(floor(exactly(place), exactly(world)));
 
 function meet(aMin: number, aMax: number, bMin: number, bMax: number, world: number, closed: boolean): boolean {
-  if (![aMin, aMax, bMin, bMax].every(Number.isFinite)) return true; // what has no end reaches all around
+  if (![aMin, aMax, bMin, bMax].every(Number.isFinite)) return true; // an infinite box reaches all around
   const size = exactly(world);
   if (exactly(aMax) - exactly(aMin) >= size || exactly(bMax) - exactly(bMin) >= size) return true;
   if (!closed) {
-    // What is below by less than 1 is below by no whole number.
+    // Strict comparisons: of integers, x < y is x <= y - 1.
     const below = floor(exactly(bMax) - exactly(aMin) - 1n, size);
     return -floor(exactly(aMax) - exactly(bMin) - 1n, size) <= below;
   }
@@ -30,7 +30,7 @@ function meet(aMin: number, aMax: number, bMin: number, bMax: number, world: num
   return least <= most;
 }
 
-/** Whether the one lies within the other once it is moved by a whole number of worlds. */
+/** Whether one lies within the other, if moved by a whole number of worlds. */
 function lies(aMin: number, aMax: number, bMin: number, bMax: number, world: number): boolean {
   const size = exactly(world);
   const isFull = (min: number, max: number) =>
@@ -53,7 +53,7 @@ export function wrappedOverlap(
   return wrap.every((world, k) => meet(a[k], a[k + wrap.length], b[k], b[k + wrap.length], world, closed));
 }
 
-/** The sorted keys of the pairs of these boxes, by their ids; `closed`: with those that only touch. */
+/** The sorted keys of the pairs of these boxes, by their ids; `closed`: including those that only touch. */
 export function wrappedPairs(
   boxes: ReadonlyMap<number, readonly number[]>,
   wrap: readonly number[],

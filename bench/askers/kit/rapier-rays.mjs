@@ -1,9 +1,8 @@
-// What the adapters share that ask rapier's query pipeline: colliders without bodies, whose groups meet nobody, so that
-// a step does little more than to bring what rays are cast in up to date. It computes in float32, from centres and
-// half sizes.
+// What the adapters for rapier's query pipeline share. Colliders have no bodies and their groups meet nobody, so a step
+// does little more than update the structure for ray casts. It computes in float32, from centres and half sizes.
 import { reach } from '../../harness/queries.mjs';
 
-/** Member of group 0, meeting none. */
+/** A member of group 0 that meets no group. */
 const nobody = 0x00010000;
 
 export async function rapierRays(RAPIER, { dimensions, count, boxes }) {

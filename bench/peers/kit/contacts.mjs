@@ -1,5 +1,5 @@
-// For engines that tell when two boxes begin and cease to touch: the pairs that touch now. Engines call it touching
-// within a margin, so each pair is tested when asked.
+// For engines that report when two boxes begin and cease to touch: the pairs that touch now. To engines, boxes within a
+// margin touch too, so `find` tests each pair.
 import { PairList } from './pair-list.mjs';
 
 export class Contacts {

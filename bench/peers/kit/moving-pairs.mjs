@@ -1,9 +1,9 @@
-// For peers that keep their structure between frames and can be searched: only boxes that moved are moved in it and
-// searched again, and pairs of resting boxes are kept. A tree that holds fat boxes gives candidates, so each is tested.
+// For peers with a retained structure that can be searched: only boxes that moved are moved in it and searched for
+// again, and pairs of boxes at rest are retained. A tree of fat boxes gives candidates, so each is tested.
 import { PairList } from './pair-list.mjs';
 
 /**
- * `move(id, at)` moves box `id`, whose numbers start at `boxes[at]`; `ready()` is called when all have moved;
+ * `move(id, at)` moves box `id`, whose numbers start at `boxes[at]`. `ready()` is called when all have moved.
  * `search(id, at, found)` calls `found(other)` for every box that may overlap it. They read the frame from `boxes`,
  * which is the same array in all frames.
  */
@@ -15,7 +15,7 @@ export function movingPairs({ dimensions, count, boxes, move, ready = () => {}, 
   let box = 0;
 
   function found(other) {
-    // Two boxes that both moved are found twice: the lower one's search counts.
+    // Two boxes that both moved are found twice: only the search of the lower id counts.
     if (other === box || (moved[other] && other < box)) return;
     for (let a = stride * box, b = stride * other, axis = 0; axis < dimensions; axis++, a++, b++) {
       if (boxes[a] > boxes[b + dimensions] || boxes[b] > boxes[a + dimensions]) return;

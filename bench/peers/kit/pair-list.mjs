@@ -1,4 +1,4 @@
-// Where a peer that reports pairs one by one puts them: a typed array that doubles when full.
+// The pairs of a peer that reports them one by one: a typed array that doubles when full.
 export class PairList {
   count = 0;
   #pairs = new Uint32Array(1 << 16);

@@ -1,5 +1,6 @@
-// What the adapters of rapier2d and rapier3d share. Bodies, kinematic or fixed, each with a sensor, are put in place, and a whole
-// step is taken, for its broad phase cannot be had alone; its events tell which pairs begin and cease to meet.
+// What the adapters of rapier2d and rapier3d share. Kinematic or fixed bodies, each with a sensor, are put in place.
+// Then comes a whole step, since the broad phase cannot run alone. Its events tell which pairs begin and cease to
+// overlap.
 import { Contacts } from './contacts.mjs';
 import { resized } from './resized.mjs';
 
@@ -21,7 +22,7 @@ export async function rapier(RAPIER, { dimensions, count, boxes, fixed = 0 }) {
     }
   }
 
-  /** Notes the size that was read; says whether it changed. */
+  /** Records the size that was read; returns whether it changed. */
   function grown(id) {
     let changed = false;
     for (let axis = 0, k = dimensions * id; axis < dimensions; axis++, k++) {

@@ -1,4 +1,4 @@
-// The boxes as tutorials have them: one object each.
+// Boxes as in tutorials: one object each.
 
 export function objects(count) {
   return Array.from({ length: count }, (_, id) => ({ id, minX: 0, minY: 0, minZ: 0, maxX: 0, maxY: 0, maxZ: 0 }));

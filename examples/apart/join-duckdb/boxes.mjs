@@ -1,7 +1,7 @@
 // Files of boxes: random ones, written by DuckDB.
 import { DuckDBInstance } from '@duckdb/node-api';
 
-/** Runs SQL in a database in memory, and gives the rows of the last answer. */
+/** Runs SQL in an in-memory database, and returns the rows of the last result. */
 export async function ask(sql, options = {}) {
   const instance = await DuckDBInstance.create(':memory:', options);
   const connection = await instance.connect();
@@ -15,7 +15,7 @@ export async function ask(sql, options = {}) {
 
 /**
  * Writes a Parquet or CSV file of boxes that are 5 to 15 wide.
- * @param density how much area they have, all together, in that of their world
+ * @param density the total area of the boxes, divided by the area of their world
  */
 export async function writeBoxes(path, count, { density = 1, seed = 0.25, dimensions = 2 } = {}) {
   const world = ((count * 10 ** dimensions) / density) ** (1 / dimensions);

@@ -3,9 +3,10 @@
 //   npm i && npm start
 //   npm start -- --boxes 10000000 --memory 1GB
 //
-// With --spatial <file>, DuckDB's own spatial join runs on the same file, with the same memory, and has to find the same
-// pairs. The file is the spatial extension for the DuckDB that is installed; the wheel of duckdb-extension-spatial on
-// PyPI holds it. With --no-spill it may not write to disk what does not fit, and with --limit <seconds> it is ended then.
+// With --spatial <file>, DuckDB's own spatial join runs on the same file, with the same memory, and has to find the
+// same pairs. The file is the spatial extension for the installed DuckDB; the wheel of duckdb-extension-spatial on
+// PyPI contains it. With --no-spill it must not spill to disk, and with --limit <seconds> it is stopped after that
+// time.
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -30,7 +31,7 @@ const folder = mkdtempSync(join(tmpdir(), 'broadphase-join-'));
 const [boxes, ours, theirs] = ['boxes', 'ours', 'theirs'].map((name) => join(folder, `${name}.parquet`));
 const seconds = (since) => `${((performance.now() - since) / 1000).toFixed(1)} s`;
 
-/** Runs a part of this program in a process of its own, so that its memory can be told. */
+/** Runs a part of this program in a process of its own, so that its memory can be measured. */
 function alone(timeout, file, ...args) {
   return spawnSync(process.execPath, [file, ...args], { cwd: path('.'), encoding: 'utf8', timeout });
 }

@@ -1,4 +1,4 @@
-// The same by DuckDB alone: its SPATIAL_JOIN of the extension spatial. Prints the most memory it had.
+// The same by DuckDB alone, with SPATIAL_JOIN of its spatial extension. Prints its peak memory.
 // node spatial.mjs <extension> <boxes> <pairs> <memory> <folder to spill to, or nothing for none>
 import { DuckDBInstance } from '@duckdb/node-api';
 
@@ -15,7 +15,7 @@ try {
     create table boxes as
       select file_row_number as row, minX, minY, maxX, maxY, st_makeenvelope(minX, minY, maxX, maxY) as shape
       from read_parquet('${boxes}', file_row_number=true)`);
-  // With any other condition beside the one of shapes, DuckDB does not take its spatial join. It finds each pair twice,
+  // With any condition besides the one on shapes, DuckDB does not use its spatial join. It finds each pair twice,
   // and each box with itself.
   await connection.run(`
     create table found as

@@ -1,5 +1,5 @@
-// Simulated clients: each steers its entity about the world, goes where its entity is handed to, and comes back by itself
-// where its room has died. Each second they say how they fare, as a line of JSON.
+// Simulated clients. Each steers its entity around the world, follows it to other rooms, and reconnects by itself if
+// its room has died. Every second they report their counts, as a line of JSON.
 import { Client } from '@colyseus/sdk';
 import { cutInto, tickTime, world, zoneOf } from './world.mjs';
 
@@ -7,19 +7,19 @@ const { ports, zones: count, clients } = JSON.parse(process.argv[2]);
 const zones = cutInto(count);
 const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
-/** What they have all gone through. `blind`: ticks in which one did not see its own entity, though it had seen it. */
+/** Counts of all clients. `blind`: ticks in which a client did not see its own entity, though it had before. */
 const counts = { handedOver: 0, lost: 0, found: 0, refused: 0, patches: 0, blind: 0, blindest: 0, slowest: 0 };
 
 class Player {
   avatar;
-  /** The rooms it is in: while it is handed over two. */
+  /** The rooms it is in: two while it is handed over. */
   rooms = new Set();
   place = { x: Math.random() * world.width, y: Math.random() * world.height };
   #blindSince;
 
   async join() {
     for (let k = 0; ; k++) {
-      // Where it was last; while nobody saw it, it may have gone to another zone.
+      // Where it was seen last. Since then it may have gone to another zone.
       const zone =
         this.avatar === undefined ? Math.floor(Math.random() * count) : (zoneOf(zones, this.place) + k) % count;
       const client = new Client(`ws://localhost:${ports[k % ports.length]}`);
@@ -35,7 +35,7 @@ class Player {
   }
 
   #enter(room, client) {
-    if (room.reconnection) room.reconnection.enabled = false; // it finds its way back itself
+    if (room.reconnection) room.reconnection.enabled = false; // it reconnects itself
     this.rooms.add(room);
     room.onMessage('you', ({ avatar }) => {
       this.avatar = avatar;
@@ -72,7 +72,7 @@ class Player {
     this.join().then(() => counts.found++);
   }
 
-  /** Looks for itself in what it was sent, and steers now and then. */
+  /** Looks for its own entity in what it was sent, and steers now and then. */
   look() {
     let seen = false;
     for (const { state } of this.rooms) {

@@ -1,13 +1,13 @@
-// A seamless world on Colyseus: zones are rooms, in as many processes, and a page shows them.
+// A seamless world on Colyseus: each zone is a room in a process of its own, and a page shows them all.
 //
 //   npm i && npm start
 //   npm start -- --clients 300
 //
-// --zones 3, --entities 10000, --port 2567: as many, and from that port on, a process each
+// --zones 3, --entities 10000, --port 2567: the numbers, and the port of the first process
 // --clients 60: simulated clients, in a process of their own
-// --memory: one process, without Redis; so it is where Redis (redis-server) is not installed
-// --everything: no interest management, every client is sent all of its room: for comparison
-// --seconds 60: ends after so long; --json: reports and events as lines of JSON
+// --memory: one process, without Redis: the default if redis-server is not installed
+// --everything: no interest management, for comparison: every client is sent its whole room
+// --seconds 60: ends after this time; --json: reports and events as lines of JSON
 import { spawn, spawnSync } from 'node:child_process';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
@@ -41,7 +41,7 @@ function say(event) {
 function start(file, options, ended) {
   const child = spawn(process.execPath, [path(file), JSON.stringify(options)], {
     stdio: ['ignore', 'pipe', 'inherit'],
-    // Who asks a process that has just died for a seat is to wait no longer than that, in milliseconds.
+    // In milliseconds: how long a request for a seat waits for a process that has just died.
     env: { ...process.env, COLYSEUS_PRESENCE_SHORT_TIMEOUT: '500' },
   });
   children.add(child);
@@ -59,7 +59,7 @@ function start(file, options, ended) {
   return child;
 }
 
-/** Starts Debian's redis-server on a port of its own; gives the port, or undefined where there is none. */
+/** Starts Debian's redis-server on a port of its own; returns the port, or undefined if it is not installed. */
 async function startRedis() {
   if (spawnSync('redis-server', ['--version']).error) {
     say({ text: 'redis-server is not installed (apt-get install redis-server): one process, in memory' });
@@ -95,10 +95,10 @@ const redis = values.memory ? undefined : await startRedis();
 const all = Array.from({ length: zones }, (_, zone) => zone);
 const { everything } = values;
 
-/** Milliseconds before a process that died is started again: first those that are left take over its zones. */
+/** Milliseconds before a dead process is restarted: first the remaining processes take over its zones. */
 const restartTime = 2000;
 
-/** Starts a process with these zones; when it dies, one in its place, which has none until another dies. */
+/** Starts a process with these zones. If it dies, a process without zones is started in its place. */
 function startServer(number, rooms) {
   const options = {
     port: port + number,

@@ -1,36 +1,37 @@
-// How zones keep in step: each tick a zone tells every other zone what changed for it, and waits for the same from them.
-// So all zones together are at any tick what one process would be. Messages go over the presence of Colyseus.
+// How zones stay in lockstep: in each tick a zone sends every other zone what has changed for it, and waits for the
+// same from them. So at any tick, all zones together are in the state of a single process. Messages go over the
+// presence of Colyseus.
 //
-// A zone that starts, or starts again, joins: it asks all, is told by each at which tick that is and whom it owns, and
-// names a tick from which on they count with each other. If a zone is silent, the others ask whether its process is still
-// there. If it is not, they go on, and another process makes its room anew. Else they wait, but not for ever: a zone that
-// is slow still answers that it has not got so far, one that is asked by a zone it does not count with says that. Entities
-// turn round at the border of a zone that is not there.
+// A zone that starts or restarts joins the others. It asks all of them; each answers with its tick and the entities it
+// owns. Then it names the tick from which on it takes part. If a zone is silent, the others check whether its process
+// is alive. If it is not, they continue, and another process recreates its room. If it is, they wait, but not for
+// ever. A slow zone answers that it has not reached the tick yet; one that has left the asking zone out answers that.
+// Entities turn back at the border of a zone that is missing.
 import { pack, packDelta, packEntities, unpack, unpackDelta, unpackEntities } from './wire.mjs';
 import { tickTime } from './world.mjs';
 
 const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
-/** After so many milliseconds without a word it is asked whether the other process is still there, and again. */
+/** Milliseconds of silence after which a zone checks whether another one's process is alive; then again. */
 const suspicious = 200;
-/** Who is there and says nothing for so long is left out. */
+/** Milliseconds of silence after which a zone is left out, though its process is alive. */
 const patience = 5000;
-/** So long an answer may take; a process that gives none, but takes the question, is there. */
+/** Milliseconds that the answer to this check may take. After that, a process that accepted it counts as alive. */
 const answerTime = 500;
-/** Milliseconds from one attempt to bring a zone back to the next. */
+/** Milliseconds between two attempts to bring a zone back. */
 const retryTime = 4000;
-/** How long one that joins waits for answers where it knows of nobody, and how many ticks ahead it begins. */
+/** How long a joining zone that knows no other waits for answers, and how many ticks ahead it begins. */
 const gathering = 300;
 const ahead = 6;
-/** Ticks between two signs of life. */
+/** Ticks between two heartbeats. */
 const helloEvery = 10;
 
 export class Link {
   tick = 0;
   running = false;
-  /** What it told the others: messages, and in how many bytes how much was new of boxes. */
+  /** What it sent to the others: messages, their bytes, and the records of boxes in them. */
   sent = { messages: 0, bytes: 0, records: 0 };
-  /** Milliseconds of work of the last tick, without the waiting. */
+  /** Milliseconds of work in the last tick, without waiting. */
   work = 0;
   #presence;
   #isConnected;
@@ -38,25 +39,25 @@ export class Link {
   #info;
   #calls;
   #epoch = 0;
-  /** Zones that count: what they sent by tick. And those that will from some tick on. */
+  /** Zones that take part, with what they sent for each tick; and zones that will from a later tick on. */
   #peers = new Map();
   #coming = new Map();
-  /** When each zone last said that it runs, and as what; and when that it would like to. */
+  /** When each zone last said that it runs, with its info; and when it last asked to join. */
   #ran = new Map();
   #asked = new Map();
-  /** While it joins: what those that run answered, and who is not waited for. */
+  /** While it joins: the answers of running zones, and the zones that it does not wait for. */
   #welcomes = new Map();
   #absent = new Set();
   #yieldUntil = 0;
   #wake = () => {};
-  /** What it told whom in this tick and the last one. */
+  /** The messages sent to each zone in this tick and the last one. */
   #last = [];
   #stopped = false;
 
   /**
-   * @param info what other zones are to know of this one: its room and its process
-   * @param calls `begin()` gives { tick, entities, isLive, peers } to begin with; `ticked(given)` after each tick; `restarted()`;
-   *   `lost(zone, info)` where a zone has to be made anew; `replaced()` where this one was; `log(text)`
+   * @param info what other zones have to know about this one: its room and its process
+   * @param calls `begin()` returns { tick, entities, isLive, peers } to begin with; `ticked(given)` after each tick;
+   *   `restarted()`; `lost(zone, info)` if a zone has to be recreated; `replaced()` if this one was; `log(text)`
    */
   constructor({ presence, isConnected, simulation, info, calls }) {
     this.#presence = presence;
@@ -72,12 +73,12 @@ export class Link {
 
   isOpen = (zone) => this.#peers.has(zone);
 
-  /** What is known of the room of another zone. */
+  /** What is known about the room of another zone. */
   infoOf(zone) {
     return this.#peers.get(zone)?.info;
   }
 
-  /** Those that count with each other: each zone with its room, this one too. */
+  /** The zones that take part, this one included, each with its room. */
   together() {
     return [[this.#zone, this.#info], ...[...this.#peers].map(([zone, { info }]) => [zone, info])];
   }
@@ -138,7 +139,7 @@ export class Link {
     }
   }
 
-  /** Moves everybody on, and tells the others. */
+  /** Moves all entities, and sends the changes to the other zones. */
   #tell() {
     for (const [zone, peer] of this.#coming) {
       if (peer.start > this.tick) continue;
@@ -166,7 +167,7 @@ export class Link {
     return given;
   }
 
-  /** Waits until all others have told the same; leaves out those that do not. */
+  /** Waits until all other zones have sent this tick; leaves out those that do not. */
   async #everyone() {
     let since = performance.now();
     let asked = since;
@@ -181,11 +182,11 @@ export class Link {
         };
       });
       if (!this.#isConnected()) {
-        // Nobody is to blame: the world waits.
+        // The connection is down, not a zone: the world waits.
         since = asked = performance.now();
       } else if (performance.now() - asked > suspicious) {
         for (const zone of missing) {
-          this.#send(zone, { type: 'again', tick: this.tick }); // it may have got lost, with Redis
+          this.#send(zone, { type: 'again', tick: this.tick }); // it may have got lost when Redis stopped
           const heard = Math.max(since, this.#peers.get(zone)?.heard ?? 0);
           await this.#suspect(zone, performance.now() - heard);
         }
@@ -209,8 +210,8 @@ export class Link {
   }
 
   /**
-   * Until a zone is there again: once its process has died, one of those that are left makes its room anew. Who is dead
-   * stays so and is not asked again: on a machine with much to do an answer may come too late, and four seconds are lost.
+   * Repeats until a zone is back: once its process has died, one of the remaining zones recreates its room. A dead
+   * process stays dead and is not checked again: on a busy machine that may take too long, and cost four seconds.
    */
   async #bringBack(zone, info, wasDead) {
     if (this.#stopped || this.#peers.has(zone) || this.#coming.has(zone)) return;
@@ -218,7 +219,7 @@ export class Link {
     const comes = performance.now() - (this.#asked.get(zone) ?? -Infinity) < retryTime;
     const isDead = wasDead || !(await isThere(info));
     if (isMine && !comes && isDead) {
-      // Only one does, should another zone think that it is its turn.
+      // Only one zone does so, even if two think that it is their turn.
       const turn = await this.#presence.hincrbyex('zones:replaced', String(zone), 1, retryTime / 1000 - 1);
       if (turn === 1) {
         this.#calls.log(`zone ${zone} is made anew`);
@@ -237,7 +238,7 @@ export class Link {
     this.#send(undefined, { type: 'hello', info: this.#info });
   }
 
-  /** Becomes one of those that are running; waits as long as that takes. */
+  /** Joins the running zones; waits as long as that takes. */
   async #join() {
     const known = [...this.#peers].map(([zone, { info }]) => [zone, info]);
     for (const [zone] of known) this.#drop(zone);
@@ -261,8 +262,8 @@ export class Link {
   }
 
   /**
-   * Asks all that run whom they own. Who runs is told by those that answer, too. Not waited for is one whose process has
-   * ended, one that says it does not run, and one that has said nothing for too long.
+   * Asks all running zones which entities they own. Their answers also name the other running zones. It does not wait
+   * for a zone whose process has ended, that says it is not running, or that has been silent for too long.
    */
   async #ask({ isLive, tick }, expected) {
     const join = { type: 'join', since: isLive ? -1 : tick, info: this.#info };
@@ -283,14 +284,15 @@ export class Link {
 
   #begin({ tick, entities, isLive }, asked) {
     const welcomes = [...this.#welcomes.values()];
-    // Ticks go on while the answer is on its way, and while these are told from when on this one is there.
+    // Ticks that the others passed while their answers arrived. `ahead` covers those until they learn when this zone
+    // begins.
     const passed = Math.ceil((performance.now() - asked) / tickTime);
     const ticks = welcomes.map(({ tick }) => tick + passed);
-    // Never back to a tick that this zone was at: it may have gone on alone, and further than the others. A snapshot of
-    // that time would be taken for newer than what they hand to it from now on.
+    // Never back to a tick that this zone has passed: it may have run alone, further than the others. A snapshot from
+    // then would count as newer than what they hand to it from now on.
     const start = Math.max(tick + 1, ...ticks.map((tick) => tick + ahead));
     const others = new Set(welcomes.flatMap(({ owned }) => [...unpack(owned, Uint32Array)]));
-    // What others handed to this zone since a snapshot is newer than that; what it has itself is newer than what they handed.
+    // What others handed over since the snapshot is newer than it; live entities are newer than what was handed over.
     const offers = welcomes.flatMap((welcome) => unpackEntities(welcome.offers));
     const all = isLive ? [...offers, ...entities] : [...entities, ...offers];
     const mine = new Map(all.map((entity) => [entity.id, entity]));
@@ -312,7 +314,7 @@ export class Link {
     const { type, from } = message;
     if (this.#stopped) return;
     if (from === this.#zone) {
-      // Another room has been made for this zone: this one was thought to be dead.
+      // This room was thought to be dead, so another one was created for its zone.
       if (type === 'join' && message.info.roomId !== this.#info.roomId) this.#calls.replaced();
       return;
     }
@@ -329,19 +331,19 @@ export class Link {
     else if (type === 'late' && this.#peers.has(from)) this.running = false;
     else if (type === 'dropped' && message.to === this.#epoch) this.#leave(from);
     else if (type === 'hello' && this.running && !this.#peers.has(from) && !this.#coming.has(from)) {
-      // Two that run and do not know of each other: the later one joins again.
+      // Two zones run without each other: the one with the larger number joins again.
       if (from < this.#zone) this.running = false;
     }
     this.#wake();
   }
 
-  /** Another zone has left this one out: they go on together only after this one has joined again. */
+  /** Another zone has left this one out, so this one has to join again. */
   #leave(from) {
     if (this.#peers.has(from)) this.running = false;
     this.#coming.delete(from);
   }
 
-  /** What another zone waits for: it may have got lost, or is still to come, or will never come. */
+  /** Answers a zone that waits for a tick, which may be lost, still to come, or never to come. */
   #tellAgain({ from, epoch, tick }) {
     const told = this.#last.find(([zone, message]) => zone === from && message.tick === tick);
     const peer = this.#peers.get(from) ?? this.#coming.get(from);
@@ -380,7 +382,7 @@ export class Link {
   }
 }
 
-/** Whether a process is there: it, and no other that has its port by now. */
+/** Whether a process is alive: the same one, not another that now has its port. */
 async function isThere({ address, processId }) {
   try {
     const response = await fetch(`http://${address}/process`, { signal: AbortSignal.timeout(answerTime) });

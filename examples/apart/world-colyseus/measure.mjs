@@ -1,6 +1,6 @@
-// Figures of the world: milliseconds a tick and zone for one, two and three zones (CPU: all that the process did), what a
-// ghost costs on the way, how many clients there may be before ticks are late, and the same where every client is sent
-// all of its room.
+// Figures of the world: milliseconds per tick and zone for one, two and three zones (CPU: the whole process), what a
+// ghost costs on the wire, how many clients there may be before ticks are late, and the same if every client is sent
+// its whole room.
 //
 //   node measure.mjs [--seconds 20]
 import { spawn } from 'node:child_process';
@@ -13,7 +13,7 @@ await needNewerNode();
 const { values } = parseArgs({
   options: { seconds: { type: 'string', default: '20' }, only: { type: 'string' } },
 });
-/** The last so many seconds of a run count. */
+/** The last seconds of a run, which count. */
 const counted = 8;
 
 const runs = [

@@ -1,4 +1,4 @@
-// Colyseus 0.18 needs Node 22 or later. Where this is an older one, the package `node` has a newer one.
+// Colyseus 0.18 needs Node 22 or later. If this Node is older, the package `node` has a newer one.
 import { spawn } from 'node:child_process';
 import { createRequire } from 'node:module';
 
@@ -17,7 +17,7 @@ export function findNode() {
   }
 }
 
-/** Goes on in a newer Node, if this one is too old. Ends the process where there is none. */
+/** Continues in a newer Node if this one is too old. Ends the process if there is none. */
 export async function needNewerNode() {
   const { node, missing } = findNode();
   if (missing) {

@@ -1,20 +1,20 @@
-// The presence and the driver of Colyseus: over Redis, or in memory where there is but one process.
+// The presence and the driver of Colyseus: over Redis, or in memory for a single process.
 import { LocalDriver, LocalPresence } from '@colyseus/core';
 import { RedisDriver } from '@colyseus/redis-driver';
 import { RedisPresence } from '@colyseus/redis-presence';
 import { Redis } from 'ioredis';
 
 /**
- * @param port of a Redis on this machine; left out: in memory
- * @param back called when Redis is there again
- * @returns presence, driver, and whether they can be reached now
+ * @param port of a Redis on this machine; without it, in memory
+ * @param back called when Redis is back
+ * @returns presence, driver, and whether they are connected now
  */
 export function connect(port, log, back) {
   if (!port) return { presence: new LocalPresence(), driver: new LocalDriver(), isConnected: () => true };
   const options = {
     port,
     host: '127.0.0.1',
-    maxRetriesPerRequest: null, // what is asked meanwhile waits
+    maxRetriesPerRequest: null, // commands wait until it is back
     retryStrategy: (times) => Math.min(50 * times, 500),
   };
   const presence = new RedisPresence(options);

@@ -1,4 +1,4 @@
-// One process of the world: a Colyseus server that has the rooms of some zones, and the page that shows them all.
+// One process of the world: a Colyseus server with the rooms of some zones, and the page that shows all zones.
 // node server.mjs <JSON of { port, zones, entities, redis, rooms, everything }>: the launcher (index.mjs) starts these.
 import { fileURLToPath } from 'node:url';
 import { matchMaker, Server } from '@colyseus/core';
@@ -13,13 +13,13 @@ const { port, redis, rooms, zones } = options;
 const log = (text) => console.log(JSON.stringify({ at: Date.now(), process: process.pid, text }));
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
 
-// A Redis that was started again knows of no rooms.
+// A restarted Redis knows no rooms.
 const back = () =>
   matchMaker.restoreMissingRoomCaches().catch(({ message }) => log(`rooms cannot be listed: ${message}`));
 const { presence, driver, isConnected } = connect(redis, log, back);
 ZoneRoom.setup = { ...options, presence, isConnected, log };
 
-/** The newest report of each zone, and those who watch. */
+/** The newest report of each zone, and the pages that watch. */
 const reports = new Map();
 const watchers = new Set();
 
@@ -49,7 +49,7 @@ const server = new Server({
 server.define('zone', ZoneRoom).filterBy(['zone']);
 await server.listen(port);
 await presence.subscribe('kill', (id) => {
-  // As if it had crashed: nothing is tidied up.
+  // Like a crash: nothing is cleaned up.
   if (id === process.pid) process.kill(process.pid, 'SIGKILL');
 });
 await presence.subscribe('reports', (report) => {

@@ -4,8 +4,8 @@ import { Shard } from 'broadphase/shard';
 import { boxOf, isAvatar, move, sight } from './world.mjs';
 
 /**
- * For so many ticks it is known who was handed over, should the other zone be lost; and from when it is back as long
- * again, since it may be lost before its next snapshot.
+ * Ticks for which handed-over entities are remembered, in case the other zone is lost. When it is back, they are
+ * remembered for as long again, since it may be lost before its next snapshot.
  */
 const remembered = 60;
 
@@ -14,7 +14,7 @@ export class Simulation {
   entities = new Map();
   shard;
   #zones;
-  /** Who was handed over lately: the entity, to which zone, when, and until when that is known. */
+  /** Recently handed-over entities: the entity, its new zone, when, and until when it is remembered. */
   #handedOver = [];
 
   constructor(zones, zone) {
@@ -24,19 +24,19 @@ export class Simulation {
   }
 
   #begin() {
-    // Only pairs with a client's entity in them are of interest.
+    // Only pairs with a client's entity matter.
     const space = new BroadPhase({ events: true });
     const entered = (id) => space.setFilter(id, isAvatar(id) ? 1 : 2, isAvatar(id) ? 3 : 1);
     this.shard = new Shard(this.#zones, this.zone, space, { entered });
   }
 
-  /** Begins anew with these entities, as after an interruption. */
+  /** Restarts with these entities, as after an interruption. */
   restart(entities) {
     this.#begin();
     this.entities = new Map(entities.map((entity) => [entity.id, entity]));
   }
 
-  /** Moves everybody, and finds out what to tell the other zones. */
+  /** Moves all entities, and finds out what to send to the other zones. */
   step(tick, isOpen) {
     const shut = (x) => {
       const zone = this.#zones.ownerOf(boxOf({ x, y: 0 }));
@@ -58,23 +58,23 @@ export class Simulation {
     return { deltas, given };
   }
 
-  /** Takes what the other zones told: their deltas, and the entities that they handed over. */
+  /** Takes what the other zones sent: their deltas, and the entities that they handed over. */
   finish(deltas, arrivals) {
     for (const entity of arrivals) this.entities.set(entity.id, entity);
     this.shard.update(deltas);
   }
 
-  /** All whom this zone may have to go on with: its own, and those handed over who may have arrived nowhere. */
+  /** All entities that this zone may have to continue with: its own, and handed-over ones that may not have arrived. */
   everybody() {
     return [...this.#handedOver.map(({ entity }) => entity), ...this.entities.values()];
   }
 
-  /** Those who went to a zone after a tick. */
+  /** The entities handed to a zone after a tick. */
   handedTo(zone, since) {
     return this.#handedOver.filter(({ to, tick }) => to === zone && tick > since).map(({ entity }) => entity);
   }
 
-  /** Where something is that this zone sees: its own, or a ghost. */
+  /** The place of an entity that this zone sees: its own, or a ghost. */
   placeOf(id, out) {
     const own = this.entities.get(id);
     if (own) {
@@ -90,7 +90,7 @@ export class Simulation {
   }
   #box = new Float64Array(4);
 
-  /** Whom an entity of this zone sees. */
+  /** What an entity of this zone sees. */
   seenBy(id) {
     return this.shard.space.has(id) ? this.shard.space.collisionsOf(id) : [];
   }

@@ -1,4 +1,4 @@
-// Typed arrays as text and back, since what goes over Redis is JSON.
+// Typed arrays as text and back, since messages over Redis are JSON.
 
 export const pack = (array) => Buffer.from(array.buffer, array.byteOffset, array.byteLength).toString('base64');
 
@@ -23,7 +23,7 @@ export const unpackDelta = ({ from, to, ids, changes, boxes }) => ({
   boxes: unpack(boxes, Float64Array),
 });
 
-/** Entities with all that there is to know of each. */
+/** Entities with all their properties. */
 export const packEntities = (entities) =>
   pack(Float64Array.from(entities.flatMap(({ id, x, y, vx, vy }) => [id, x, y, vx, vy])));
 

@@ -1,4 +1,4 @@
-// What all processes and clients know of the world: its size, how it is cut, who is whose.
+// What all processes and clients know about the world: its size, its zones, and which ids are clients.
 import { Zones } from 'broadphase/shard';
 
 export const world = { width: 6000, height: 3000 };
@@ -12,27 +12,27 @@ export const tickTime = 50;
 /** The furthest an entity moves in a tick. */
 const fastest = 6;
 
-/** Ids below this are those of clients' entities; others wander by themselves. */
+/** Ids below this are entities of clients; the others wander by themselves. */
 export const avatars = 1000;
 
 export const isAvatar = (id) => id < avatars;
 
 /**
- * The world, cut along x. Every entity has a box as wide as it sees, so two boxes overlap where one sees the other. The
- * margin makes a zone see all that those see whose box begins in it.
+ * The world, cut along x. Every entity has a box as wide as its sight, so two boxes overlap if one sees the other. The
+ * margin makes a zone see everything that entities whose box begins in it see.
  */
 export function cutInto(count) {
   const x = Array.from({ length: count - 1 }, (_, k) => (world.width * (k + 1)) / count);
   return new Zones({ borders: { x }, margin: sight });
 }
 
-/** The box of an entity: as wide as it sees, around it. */
+/** The box of an entity: as wide as its sight, around it. */
 export const boxOf = ({ x, y }) => [x - sight / 2, y - sight / 2, x + sight / 2, y + sight / 2];
 
-/** The zone that an entity at this place is in: that of its box. */
+/** The zone of an entity at this place: the one that owns its box. */
 export const zoneOf = (zones, place) => zones.ownerOf(boxOf(place));
 
-/** All entities as they are when the world begins, the same in every process. */
+/** All entities at the beginning of the world, the same in every process. */
 export function* beginnings(count) {
   let state = 20260101;
   const random = () => {
@@ -45,7 +45,7 @@ export function* beginnings(count) {
   }
 }
 
-/** Moves an entity by a tick. `shut(x)` says whether there is nobody to go on with it. */
+/** Moves an entity by a tick. `shut(x)` says whether no zone is there to take it over. */
 export function move(entity, shut) {
   for (const [place, speed, size] of [
     ['x', 'vx', world.width],

@@ -1,5 +1,5 @@
 // A zone is a room. It simulates the entities of its zone, shows each client those that its own entity sees, and hands
-// clients on, with their entities, to the rooms of other zones.
+// clients over, with their entities, to the rooms of other zones.
 import { matchMaker, Room } from '@colyseus/core';
 import { StateView, schema, t } from '@colyseus/schema';
 import { Link } from './link.mjs';
@@ -8,7 +8,7 @@ import { pack, packEntities, unpackEntities } from './wire.mjs';
 import { beginnings, cutInto, isAvatar, zoneOf } from './world.mjs';
 
 const Entity = schema({ x: t.float32(), y: t.float32() }, 'Entity');
-/** Only what somebody in this room sees is in the state. */
+/** The state has only entities that some client in this room sees. */
 const ZoneState = schema({ entities: t.map(Entity).view() }, 'ZoneState');
 
 /** Ticks between two snapshots, and between two reports. */
@@ -19,9 +19,9 @@ export class ZoneRoom extends Room {
   #simulation;
   #link;
   #setup;
-  /** Clients by the entity that is theirs. */
+  /** Clients by the id of their entity. */
   #clients = new Map();
-  /** By id, what is in the state: the entity, and how many see it. */
+  /** By id, the entities in the state, with the number of clients that see them. */
   #shown = new Map();
   #counts = { given: 0, taken: 0, began: 0, ended: 0, ticks: 0, work: 0, worst: 0, late: 0 };
   #lastTick = performance.now();
@@ -54,7 +54,7 @@ export class ZoneRoom extends Room {
         log: (text) => log(`zone ${zone}: ${text}`),
       },
     });
-    // Not awaited: who asks for a room is to know that it is being made, and until it runs no client finds its entity.
+    // Not awaited: the caller has to learn that the room is being created; until it runs, no client finds its entity.
     this.#link.start();
   }
 
@@ -62,7 +62,7 @@ export class ZoneRoom extends Room {
     return this.#link.stop();
   }
 
-  /** What to begin with: what this room has, or the last snapshot, or the beginning of the world. */
+  /** What to begin with: what this room has, the last snapshot, or the beginning of the world. */
   async #begin(peers) {
     const { tick: next } = this.#link;
     if (next > 0) return { tick: next - 1, entities: this.#simulation.everybody(), isLive: true };
@@ -76,7 +76,7 @@ export class ZoneRoom extends Room {
     return { tick: -1, entities: all.filter((entity) => zoneOf(zones, entity) === this.zone) };
   }
 
-  /** Makes the room of a zone whose process has died, in the process with the fewest rooms: this one, if it has no more. */
+  /** Recreates the room of a zone whose process has died, in the process with the fewest rooms: this one on a tie. */
   async #makeAnew(zone, { processId }) {
     try {
       await matchMaker.driver.cleanup(processId);
@@ -88,7 +88,7 @@ export class ZoneRoom extends Room {
 
   async #createOn(zone, processId) {
     const all = (await matchMaker.stats.fetchAll()).filter((process) => process.processId !== processId);
-    // Another process would have to be asked first, and may be slow to answer.
+    // This process comes first on a tie: another one may be slow to answer.
     const isOther = (process) => Number(process.processId !== matchMaker.processId);
     all.sort((a, b) => a.roomCount - b.roomCount || isOther(a) - isOther(b));
     await matchMaker.createRoom('zone', { zone, peers: this.#link.together(), process: all[0]?.processId });
@@ -133,7 +133,7 @@ export class ZoneRoom extends Room {
     if (tick % reportEvery === 0) this.#report(tick);
   }
 
-  /** Tells each client what came into its sight and went out of it: what the space says began and ended. */
+  /** Tells each client what came into sight and what left it, from the pairs that began and ended. */
   #show(space) {
     for (const client of this.#clients.values()) {
       const { avatar, sees, fresh } = client.userData;
@@ -154,7 +154,7 @@ export class ZoneRoom extends Room {
     both(space.began, (client, id) => this.#reveal(client, id));
   }
 
-  /** Instead of that, for comparison: every client is shown everything in the room. */
+  /** For comparison: shows every client everything in the room. */
   #showAll() {
     const { entities } = this.#simulation;
     for (const client of this.#clients.values()) {
@@ -186,7 +186,7 @@ export class ZoneRoom extends Room {
     this.state.entities.delete(String(id));
   }
 
-  /** Sends a client to the room that has its entity now. It stays here too until it is there. */
+  /** Sends a client to the room that has its entity now. It stays here too until it has joined there. */
   async #handOn(client, to) {
     const info = this.#link.infoOf(to);
     if (!client || !info) return;

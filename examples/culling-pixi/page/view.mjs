@@ -1,9 +1,9 @@
-// Moves a view by mouse, wheel, one finger or two, arrow keys, plus and minus.
+// Moves a view by mouse, wheel, one or two fingers, the arrow keys, plus and minus.
 
 const keyStep = 60;
 const arrows = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
-/** pan(dx, dy) in pixels; zoom(factor, x, y) about a pixel; point(x, y) where the pointer is. */
+/** pan(dx, dy) in pixels; zoom(factor, x, y) around a pixel; point(x, y) is the place of the pointer. */
 export function moveView(element, { pan, zoom, point }) {
   const fingers = new Map();
   const at = ({ clientX, clientY }) => {
@@ -43,7 +43,7 @@ export function moveView(element, { pan, zoom, point }) {
   );
   element.addEventListener('keydown', (event) => {
     const { key } = event;
-    if (key in arrows) event.preventDefault(); // the page does not scroll
+    if (key in arrows) event.preventDefault(); // so that the page does not scroll
     const middle = [element.clientWidth / 2, element.clientHeight / 2];
     if (arrows[key]) pan(keyStep * arrows[key][0], keyStep * arrows[key][1]);
     else if (key === '+' || key === '=') zoom(1.25, ...middle);

@@ -1,11 +1,11 @@
 // What the showcases share: a list of contenders to choose from, each with its milliseconds on the same input; buttons;
-// and a loop that runs while something moves. A showcase is a function (stage, { wake, say }) that gives
-//   contenders  the names of who can do the work, by key, ours first
-//   use(key)    has that one do it from now on
-//   race(key)   milliseconds of that one, on the input that all get
+// and a loop that runs while something moves. A showcase is a function (stage, { wake, say }) that returns
+//   contenders  the names of the contenders, by key, ours first
+//   use(key)    makes that contender do the work from now on
+//   race(key)   milliseconds of that contender, on the same input as the others
 //   actions     functions by the label of their button
-//   step()      a frame; tells whether there is more to come
-//   settle()    all frames at once, for those who ask for less motion
+//   step()      runs a frame; returns whether there is more to come
+//   settle()    runs all frames at once, if the visitor prefers reduced motion
 
 const make = (name, properties, ...children) => {
   const element = Object.assign(document.createElement(name), properties);
@@ -61,8 +61,8 @@ export function runShowcase(show, stage, controls) {
   const raceAll = async () => {
     const times = new Map();
     for (const key of outputs.keys()) {
-      await new Promise((done) => setTimeout(done, 30)); // the page answers in between
-      demo.race(key); // the first time the browser compiles
+      await new Promise((done) => setTimeout(done, 30)); // keeps the page responsive
+      demo.race(key); // in the first run, the browser compiles
       times.set(key, demo.race(key));
       const slowest = Math.max(...times.values());
       for (const [each, taken] of times) {

@@ -1,6 +1,6 @@
-// What the examples that move share: a button that plays and pauses, and a clock for what is shown as milliseconds.
+// What the animated examples share: a button that plays and pauses, and a stopwatch for the milliseconds shown.
 
-/** Plays and pauses by the button and the P key. Starts paused for those who ask for less motion. */
+/** Plays and pauses by the button and the P key. Starts paused if the visitor prefers reduced motion. */
 export function playButton(button, changed) {
   const still = matchMedia('(prefers-reduced-motion: reduce)');
   let playing;
@@ -15,7 +15,7 @@ export function playButton(button, changed) {
   play(!still.matches);
 }
 
-/** Times what is done often: `time(work)` does it, `mean()` is the milliseconds of one since it was last asked. */
+/** Times repeated work: `time(work)` runs it, `mean()` returns the mean milliseconds since its last call. */
 export function stopwatch() {
   let [total, count] = [0, 0];
   return {

@@ -1,6 +1,6 @@
-// A canvas that fills its stage, as sharp as the screen, and the colours of the page, which follow light and dark.
+// A canvas that fills its stage in device pixels, and the colours of the page, which follow light and dark.
 
-/** Calls draw(context, width, height, colours) now and whenever size or colours change. Gives a function that does. */
+/** Calls draw(context, width, height, colours) now and when size or colours change. Returns a function that does. */
 export function canvasIn(stage, draw) {
   const canvas = document.createElement('canvas');
   canvas.setAttribute('aria-hidden', 'true');

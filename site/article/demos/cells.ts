@@ -1,17 +1,17 @@
-// What a spatial grid does with boxes that stand still, counted by doing it: for every cell size there is a different sum.
+// Counts what a spatial grid does with boxes at rest, by running it. Every cell size gives different counts.
 import { type coltech, Entity, World } from 'broadphase/ro';
 
 /** x, y, width, height. */
 export type Box = readonly [x: number, y: number, width: number, height: number];
 
-/** A world of these boxes, one that nobody sees, on the technique. */
+/** A world of these boxes with this technique, without a picture. */
 export function place<T extends coltech.Technique>(technique: T, boxes: readonly Box[]): T {
   const world = new World(null, { coltech: technique });
   for (const box of boxes) world.addEntity(new Entity(...box));
   return technique;
 }
 
-/** Fills the grid, asks it for the pairs, and adds up what that took. */
+/** Fills the grid, queries the pairs, and counts the work. */
 export function countWork(grid: coltech.SpatialGrid) {
   grid.update();
   const pairs = grid.queryForCollisionPairs();
@@ -22,7 +22,7 @@ export function countWork(grid: coltech.SpatialGrid) {
   return { pairs, visits, lookUps, tests, work: visits + lookUps + tests };
 }
 
-/** The cell size, of those given, with the least work. */
+/** The cell size with the least work, among those given. */
 export function bestCellSize(grid: coltech.SpatialGrid, cellSizes: readonly number[]): number {
   const before = grid.cellSize;
   const work = cellSizes.map((cellSize) => {

@@ -1,4 +1,4 @@
-// The two extremes of a grid, by running them: a hundred boxes of 10 by 10, cells of 15, a world of 150 by 150.
+// The two extremes of a grid, by running it: a hundred boxes of 10 by 10, cells of 15, a world of 150 by 150.
 import { coltech } from 'broadphase/ro';
 import { type Box, countWork, place } from './cells.ts';
 

@@ -1,4 +1,4 @@
-// A crowd: boxes that drift, and turn round at the edge of the world. Those that collide are darker.
+// A crowd: boxes that drift, and turn back at the edge of the world. Those that collide are darker.
 import type { ro as Ro } from 'broadphase/ro';
 import { createRandom } from '../../../src/scenes/random.ts';
 
@@ -6,7 +6,7 @@ export interface Crowd {
   count: number;
   /** The sides of the smallest and the largest box. */
   sides: [smallest: number, largest: number];
-  /** How far a box drifts in a step, at most. */
+  /** The most that a box drifts per step. */
   speed: number;
   /** Whether the technique's structure is drawn over the boxes. */
   structure?: boolean;
@@ -57,7 +57,7 @@ export function crowd(
     world.addEntity(entity);
   }
 
-  /** Makes it a crowd of this many. */
+  /** Changes the number of boxes. */
   function resize(size: number) {
     while (world.entities.length < size) add();
     for (const entity of world.entities.slice(size)) world.removeEntity(entity);
@@ -73,7 +73,7 @@ export function crowd(
   };
 }
 
-/** Sends an entity back that is leaving. Its velocity is pos - ppos: the two change places. */
+/** Turns back an entity that is leaving. Its velocity is pos - ppos, so the two are swapped. */
 export function turnRound({ pos, ppos, size }: Ro.Entity, width: number, height: number): void {
   const { x, y } = ppos;
   if (pos.x < x ? pos.x < 0 : pos.x + size.x > width) [pos.x, ppos.x] = [x, pos.x];

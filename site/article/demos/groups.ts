@@ -1,5 +1,5 @@
-// Groups that care about each other or not. Everyone is in one space; a filter says for each box what it is (its layer)
-// and whom it cares about (its mask). A pair is found where each one's layer is in the other's mask.
+// Groups that care about each other or not. All boxes are in one space. For each, a filter says what it is (its layer)
+// and what it cares about (its mask). A pair is found if the layer of each is in the mask of the other.
 import { findPairs } from 'broadphase';
 import type { ro as Ro } from 'broadphase/ro';
 import { createRandom } from '../../../src/scenes/random.ts';
@@ -38,7 +38,7 @@ export function groups(
     },
   });
 
-  /** A frame around everyone who was found, and a line from one to the other. */
+  /** Draws a frame around each box of a pair, and a line between the two. */
   function mark(ctx: CanvasRenderingContext2D, found: Ro.coltech.Pair<Ro.Entity>[]) {
     ctx.strokeStyle = colors.text;
     ctx.lineWidth = 2;
@@ -67,7 +67,7 @@ export function groups(
     }
   }
 
-  /** From now on these questions are asked, and no others. */
+  /** From now on, finds the pairs of these questions and no others. */
   function ask(questions: Iterable<Question>) {
     const masks = { players: 0, powerUps: 0, enemies: 0 };
     for (const [one, other] of questions) {
@@ -79,7 +79,7 @@ export function groups(
     }
   }
 
-  /** How many pairs there are without filters. */
+  /** Counts the pairs without filters. */
   function countAll() {
     const boxes = world.entities.flatMap((entity) => {
       const { min, max } = entity.getAABB();

@@ -1,4 +1,4 @@
-// The same rings, without a screen, on four techniques, to see what each leaves behind for the browser to tidy up.
+// The same rings, without a picture, with four techniques, to see how much garbage each leaves behind.
 import { ro } from 'broadphase/ro';
 import { rings } from './rings.ts';
 

@@ -1,21 +1,21 @@
-// A grid for every size: cells of 1, 2, 4, 8 … units, and each entity in the finest grid whose cells are no smaller
-// than itself. No cell size to choose, and none that can be wrong.
+// A grid for every size: cells of 1, 2, 4, 8 … units, with each entity in the finest grid whose cells are no smaller
+// than the entity. There is no cell size to choose, so none can be wrong.
 //
-// In its own grid an entity overlaps four cells at most. It is compared with what it meets there, and in the cells it
-// overlaps of every coarser grid; partners in finer grids come to it. So the work per entity grows with the number of
-// sizes there are, not with how far they differ.
+// In its own grid an entity overlaps at most four cells. It is compared with the entities there, and with those in the
+// cells that it overlaps of every coarser grid. Partners in finer grids find it themselves. So the work per entity
+// grows with the number of sizes, not with how far they differ.
 import { coltech, type Entity } from 'broadphase/ro';
 
 interface Grid {
   cellSize: number;
-  /** The entities of each cell that has any, by its column and row. */
+  /** The entities of each occupied cell, by its column and row. */
   cells: Map<string, Entity[]>;
 }
 
 export class HierarchicalGrid extends coltech.EntityList {
-  /** Cells looked into by the last query. */
+  /** Cells visited by the last query. */
   lookUps = 0;
-  /** The grids that hold something, from fine to coarse. */
+  /** The grids with entities, from fine to coarse. */
   grids: Grid[] = [];
 
   override update(): void {
@@ -53,7 +53,7 @@ export class HierarchicalGrid extends coltech.EntityList {
         for (const [column, row] of cellsUnder(entity, cellSize)) {
           this.lookUps++;
           for (const other of cells.get(`${column}:${row}`) ?? []) {
-            // In its own grid each meets the other: the younger one asks.
+            // In their own grid each would find the other: only the newer one does.
             if (cellSize === own && other._roId >= entity._roId) continue;
             // Two that share several cells are compared in the first of them.
             if (column !== firstShared(entity, other, 0, cellSize) || row !== firstShared(entity, other, 1, cellSize))
@@ -71,7 +71,7 @@ export class HierarchicalGrid extends coltech.EntityList {
     return pairs;
   }
 
-  /** The power of two that an entity's longer side just fits into; 1 for everything smaller. */
+  /** The smallest power of two that is at least an entity's longer side; at least 1. */
   cellSizeOf(entity: Entity): number {
     const { min, max } = entity.getAABB();
     const side = Math.max(max[0] - min[0], max[1] - min[1], 1);

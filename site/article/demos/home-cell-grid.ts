@@ -1,12 +1,12 @@
-// A grid in which every entity is at home in one cell, that of its upper left corner; neighbours are looked up in a query.
+// A grid in which every entity has one home cell, that of its upper left corner. A query searches the cells nearby.
 //
-// Building it is one entry per entity, however large. The query pays: a partner that reaches in from the left or from
-// above may be at home as far away as the largest box is wide or high. So every search goes that much beyond the box,
-// and a single giant makes all of them wide.
+// Building it takes one entry per entity, of any size. The query pays for that: the home of a partner that reaches in
+// from the left or from above may be as far away as the largest box is wide or high. So every search extends that
+// far, and a single giant makes all of them wide.
 import { coltech, type Entity } from 'broadphase/ro';
 
 export class HomeCellGrid extends coltech.EntityList {
-  /** Cells looked into by the last query. */
+  /** Cells visited by the last query. */
   lookUps = 0;
   readonly cellSize: number;
   readonly #cells = new Map<string, Entity[]>();
@@ -37,14 +37,14 @@ export class HomeCellGrid extends coltech.EntityList {
     this.allocatedCells = this.#cells.size;
   }
 
-  /** The cells in which a partner of this entity may be at home: first and last column, first and last row. */
+  /** The cells that may be home to a partner of this entity: first and last column, first and last row. */
   searchArea(entity: Entity): [left: number, top: number, right: number, bottom: number] {
     const { min, max } = entity.getAABB();
     const [width, height] = this.#largest;
     return [this.#cellAt(min[0] - width), this.#cellAt(min[1] - height), this.#cellAt(max[0]), this.#cellAt(max[1])];
   }
 
-  /** The entities at home in a cell. */
+  /** The entities whose home is a cell. */
   at(column: number, row: number): readonly Entity[] {
     return this.#cells.get(this.#nameOf(column, row)) ?? [];
   }
@@ -59,7 +59,7 @@ export class HomeCellGrid extends coltech.EntityList {
         for (let row = top; row <= bottom; row++) {
           this.lookUps++;
           for (const other of this.at(column, row)) {
-            // Each would find the other: the younger one asks, so no table of tested pairs is needed.
+            // Each would find the other: only the newer one does, so no table of tested pairs is needed.
             if (other._roId >= entity._roId) continue;
             this.collisionTests++;
             if (this.aabb2DIntersection(other, entity)) pairs.push([other, entity]);

@@ -1,10 +1,10 @@
-// A player, power-ups to collect, and a crowd that only gets in the way. Two questions are asked in each step: which
-// power-ups does the player touch, and does the guard touch the player? No one asks for the other collisions.
+// A player, power-ups to collect, and a crowd that only gets in the way. Each step answers two questions: which
+// power-ups does the player touch, and does the guard touch the player? Other collisions are not needed.
 import type { ro as Ro } from 'broadphase/ro';
 import { createRandom } from '../../../src/scenes/random.ts';
 import { turnRound } from './crowd.ts';
 
-const REACH = 3.2; // of the player, in pixels per step
+const REACH = 3.2; // the player's speed, in pixels per step
 
 export function player(
   ro: typeof Ro,
@@ -30,7 +30,7 @@ export function player(
       touched = 0;
       for (const id of space.collisionsOf(coltech.idOf(hero))) {
         const powerUp = powerUps.get(id);
-        if (!powerUp) continue; // someone of the crowd, or the guard
+        if (!powerUp) continue; // one of the crowd, or the guard
         touched++;
         collected++;
         scatter(powerUp);
@@ -87,7 +87,7 @@ export function player(
     entity.ppos = { x, y };
   }
 
-  /** The keys move the goal, the pointer is the goal, and the player makes for it. */
+  /** The keys move the goal, or the pointer is the goal. The player moves towards it. */
   function steer() {
     const { input } = world;
     if (input?.pointer.isOver) {

@@ -1,8 +1,8 @@
-// A spatial grid that is kept: from one step to the next most boxes stay in their cells, and only the others are moved.
+// A retained spatial grid: from one step to the next most boxes stay in their cells, and only the others are moved.
 //
-// The price is memory of the past. Beside each cell's list of entities there is, for each entity, the stretch of cells
-// it is listed in, and both have to be right after every move. The gain: a box that moves within its cells costs one
-// comparison, and nothing is thrown away.
+// The price is state. Besides each cell's list of entities there is, for each entity, the stretch of cells that list
+// it. Both have to be right after every move. The gain: a box that moves within its cells costs one comparison, and
+// nothing is thrown away.
 import { coltech, type Entity } from 'broadphase/ro';
 
 /** The cells under a box: from the left column to the right one, from the top row to the bottom one. */
@@ -22,9 +22,9 @@ interface Cell {
 export class RetainedGrid extends coltech.EntityList {
   /** Entities that the last update took out of a cell or put into one. */
   moved = 0;
-  /** The cells it did that to, once for each entity put in or taken out. */
+  /** The cells of these changes, once for each entity put in or taken out. */
   changes: Cell[] = [];
-  /** The entries there are: what a grid that is built anew writes in every update. */
+  /** The number of entries: a grid that is rebuilt writes as many in every update. */
   entries = 0;
   readonly cellSize: number;
   readonly #cells = new Map<string, Cell>();
@@ -50,7 +50,7 @@ export class RetainedGrid extends coltech.EntityList {
     for (const entity of this.entities) {
       const before = this.#stretches.get(entity);
       const now = this.#stretchOf(entity);
-      if (before && isSame(before, now)) continue; // most of them, most of the time
+      if (before && isSame(before, now)) continue; // most boxes, most of the time
 
       if (before) {
         this.#forEachCell(before, (column, row) => {

@@ -1,4 +1,4 @@
-// Rings of resting squares, and on each ring one that goes round. Squares that collide are darker; a click adds a ring,
+// Rings of squares at rest, and on each ring one that goes round. Squares that collide are darker. A click adds a ring,
 // and so does the Enter key.
 import type { ro as Ro } from 'broadphase/ro';
 

@@ -1,11 +1,11 @@
-// Boxes on a retained grid, of which some move and the others rest; the cells that a step touches light up.
+// Boxes on a retained grid: some move, the others rest. The cells that a step changes light up.
 import type { ro as Ro } from 'broadphase/ro';
 import { createRandom } from '../../../src/scenes/random.ts';
 import { turnRound } from './crowd.ts';
 import type { RetainedGrid } from './retained-grid.ts';
 
 const COUNT = 240;
-const SPEED = 1.6; // in pixels per step, at most
+const SPEED = 1.6; // the most pixels per step
 const FADE = 12; // steps until a cell is dark again
 const FOLLOW = 0.06; // the weight of the last step in the averages
 
@@ -17,11 +17,11 @@ export function stillAndMoving(
 ) {
   const random = createRandom(9);
   const velocities = new Map<Ro.Entity, { x: number; y: number }>();
-  /** The cells touched lately, by place, and how many steps ago. */
+  /** Recently changed cells, by place, and how many steps ago they changed. */
   const touched = new Map<string, { column: number; row: number; age: number }>();
-  /** What was moved since the last step that took time. */
+  /** Changes since the last step that took time. */
   const since = { moved: 0, changes: [] as RetainedGrid['changes'] };
-  /** Per step, on average. */
+  /** Averages per step. */
   const work = { moved: 0, changed: 0 };
 
   const world = new ro.World(canvas, {
@@ -52,11 +52,11 @@ export function stillAndMoving(
     velocities.set(entity, { x: SPEED * (2 * random() - 1), y: SPEED * (2 * random() - 1) });
     world.addEntity(entity);
   }
-  world.step(0); // all are new, and enter their cells; that does not count
+  world.step(0); // all boxes enter their cells, which does not count
   since.moved = 0;
   since.changes = [];
 
-  /** Lights the cells that were touched, and brings the averages up to date. */
+  /** Lights the changed cells, and updates the averages. */
   function account() {
     for (const [name, cell] of touched) if (++cell.age > FADE) touched.delete(name);
     for (const { column, row } of since.changes) touched.set(`${column}:${row}`, { column, row, age: 0 });
@@ -66,7 +66,7 @@ export function stillAndMoving(
     since.changes = [];
   }
 
-  /** Lets this share of the boxes move, from 0 to 1, and the others rest. */
+  /** Makes this share of the boxes move, from 0 to 1, and the others rest. */
   function move(share: number) {
     world.entities.forEach((entity, i) => {
       const { x, y } = i < share * COUNT ? velocities.get(entity)! : { x: 0, y: 0 };

@@ -1,7 +1,7 @@
-// Sweep and prune: the boxes in order of their left edges, and from each one onwards only as far as it reaches.
+// Sweep and prune: sorts the boxes by their left edges, and compares each with the following ones as far as it reaches.
 //
-// The order of the last step is nearly that of this one, so insertion sort is the right sort for once: a box that was
-// not overtaken costs one comparison.
+// The order of the last step is nearly sorted in this one, so insertion sort is the right sort here: a box that was not
+// overtaken costs one comparison.
 import { coltech, type Entity } from 'broadphase/ro';
 
 export class SweepAndPrune extends coltech.EntityList {
@@ -47,7 +47,7 @@ export class SweepAndPrune extends coltech.EntityList {
 
       for (let j = i + 1; j < sorted.length; j++) {
         const b = sorted[j];
-        if (leftOf(b) > reach) break; // and so does everything behind it
+        if (leftOf(b) > reach) break; // and so does everything after it
         this.collisionTests++;
         if (this.aabb2DIntersection(a, b)) pairs.push(a._roId < b._roId ? [a, b] : [b, a]);
       }

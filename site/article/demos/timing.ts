@@ -4,7 +4,7 @@ import type { coltech } from 'broadphase/ro';
 const WARM_UP = 3; // runs until the browser has compiled the code
 const AT_LEAST = 12; // milliseconds of measuring
 
-/** The median of as many runs as there is time for, in milliseconds, and the pairs found. */
+/** The median of as many runs as time allows, in milliseconds, and the number of pairs. */
 export function timeStep(technique: coltech.Technique): { milliseconds: number; pairs: number } {
   let pairs = 0;
   const run = () => {

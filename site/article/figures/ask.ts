@@ -1,4 +1,4 @@
-// Fig. 16: two questions about the player, whatever else collides.
+// Fig. 16: two questions about the player, among many other collisions.
 import { ro } from 'broadphase/ro';
 import { demoColumns } from '../demo.ts';
 import { player } from '../demos/player.ts';
@@ -24,7 +24,7 @@ export function mount(root: HTMLElement): () => void {
       `A player among power-ups and a drifting crowd. ${pairCount} pairs collide; ${collected} power-ups collected; ` +
       `the guard ${caught ? 'touches' : 'does not touch'} the player. Arrow keys move the player.`,
   });
-  // The arrow keys steer, so they must not scroll the page meanwhile.
+  // The arrow keys steer, so they must not scroll the page.
   stage.canvas.addEventListener('keydown', (event) => {
     if (event.key.startsWith('Arrow')) event.preventDefault();
   });

@@ -32,7 +32,7 @@ const lights: Readonly<Record<BruteForceOperation['kind'], string>> = {
   test: 'if (this.aabb2DIntersection',
 };
 
-/** The four questions of the test, as far as it gets: a “no” ends it. */
+/** The four comparisons of the test, up to the first “no”. */
 function questions(i: number, j: number): string {
   const a = boxes[i];
   const b = boxes[j];

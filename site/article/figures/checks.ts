@@ -9,9 +9,9 @@ const most = 3000;
 const side = 10;
 /** A cell of the grid: a little larger than a box. */
 const cellSize = 15;
-/** Units of the world's area for each box, so that the crowd is equally dense whatever its number. */
+/** The world's area per box, so that a crowd of any size has the same density. */
 const roomEach = 500;
-/** Milliseconds of counting before the page gets its turn again. */
+/** Milliseconds of counting before the page gets a turn. */
 const patience = 12;
 
 const series = [
@@ -22,7 +22,7 @@ const series = [
 type Key = (typeof series)[number]['key'];
 type Counts = Readonly<Record<Key, number>> & { readonly pairs: number };
 
-/** Really runs the three on the same boxes, and counts the tests of one box against another that each makes. */
+/** Runs the three on the same boxes, and counts the tests of one box against another in each. */
 function countChecks(boxes: number): Counts {
   const extent = Math.sqrt(boxes * roomEach) + side;
   const run = <T extends coltech.EntityList<Entity>>(technique: T) => {
@@ -162,13 +162,13 @@ export function mount(root: HTMLElement): () => void {
     }
   }
 
-  /** The point that the numbers below the plot are of: the one pointed at, or else the last. */
+  /** The point shown in the numbers below the plot: the one pointed at, or else the last. */
   const shownPoint = (): readonly [number, Counts] => {
     const all = points();
     return all.find(([n]) => n === pointed) ?? all[all.length - 1];
   };
 
-  /** Counts what is missing, a little at a time. */
+  /** Counts the missing points, a few at a time. */
   const count = () => {
     clearTimeout(timer);
     const started = performance.now();

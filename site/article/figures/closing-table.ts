@@ -1,4 +1,4 @@
-// Table 1: the grid's two extremes, and what lies between them, counted by running them.
+// Table 1: the grid's two extremes and the range between them, counted by running it.
 
 import { demoColumns } from '../demo.ts';
 import { hundredBoxes, measure } from '../demos/closing-table.ts';

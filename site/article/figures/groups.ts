@@ -1,4 +1,4 @@
-// Fig. 17: three groups in one space, and the questions between them that are asked.
+// Fig. 17: three groups in one space, and which of them care about each other.
 import { ro } from 'broadphase/ro';
 import { demoColumns } from '../demo.ts';
 import { groups, type Question } from '../demos/groups.ts';

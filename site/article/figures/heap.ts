@@ -1,7 +1,7 @@
 // Fig. 10: the JavaScript heap over time, while the rings run on the grid with three cell sizes, and on the library.
 //
-// One page has one heap, so the four take turns; the chart's clock runs only while they do. A browser that does not
-// tell the size of its heap gets the number of arrays made instead, which is known everywhere.
+// One page has one heap, so the four take turns, and the chart's clock runs only meanwhile. If the browser does not
+// report the size of its heap, the chart shows the number of arrays created instead, which is always known.
 
 import { heapSize } from '../../shared/heap.ts';
 import { demoColumns } from '../demo.ts';
@@ -10,13 +10,13 @@ import source from '../demos/heap.ts?raw';
 import { text } from '../kit/drawing.ts';
 import { button, choice, createView, element, excerpt, listing, row, runWhileAttended, sayer } from '../kit/index.ts';
 
-/** Milliseconds that each has its turn, and that the chart is wide. */
+/** Milliseconds of one turn, and of the width of the chart. */
 const turn = 3000;
 const shownTime = 4 * turn;
-/** Samples kept: more than the frames of the time shown. */
+/** Samples kept: more than there are frames in the time shown. */
 const kept = 4096;
 const MB = 1e6;
-/** A name is written where its stretch of the chart is wider, in CSS pixels. */
+/** A turn's name is written if its stretch of the chart is wider than this, in CSS pixels. */
 const roomForName = 64;
 const inTurn = -1;
 const colorOf = ['now', 'accent', 'muted', 'text'] as const;
@@ -119,7 +119,7 @@ export function mount(root: HTMLElement): () => void {
       let last = performance.now();
       let told = last;
       const each = (now: number) => {
-        // A frame bears the time it began, which may be before this was started.
+        // The time of a frame is its beginning, which may be before this was started.
         step(Math.min(Math.max(now - last, 0), 100));
         last = now;
         if (now - told > 200) {
@@ -170,7 +170,7 @@ export function mount(root: HTMLElement): () => void {
     view.redraw();
   }
 
-  /** The least and the most of the values shown, rounded outward. */
+  /** The minimum and maximum of the values shown, rounded outward. */
   function range(from: number, first: number): [least: number, most: number] {
     let least = Infinity;
     let most = -Infinity;

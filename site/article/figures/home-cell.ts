@@ -1,4 +1,4 @@
-// Fig. 19: every box at home in one cell, and the cells that the query of a chosen box has to look into.
+// Fig. 19: every box has one home cell; and the cells that the query of a chosen box has to visit.
 import { createRandom } from '../../../src/scenes/random.ts';
 import { demoColumns } from '../demo.ts';
 import { type Box, place } from '../demos/cells.ts';
@@ -87,7 +87,7 @@ export function mount(root: HTMLElement): void {
   listing(right, 'site/article/demos/home-cell-grid.ts', excerpt(source, 'searchArea(entity: Entity)'));
   show();
 
-  /** Whom the chosen box is compared with, and who of them overlaps it. */
+  /** The boxes that the chosen one is compared with, and those that overlap it. */
   function found() {
     const [first, top, last, bottom] = grid.searchArea(chosen);
     const compared = [];

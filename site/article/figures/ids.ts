@@ -1,4 +1,4 @@
-// Fig. 13: adding an entity to a world, one operation at a time. Entities come and go; numbers are never given twice.
+// Fig. 13: adding an entity to a world, one operation at a time. Entities come and go; numbers are never reused.
 import { Entity, World } from 'broadphase/ro';
 import worldSource from '../../../src/ro/world.ts?raw';
 import { prefersStill } from '../kit/attend.ts';
@@ -28,7 +28,7 @@ export function mount(root: HTMLElement): () => void {
   const count = counters(right, { entities: 'Entities', uniq: 'The next number (uniq)' });
   const tools = row(right);
 
-  /** @param numbered whether the entity that is being added has its number by now */
+  /** @param numbered whether the entity being added already has its number */
   const show = (adding?: Entity, numbered = true) => {
     const entities = world.entities.map((entity) => {
       const unnumbered = entity === adding && !numbered;

@@ -1,4 +1,4 @@
-// Fig. 4: a box on a grid, and the arrays that hold it. The grid is a real one, filled anew whenever the box moves.
+// Fig. 4: a box on a grid, and the arrays that contain it. The grid is a real one, rebuilt whenever the box moves.
 import { coltech, Entity, World } from 'broadphase/ro';
 import {
   boxOn,
@@ -24,7 +24,7 @@ export function mount(root: HTMLElement): void {
   const entity = new Entity(20, 50, boxSize.x, boxSize.y);
   world.addEntity(entity);
   const { pos } = entity;
-  /** Where the box was dragged to; pos is that in whole numbers. */
+  /** Where the box was dragged to; pos is the same in whole numbers. */
   const exact = { ...pos };
   const cellSize = () => grid.pxCellSize.x;
   const count = () => Math.ceil(side / cellSize());
@@ -89,7 +89,7 @@ export function mount(root: HTMLElement): void {
     },
   });
 
-  /** Puts the box at a place within the grid, and shows where it lies. */
+  /** Puts the box at a place within the grid, and shows its cells. */
   const show = () => {
     exact.x = Math.min(Math.max(exact.x, 0), side - boxSize.x);
     exact.y = Math.min(Math.max(exact.y, 0), side - boxSize.y);

@@ -1,4 +1,4 @@
-// Fig. 5: a grid that begins elsewhere than at 0, and the sum that takes a position to its cell.
+// Fig. 5: a grid that does not begin at 0, and the calculation from a position to its cell.
 import { coltech } from 'broadphase/ro';
 import {
   boxOn,
@@ -26,7 +26,7 @@ type Moved = 'point' | 'grid';
 export function mount(root: HTMLElement): void {
   const point = { x: -30, y: 46 };
   const min = { x: -120, y: -90 };
-  /** Where the two were dragged to; point and min are that in whole numbers. */
+  /** Where the two were dragged to; point and min are the same in whole numbers. */
   const exact = { point: { ...point }, grid: { ...min } };
   let arrowsMove: Moved = 'point';
   let held: Moved = 'point';

@@ -11,7 +11,7 @@ const boxes = 160;
 const mostGiants = 16;
 const sizes: number[] = [];
 for (let size = 3; size <= 400; size = Math.max(size + 1, Math.round(size * 1.2))) sizes.push(size);
-/** The work that the top of the plot stands for. */
+/** The work at the top of the plot. */
 const most = 300_000;
 const least = 100;
 

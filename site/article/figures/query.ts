@@ -1,4 +1,4 @@
-// Fig. 12: the grid is asked for the colliding pairs, one operation at a time, beside the code that answers.
+// Fig. 12: the query for the colliding pairs, one operation at a time, beside the code that runs.
 import gridSource from '../../../src/ro/coltech/spatial-grid.ts?raw';
 import { boxes, drawGridScene, gridSize } from '../grid-scene.ts';
 import { columns, counters, createStepper, createView, excerpt, listing, sayer } from '../kit/index.ts';

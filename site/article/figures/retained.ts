@@ -1,4 +1,4 @@
-// Fig. 18: the retained grid, and how much of it a step has to touch when few boxes move, or all.
+// Fig. 18: the retained grid, and how much of it a step has to change if few boxes move, or all.
 import { ro } from 'broadphase/ro';
 import { demoColumns } from '../demo.ts';
 import { RetainedGrid } from '../demos/retained-grid.ts';

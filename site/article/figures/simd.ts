@@ -1,4 +1,4 @@
-// Fig. 24: the test of one box against four at once, lane by lane, and what that is worth, timed here and now.
+// Fig. 24: the test of one box against four at once, lane by lane, and what it gains, timed in the reader's browser.
 import { ro } from 'broadphase/ro';
 import { createRandom } from '../../../src/scenes/random.ts';
 import { demoColumns } from '../demo.ts';
@@ -10,7 +10,7 @@ import { button, createView, element, excerpt, listing, makeDraggable, row, saye
 
 const width = 480;
 const height = 300;
-/** The four boxes, and where the one that is compared with them begins. */
+/** The four boxes, and the initial place of the one that is compared with them. */
 const four: readonly Box[] = [
   [30, 26, 84, 60],
   [196, 40, 62, 74],
@@ -107,7 +107,7 @@ export function mount(root: HTMLElement): void {
   show();
   soon();
 
-  /** The four questions, each asked of all four boxes, and whether all were answered with yes. */
+  /** The four comparisons, each for all four boxes, and whether all hold. */
   function lanes() {
     const [x, y, across, down] = one;
     const ask = (question: string, answer: (box: Box) => boolean) => ({ question, answers: four.map(answer) });
@@ -139,7 +139,7 @@ export function mount(root: HTMLElement): void {
     view.redraw();
   }
 
-  /** Times once the slider has come to rest: it takes a moment. */
+  /** Times it once the slider has stopped, since that takes a moment. */
   function soon(): void {
     clearTimeout(timer);
     timer = window.setTimeout(time, 200);

@@ -1,4 +1,4 @@
-// Fig. 23: strips, live, with as many boxes as the reader likes.
+// Fig. 23: strips, live, with a number of boxes that the reader chooses.
 import { structureFigure } from '../structure-figure.ts';
 
 export function mount(root: HTMLElement): () => void {

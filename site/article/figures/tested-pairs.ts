@@ -89,7 +89,7 @@ export function mount(root: HTMLElement): () => void {
 
   const table = element('ul', { class: 'keys', 'aria-label': 'The table of tested pairs' });
   right.append(table);
-  /** The pairs in the table after the look-up at hand. */
+  /** The pairs in the table after the current look-up. */
   const compared = () =>
     new Set(
       run

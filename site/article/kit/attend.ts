@@ -1,16 +1,16 @@
 // Runs something while the reader attends to it: while the mouse is over it, it has the keyboard focus, or a finger
 // tapped it. It stops when the mouse or the focus leaves, and after a tap elsewhere.
 //
-// Who asked for less motion is spared the start by mere hovering: then a tap, a click or the Enter key starts it.
+// If the reader prefers reduced motion, hovering does not start it, only a tap, a click or the Enter key.
 
 const still = matchMedia('(prefers-reduced-motion: reduce)');
 
-/** Whether the reader asked for less motion. */
+/** Whether the reader prefers reduced motion. */
 export const prefersStill = (): boolean => still.matches;
 
 export interface Attended {
   readonly running: boolean;
-  /** Stops it, whatever the reader attends to: for when it goes out of sight. */
+  /** Stops it in any case: for when it goes out of sight. */
   stop(): void;
 }
 

@@ -46,7 +46,7 @@ export interface SliderOptions {
   max: number;
   step?: number;
   value: number;
-  /** The value in words, for the eye and the screen reader; the number itself when left out. */
+  /** The value in words, on the screen and for screen readers; by default the number itself. */
   format?(value: number): string;
   /** Called when the reader moves it, not at the start. */
   moved(value: number): void;
@@ -80,12 +80,12 @@ export function slider(root: HTMLElement, options: SliderOptions): Slider {
   };
 }
 
-/** Sets the counter of a name; what has not changed costs nothing. */
+/** Sets the counter with this name. It costs nothing if the text is the same. */
 export type Counters = (name: string, text: string | number) => void;
 
 /**
  * Live numbers with their names, as a description list.
- * @param names the key of each, and how it is called on the page
+ * @param names the key of each, and its name on the page
  */
 export function counters(root: HTMLElement, names: Readonly<Record<string, string>>): Counters {
   const list = element('dl', { class: 'counters' });
@@ -106,7 +106,7 @@ export function counters(root: HTMLElement, names: Readonly<Record<string, strin
   };
 }
 
-/** A line of text that says what is happening, read out when it changes unless `quiet`. */
+/** A line of text that says what is happening, read out when it changes, unless `quiet`. */
 export function sayer(root: HTMLElement, quiet = false): (text: string) => void {
   const place = element('p', quiet ? { class: 'said' } : { class: 'said', role: 'status' });
   root.append(place);

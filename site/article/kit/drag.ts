@@ -4,7 +4,7 @@ import type { View } from './view.ts';
 export interface DragOptions {
   /** What is dragged, for the screen reader. */
   label: string;
-  /** Whether a place in the view, in CSS pixels, takes hold of it; anywhere when left out. */
+  /** Whether a drag may start at a place in the view, in CSS pixels; by default anywhere. */
   holds?(x: number, y: number): boolean;
   /** Moves it by this many CSS pixels. */
   moved(dx: number, dy: number): void;
@@ -41,7 +41,7 @@ export function makeDraggable({ canvas }: View, { label, holds = () => true, mov
   };
   canvas.addEventListener('pointerup', release);
   canvas.addEventListener('pointercancel', release);
-  // A finger on what can be dragged drags it; anywhere else it scrolls the page.
+  // A finger on something draggable drags it; anywhere else it scrolls the page.
   canvas.addEventListener(
     'touchstart',
     (event) => {

@@ -1,4 +1,4 @@
-// What figures draw over and over: a grid, shaded cells, boxes with their numbers; in world units on a view of pixels.
+// What all figures draw: a grid, shaded cells, boxes with their numbers; in world units, on a view in pixels.
 import type { Colors } from './theme.ts';
 
 /** Where a part of the world is in a view: world units times `scale`, plus the offset, are CSS pixels. */
@@ -61,7 +61,7 @@ export interface BoxLook {
   lineWidth?: number | undefined;
   /** Written in the middle. */
   label?: string | undefined;
-  /** Writes it in the upper left corner instead, where a box that lies on this one rarely is. */
+  /** Writes it in the upper left corner instead, which another box rarely covers. */
   corner?: boolean | undefined;
   labelColor?: string | undefined;
 }
@@ -109,7 +109,7 @@ export function text(
   ctx.fillText(words, x, y + 0.5);
 }
 
-/** What a box is drawn in, alone or colliding, with its number in a corner. */
+/** The look of a box, alone or colliding, with its number in a corner. */
 export function lookOf(colors: Colors, state: 'alone' | 'hit', label?: string): BoxLook {
   return {
     fill: state === 'hit' ? colors.hit : colors.box,

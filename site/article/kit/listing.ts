@@ -1,4 +1,4 @@
-// A listing of real source, imported with `?raw`: what is shown is what runs. Lines are lit by what they say.
+// A listing of real source, imported with `?raw`: the code shown is the code that runs. Lines are lit by their text.
 import { element } from './dom.ts';
 
 export interface Listing {
@@ -54,7 +54,7 @@ function paint(line: string): (Node | string)[] {
   return parts;
 }
 
-/** Shows code, with a title that says where it is from. */
+/** Shows code, with its origin as the title. */
 export function listing(root: HTMLElement, title: string, code: string): Listing {
   const lines = code.split('\n');
   const shown = lines.map((line) => element('span', { class: 'code-line' }, ...paint(line), '\n'));

@@ -1,11 +1,12 @@
-// Steps through a recorded run of an algorithm: forth, back, by a slider, or by itself; one operation at a time.
+// Steps through a recorded run of an algorithm, one operation at a time: forwards, backwards, by a slider, or by
+// itself.
 import { prefersStill } from './attend.ts';
 import { button, row, type Slider, slider } from './controls.ts';
 
 export interface Stepper<S> {
   /** Shows another run, from its first step. */
   load(steps: readonly S[]): void;
-  /** Plays on from where it is. */
+  /** Plays from the current step. */
   play(): void;
   /** Stops playing. */
   stop(): void;
@@ -15,9 +16,9 @@ export interface StepperOptions<S> {
   steps: readonly S[];
   /** Shows one step: its index, and whether it is only passed through while playing. */
   show(step: S, index: number, playing: boolean): void;
-  /** Milliseconds per step while playing; 500 when left out. */
+  /** Milliseconds per step while playing; 500 by default. */
   pace?: number;
-  /** What the slider is called; 'Operation' when left out. */
+  /** The name of the slider; 'Operation' by default. */
   label?: string;
   /** Begins again after the last step. */
   loops?: boolean;

@@ -1,4 +1,4 @@
-// The colours that figures draw in: the page's own CSS variables, read again when light turns to dark.
+// The colours of the figures: the page's own CSS variables, read again when light turns to dark.
 
 const names = {
   page: '--page',
@@ -16,7 +16,7 @@ const names = {
   cell: '--cell',
   /** The lines of a grid. */
   grid: '--grid',
-  /** What the step at hand is about. */
+  /** What the current step is about. */
   now: '--now',
 } as const;
 

@@ -1,7 +1,7 @@
 // A canvas to draw a figure on, in CSS pixels at the density of the display.
 //
-// It is drawn again when its width, the density or the colour scheme changes. What it shows is said in words by
-// describe(), which figures keep true: a canvas alone is silent to who cannot see it.
+// It is drawn again when its width, the density or the colour scheme changes. Figures describe it in words with
+// describe(), since a canvas alone says nothing to people who cannot see it.
 import { element } from './dom.ts';
 import { type Colors, onThemeChange, themeColors } from './theme.ts';
 
@@ -10,7 +10,7 @@ export interface View {
   /** In CSS pixels. */
   readonly width: number;
   readonly height: number;
-  /** Draws before the next frame is shown, however often it is called. */
+  /** Draws once before the next frame, however often it is called. */
   redraw(): void;
   /** The text alternative. */
   describe(text: string): void;
@@ -21,7 +21,7 @@ export interface ViewOptions {
   height(width: number): number;
   /** Draws all of it; the canvas is empty. Measures are CSS pixels. */
   draw(ctx: CanvasRenderingContext2D, width: number, height: number, colors: Colors): void;
-  /** The text alternative to begin with. */
+  /** The initial text alternative. */
   label: string;
 }
 

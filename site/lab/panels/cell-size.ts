@@ -1,17 +1,17 @@
-// The cell size: a slider over doublings of the usual box, and the curve of what each size costs, which is measured
+// The cell size: a slider over doublings of the typical box, and a curve of the cost of each size, which is measured
 // and drawn as the slider is dragged over it.
 import uPlot from 'uplot';
 import type { CellSizes, Cost } from '../worker/messages.ts';
 import { chartOptions, fitChart } from './charts.ts';
 
-/** Steps of the slider in a doubling; it reaches from a quarter of the usual box to 256 of it. */
+/** Steps of the slider per doubling. It reaches from a quarter of the typical box to 256 times its size. */
 const stepsPerDoubling = 4;
 /** Steps from one label of the curve to the next. */
 const labelled = 8;
 const height = 130;
 
 export interface CellSizeControl {
-  /** For another scene or technique: the curve begins anew. */
+  /** Clears the curve, for another scene or technique. */
   begin(sizes: CellSizes, cell: number | undefined): void;
 }
 
@@ -27,7 +27,7 @@ function roundNumbers(low: number, high: number): number[] {
 }
 
 /**
- * @param changed is called when a size was chosen; undefined is the library's choice
+ * @param changed called when a size was chosen; undefined means that the library chooses
  * @param measure measures one size
  */
 export function createCellSize(

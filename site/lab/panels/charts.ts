@@ -12,7 +12,7 @@ const MB = 1e6;
 
 interface Chart {
   title: string;
-  /** What is drawn of a picture, and how its numbers are written. */
+  /** The numbers of a picture that are drawn, and how they are formatted. */
   lines: readonly ((picture: Picture) => number | undefined)[];
   write(value: number): string;
 }
@@ -31,7 +31,7 @@ const shown: readonly Chart[] = [
   },
 ];
 
-/** The axes, strokes and sizes that all charts of the lab share. Colours are asked for when they are drawn with. */
+/** The axes, strokes and sizes that all charts of the lab share. Colours are read when they are used. */
 export function chartOptions(root: HTMLElement, write: (value: number) => string): Omit<uPlot.Options, 'series'> {
   const style = getComputedStyle(root);
   const color = (name: string) => () => style.getPropertyValue(name).trim();
@@ -68,7 +68,7 @@ export function fitChart(plot: uPlot, root: HTMLElement): void {
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => plot.redraw(false, true));
 }
 
-/** A frame in which the machine did something else stands out so far that nothing else could be seen: it is cut off. */
+/** A frame in which the machine was busy elsewhere would dwarf all others: values above this quantile are cut off. */
 const usual = 0.97;
 const headroom = 1.3;
 

@@ -1,4 +1,4 @@
-// The lab's controls: what they offer, what is chosen in them, and which of them are shown.
+// The lab's controls: their options, the choices in them, and which of them are shown.
 import { BroadPhase, type TechniqueName } from 'broadphase';
 import { find } from '../../shared/elements.ts';
 import { sceneGroups } from '../catalog.ts';
@@ -41,7 +41,7 @@ const checkedIn = (list: string) =>
 export const racersChosen = () => checkedIn('racer-list') as TechniqueName[];
 export const layersChosen = () => checkedIn('layers') as Layer[];
 
-/** Shows what belongs to watching or to racing; of the views, the one with this id. */
+/** Shows the controls for watching or for racing, and the view with this id. */
 export function arrange(racing: boolean, view: string): void {
   for (const id of ['flat', 'solid']) find(id).hidden = racing || view !== id;
   for (const id of ['race', 'racers', 'bars', 'race-note']) find(id).hidden = !racing;

@@ -5,11 +5,11 @@ import { mostBoxes } from '../catalog.ts';
 const least = 100;
 
 export interface CountSlider {
-  /** What is on the slider is the count that was asked for; `count` is how many boxes there are. */
+  /** The slider keeps the count that was chosen; `count` is the actual number of boxes. */
   show(count: number, enabled: boolean): void;
 }
 
-/** @param changed is called with a count that was chosen */
+/** @param changed called with a count that was chosen */
 export function createCountSlider(
   slider: HTMLInputElement,
   first: number,

@@ -1,4 +1,4 @@
-// The box that was clicked: where it is, whom it meets, in how many cells it is; and the hottest cells.
+// The box that was clicked: its place, its partners, and the number of its cells; and the hottest cells.
 import { formatCount } from '../../shared/format.ts';
 import type { Chosen, HotCell, Picture } from '../worker/messages.ts';
 
@@ -6,7 +6,7 @@ const digits = new Intl.NumberFormat('en', { maximumSignificantDigits: 6, useGro
 
 const many = (count: number, what: string) => `${formatCount(count)} ${what}${count === 1 ? '' : 's'}`;
 
-/** Shows what a picture says of the chosen box; `choose` is called for another one, or none. */
+/** Shows what a picture says about the chosen box; `choose` is called with another one, or none. */
 export function createInspector(root: HTMLElement, choose: (id: number | undefined) => void) {
   let was = '';
   const link = (text: string, label: string, act: () => void) => {
@@ -57,7 +57,7 @@ export function createInspector(root: HTMLElement, choose: (id: number | undefin
     }
   };
   return (picture: Picture, wanted: number | undefined): void => {
-    // Made anew only where something changed: links stay where the finger is.
+    // Rebuilt only if something has changed, so that links do not move under the finger.
     const { chosen, hottest } = picture;
     const now = JSON.stringify([wanted, chosen, hottest.map(({ boxes }) => boxes)]);
     if (now === was) return;

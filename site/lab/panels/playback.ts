@@ -1,8 +1,8 @@
-// Frame after frame: a new one is asked for only when the one before has come, so that nothing piles up however slow
-// a scene is; and no more often than the chosen rate.
+// Requests frame after frame: a new one only after the last has arrived, so that nothing piles up if a scene is slow,
+// and no more often than the chosen rate.
 import { FrameLoop } from '../../shared/loop.ts';
 
-/** Displays of 60 Hz have frames of a little less than 1/60 s too. */
+/** Displays of 60 Hz also have frames slightly shorter than 1/60 s. */
 const slack = 4;
 
 export class Playback {
@@ -15,7 +15,7 @@ export class Playback {
   #at = 0;
   rate = 60;
 
-  /** @param make shows the frame that is so many steps on; 0: the one at hand again. It does not throw */
+  /** @param make shows the frame this many steps ahead; 0: the current one again. It does not throw */
   constructor(make: (steps: number) => Promise<void>) {
     this.#make = make;
     this.#loop = new FrameLoop((now) => this.#tick(now));
@@ -28,7 +28,7 @@ export class Playback {
     this.#loop.playing = playing;
   }
 
-  /** Shows a frame as soon as what was asked before is done. */
+  /** Shows a frame once earlier requests are done. */
   show(steps: number): Promise<void> {
     this.#waiting++;
     this.#last = this.#last.then(() => this.#make(steps)).finally(() => this.#waiting--);

@@ -6,7 +6,7 @@ import { createRenderer, type RendererKind } from '../../shared/renderer.ts';
 import type { Picture } from '../worker/messages.ts';
 import { type LabView, onSize } from './view.ts';
 
-/** A click this near to a box is meant for it, in pixels of CSS. */
+/** A click this near to a box counts for it, in CSS pixels. */
 const fingertip = 14;
 
 /** The element holds two canvases, the upper one for lines. */

@@ -46,8 +46,8 @@ void main() {
 }`;
 
 /**
- * Light from above: each side has its shade, which is all that boxes need. Of boxes so large that they would hide all
- * others, only some of the pixels are drawn, in a pattern of four by four.
+ * Light from above: each side has its own shade, which is all that boxes need. Boxes so large that they would hide all
+ * others are drawn with only some of their pixels, in a pattern of four by four.
  */
 const solidShader = `
 varying vec4 colour;
@@ -69,9 +69,9 @@ void main() {
 }`;
 
 const fieldOfView = 45;
-/** How far the eye is from what it looks at, in diagonals of the world. */
+/** The initial distance of the eye from what it looks at, in diagonals of the world. */
 const firstDistance = 1.4;
-/** Numbers beyond so many worlds away are drawn there. */
+/** Coordinates are clamped to this many diagonals of the world from its middle. */
 const horizon = 20;
 
 /** The element holds one canvas. */
@@ -159,7 +159,7 @@ export function createSolidView(element: HTMLElement, moved: () => void): LabVie
     fitted = false;
     controls.update();
   };
-  /** Turns about the middle, in radians. */
+  /** Turns around the centre, in radians. */
   const turn = (across: number, up: number) => {
     const offset = camera.position.clone().sub(controls.target);
     const length = offset.length();
@@ -259,7 +259,7 @@ class Instances<Shape extends Mesh | LineSegments> {
     this.object.frustumCulled = false;
   }
 
-  /** Shows `count` of the boxes of an array, from one on. */
+  /** Shows `count` of the boxes of an array, from `first` on. */
   set(drawn: Float32Array, slots: Uint8Array, first: number, count: number): void {
     if (count > this.#room) this.#grow(Math.ceil(1.25 * count));
     const geometry = this.object.geometry as InstancedBufferGeometry;

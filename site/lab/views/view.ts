@@ -1,21 +1,21 @@
-// What shows pictures: flat scenes on a canvas, solid ones in three dimensions, both to the same orders.
+// A view that shows pictures: flat scenes on a canvas, solid ones in three dimensions, with one interface.
 import type { Picture } from '../worker/messages.ts';
 
 export interface LabView {
   /** The element that is shown or hidden. */
   readonly element: HTMLElement;
-  /** Another scene: shows all of it. */
+  /** Shows all of another scene. */
   fit(world: readonly number[]): void;
   /** Shows a picture, which is kept until the next. */
   show(picture: Picture): void;
   zoom(factor: number): void;
-  /** Where one looks, as it stands in an address; undefined while everything is shown. */
+  /** Where the view looks, as in the URL; undefined while everything is shown. */
   look: readonly number[] | undefined;
-  /** What is under a place of the screen: a point or a ray of the world, and how near a click must be to a box. */
+  /** What is at a place on the screen: a point or a ray in the world, and how near a click must be to a box. */
   place(clientX: number, clientY: number): { place: number[]; reach: number };
 }
 
-/** Calls `clicked` for a click or tap that was no drag. */
+/** Calls `clicked` for a click or tap that was not a drag. */
 export function onClick(element: HTMLElement, clicked: (x: number, y: number) => void): void {
   const still = 6;
   let from = { x: 0, y: 0 };

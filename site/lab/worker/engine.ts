@@ -1,5 +1,6 @@
-// What runs in a worker of the lab: one scene, and one space that finds its pairs. Each frame goes on by one step,
-// is solved (this alone is timed), coloured, and packed into arrays to draw. It knows nothing of messages or pages.
+// What runs in a worker of the lab: one scene, and one space that finds its pairs. Each frame moves the scene by one
+// step, finds the pairs (this alone is timed), colours them, and packs arrays to draw. It knows nothing about
+// messages or pages.
 import { BroadPhase, type BroadPhaseOptions, findPairsBetween, type Stats } from 'broadphase';
 import { type Frame, TraceWriter } from 'broadphase/trace';
 import type { SceneName } from '../../../src/scenes/index.ts';
@@ -11,14 +12,14 @@ import { heapSize } from '../../shared/heap.ts';
 import { type Feed, generate, play } from './feed.ts';
 import type { CellSizes, Chosen, Cost, HotCell, Opened, Picture, Requests, Setup, Source, Wanted } from './messages.ts';
 
-/** More cells than this are a haze, and pairs a tangle: so many are drawn. */
+/** The most cells and pairs drawn: more cells would be a haze, and more pairs a tangle. */
 const mostCells = 300_000;
 const mostLines = 20_000;
 const partnersListed = 24;
 const hottestListed = 3;
-/** Which cells are hot is found out again after so many milliseconds: it takes a search of its own. */
+/** Milliseconds between two searches for hot cells: each takes time of its own. */
 const heatEvery = 250;
-/** A recording is over when it has so many bytes. */
+/** A recording ends when it has this many bytes. */
 const mostRecorded = 2 ** 28;
 const costPasses = 3;
 
@@ -26,10 +27,10 @@ export class Engine implements Record<keyof Requests, unknown> {
   #feed: Feed | undefined;
   #space: BroadPhase<2 | 3> = new BroadPhase();
   #setup: Setup = { technique: 'auto', cellSize: undefined };
-  /** Whether the pairs are not those of the frame at hand. */
+  /** Whether the pairs are not those of the current frame. */
   #stale = true;
   #fresh = true;
-  /** The frame before the one at hand, once there is one. */
+  /** The previous frame, once there is one. */
   #before: Frame | undefined;
   readonly #groups = new Groups();
   readonly #places = new Places();
@@ -38,7 +39,7 @@ export class Engine implements Record<keyof Requests, unknown> {
   #heatAt = -Infinity;
   #recording: { writer: TraceWriter; pieces: Uint8Array[]; bytes: number; full: boolean } | undefined;
 
-  /** @throws TraceError where a file is broken: the scene before stays */
+  /** @throws TraceError if a file is broken: the previous scene stays */
   async open(source: Source, frame: number): Promise<Opened> {
     const feed = await openSource(source, frame);
     this.#use(this.#makeSpace(this.#setup, feed));
@@ -48,7 +49,7 @@ export class Engine implements Record<keyof Requests, unknown> {
     return { dimensions, world, frames, boxes: feed.frame.count };
   }
 
-  /** @throws RangeError where a space cannot be made like that: the one before stays */
+  /** @throws RangeError if no space can be made like that: the previous one stays */
   setup(setup: Setup): void {
     this.#use(this.#makeSpace(setup));
     this.#setup = setup;
@@ -112,7 +113,7 @@ export class Engine implements Record<keyof Requests, unknown> {
       return space.rayCast(x, y, z, dx, dy, dz)?.id;
     }
     const [x, y] = place;
-    // Of boxes one above the other the smallest, as it could not be clicked else.
+    // The smallest of several boxes on top of each other, since it could not be clicked otherwise.
     let best: number | undefined;
     let smallest = Infinity;
     space.queryPoint(x, y, {
@@ -180,10 +181,10 @@ export class Engine implements Record<keyof Requests, unknown> {
   #makeSpace({ technique, cellSize }: Setup, feed = this.#feed): BroadPhase<2 | 3> {
     const { dimensions = 2, frame } = feed ?? {};
     const options = { dimensions, technique, cellSize, wrap: frame?.wrap, touching: frame?.touching };
-    return new BroadPhase(options as BroadPhaseOptions<2 | 3>); // what is undefined is as if it were not there
+    return new BroadPhase(options as BroadPhaseOptions<2 | 3>); // undefined options count as missing
   }
 
-  /** Keeps the frame at hand, as the one before the next: in the same array, while it fits. */
+  /** Keeps the current frame as the previous one of the next: in the same array, if it fits. */
   #keep({ frame }: Feed): void {
     const { boxes, ids, rules } = frame;
     const room = this.#before?.boxes;
@@ -224,7 +225,7 @@ export class Engine implements Record<keyof Requests, unknown> {
     };
   }
 
-  /** Colours a chosen box and its partners; of those it then keeps as many as are listed. */
+  /** Colours a chosen box and its partners, and keeps as many of these as are listed. */
   #mark(ids: Uint32Array | undefined, chosen: Chosen, slots: Uint8Array): void {
     if (slots.length > 0) {
       for (const id of chosen.partners) slots[this.#places.of(ids, id, slots.length)!] = partnerSlot;
@@ -262,8 +263,8 @@ export class Engine implements Record<keyof Requests, unknown> {
   }
 
   /**
-   * How many boxes each cell holds. A box counts in the smallest cell that its lower corner is in, so that the nodes
-   * of trees, which are in one another, are not all as hot as what is in them.
+   * Counts the boxes in each cell. A box counts in the smallest cell that contains its lower corner, so that the nested
+   * nodes of a tree are not all as hot as what is in them.
    */
   #findHeat({ frame, dimensions }: Feed, cells: Float32Array): void {
     const width = 2 * dimensions;
@@ -285,7 +286,7 @@ export class Engine implements Record<keyof Requests, unknown> {
     const order = Array.from(held.keys()).filter((cell) => held[cell] > 1);
     order.sort((a, b) => held[b] - held[a]);
     const most = held[order[0]] ?? 0;
-    // From half as many as the hottest has; what is cooler is not coloured.
+    // Cells with less than half as many boxes as the hottest are not coloured.
     this.#heat = Uint8Array.from(held, (boxes) =>
       boxes > 1 ? Math.max(0, Math.ceil((heats * (2 * boxes - most)) / most)) : 0,
     );
@@ -306,7 +307,7 @@ async function openSource(source: Source, frame: number): Promise<Feed> {
   return play(new Uint8Array(await response.arrayBuffer()), frame);
 }
 
-/** Where boxes with ids of their own stand in their frame. */
+/** The places of boxes with ids of their own in their frame. */
 class Places {
   #ids: Uint32Array | undefined;
   #at = new Map<number, number>();
@@ -318,7 +319,7 @@ class Places {
     return this.#at.get(id);
   }
 
-  /** Pairs of places, of pairs of ids. */
+  /** Converts pairs of ids to pairs of places. */
   ofPairs(ids: Uint32Array | undefined, pairs: Uint32Array): Uint32Array {
     if (!ids) return pairs;
     this.#learn(ids);

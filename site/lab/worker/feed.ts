@@ -1,4 +1,4 @@
-// Where the boxes of each frame come from: a generator, which goes on for ever, or a trace, which begins again.
+// The source of the boxes of each frame: a generator, which never ends, or a trace, which starts again.
 import { type Frame, type FrameSource, gunzip, openAny } from 'broadphase/trace';
 import { createScene, type SceneName } from '../../../src/scenes/index.ts';
 
@@ -6,9 +6,9 @@ export interface Feed {
   readonly dimensions: 2 | 3;
   /** What to show at first: minima, then maxima. */
   readonly world: readonly number[];
-  /** How many frames there are; undefined: no end. */
+  /** The number of frames; undefined: no end. */
   readonly frames: number | undefined;
-  /** The frame at hand, from 0. */
+  /** The current frame, from 0. */
   readonly index: number;
   readonly frame: Frame;
   step(): void;
@@ -37,12 +37,12 @@ export function generate(name: SceneName, count: number, index: number): Feed {
   };
 }
 
-/** No file makes the page take more than this when it is unpacked. */
+/** The most bytes of an unpacked file. */
 const mostUnpacked = 2 ** 28;
 
 /**
  * The frames of a trace, from frame `index` on.
- * @throws TraceError where the bytes are no trace, or one that is broken
+ * @throws TraceError if the bytes are not a trace, or a broken one
  */
 export async function play(bytes: Uint8Array, index: number): Promise<Feed> {
   const zipped = bytes[0] === 0x1f && bytes[1] === 0x8b;
@@ -88,11 +88,11 @@ class Player implements Feed {
   }
 }
 
-/** Grounds and walls may reach far beyond where things happen: this much of the usual extent is shown of them. */
+/** Grounds and walls may reach far beyond where things happen, so only this share of the boxes determines the view. */
 const usual = 0.98;
 const beyond = 0.25;
 
-/** Where the boxes are, without what sticks out far. */
+/** The extent of the boxes, without outliers. */
 export function worldOf(boxes: ArrayLike<number>, dimensions: 2 | 3): number[] {
   const width = 2 * dimensions;
   const low: number[] = [];

@@ -1,4 +1,4 @@
-// What the page and its workers say to each other. A worker has one scene and one space; it is asked, and answers.
+// The messages between the page and its workers. A worker has one scene and one space, and answers requests.
 import type { Stats, TechniqueName } from 'broadphase';
 
 /** Where the boxes come from. */
@@ -21,27 +21,27 @@ export interface Setup {
 
 /** What is to be in a picture. */
 export interface Wanted {
-  /** Frames to go on; 0: the one at hand again. */
+  /** Frames to go on; 0: the current one again. */
   steps: number;
-  /** Whether the boxes are, or only what the technique made of them. */
+  /** Whether the boxes are, or only the structure of the technique. */
   boxes: boolean;
   structure: boolean;
   heat: boolean;
   pairs: boolean;
   /** The id of the box that was chosen. */
   chosen: number | undefined;
-  /** Arrays of a picture that is no longer shown, to be used again. */
+  /** Arrays of a picture that is no longer shown, for reuse. */
   spare?: Pick<Picture, 'drawn' | 'slots'> | undefined;
 }
 
-/** A box that was chosen: what it is, and whom it meets. */
+/** A box that was chosen, and its partners. */
 export interface Chosen {
   id: number;
   box: number[];
-  /** How many partners, and the first of them. */
+  /** The number of partners, and the first of them. */
   partnerCount: number;
   partners: number[];
-  /** How many cells it is in. */
+  /** The number of cells it is in. */
   cells: number;
 }
 
@@ -54,7 +54,7 @@ export interface HotCell {
 export interface Picture {
   index: number;
   boxes: number;
-  /** Milliseconds of `update()`; NaN where it did not run again. */
+  /** Milliseconds of `update()`; NaN if it did not run again. */
   ms: number;
   /** Of the scene's step, and of all the rest. */
   stepMs: number;
@@ -64,7 +64,7 @@ export interface Picture {
   digest: number;
   /** Boxes that touch another. */
   touching: number;
-  /** How many of `drawn` are cells: they come first, and then the boxes. */
+  /** How many of `drawn` are cells: they come first, then the boxes. */
   cells: number;
   drawn: Float32Array<ArrayBuffer>;
   /** The colour slot of each. */
@@ -74,7 +74,7 @@ export interface Picture {
   chosen: Chosen | undefined;
   /** The cells with the most boxes. */
   hottest: HotCell[];
-  /** JavaScript heap of the worker in bytes, where it tells. */
+  /** JavaScript heap of the worker in bytes, if the browser reports it. */
   heap: number | undefined;
   recorded: { frames: number; bytes: number; full: boolean } | undefined;
 }
@@ -85,25 +85,25 @@ export interface Cost {
   tests: number;
 }
 
-/** What cell sizes are of use for the scene and technique at hand. */
+/** Useful cell sizes for the current scene and technique. */
 export interface CellSizes {
-  /** Whether the technique looks at it. */
+  /** Whether the technique uses it. */
   heeded: boolean;
-  /** The longest side of a usual box. */
+  /** The longest side of a typical box. */
   typical: number;
 }
 
-/** What can be asked of a worker, and what it answers. */
+/** Requests to a worker, and its answers. */
 export interface Requests {
   open: (source: Source, frame: number) => Opened;
   setup: (setup: Setup) => void;
   picture: (wanted: Wanted) => Picture;
-  /** The id of the box at a place (2D), or that a ray from it meets first (3D). */
+  /** The id of the box at a place (2D), or of the first one that a ray from it hits (3D). */
   pick: (place: readonly number[], reach: number) => number | undefined;
   cellSizes: () => CellSizes;
   cost: (cellSize: number) => Cost;
   record: () => void;
-  /** Ends the recording and gives its bytes. */
+  /** Ends the recording and returns its bytes. */
   recording: () => Uint8Array<ArrayBuffer>;
 }
 

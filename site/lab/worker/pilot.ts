@@ -1,8 +1,9 @@
-// The page's end of a worker: asks, and waits for the answer, but not for ever. A worker that takes too long is ended,
-// whatever it is doing; a question starts one where there is none. Nothing that a scene or a file asks for can hang the page.
+// The page's end of a worker: sends requests and waits for the answers, but not for ever. A worker that takes too
+// long is stopped, whatever it is doing, and the next request starts a new one. So no scene or file can hang the
+// page.
 import type { Answer, Ask, Requests } from './messages.ts';
 
-/** What a worker was ended for. */
+/** Why a worker was stopped. */
 export class TooSlow extends Error {}
 
 interface Waiting {
@@ -10,14 +11,14 @@ interface Waiting {
   reject: (error: Error) => void;
 }
 
-/** Milliseconds that a worker may take to load its script and say that it is there. */
+/** Milliseconds that a worker may take to load its script and report that it runs. */
 const startLimit = 6000;
 
 export class Pilot {
-  /** Undefined until something is asked. */
+  /** Undefined until the first request. */
   #worker: Worker | undefined;
   #ended = false;
-  /** Whether the worker has said that it is there. */
+  /** Whether the worker has reported that it runs. */
   #started = false;
   #asked = 0;
   readonly #waiting = new Map<number, Waiting>();
@@ -30,8 +31,8 @@ export class Pilot {
   }
 
   /**
-   * @throws TooSlow where the answer does not come in time: the worker then has nothing open any more
-   * @throws Error with the words of the worker
+   * @throws TooSlow if the answer does not come in time: the worker then has nothing open any more
+   * @throws Error with the message of the worker
    */
   ask<Name extends keyof Requests>(
     name: Name,
@@ -50,13 +51,13 @@ export class Pilot {
     });
   }
 
-  /** For good: what is asked fails from now on. */
+  /** Ends it for good: requests fail from now on. */
   end(): void {
     this.#ended = true;
     this.#stop(new TooSlow('ended'));
   }
 
-  /** Ends the worker: what it was asked fails, and what it had open is gone. */
+  /** Stops the worker: its requests fail, and what it had open is gone. */
   #stop(why: TooSlow): void {
     clearTimeout(this.#watchdog);
     this.#worker?.terminate();
@@ -70,7 +71,7 @@ export class Pilot {
     const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
     this.#started = false;
     worker.addEventListener('message', ({ data }: MessageEvent<Answer | 'started'>) => {
-      if (worker !== this.#worker) return; // sent before it was ended
+      if (worker !== this.#worker) return; // sent before it was stopped
       this.#started = true;
       if (data !== 'started') this.#settle(data);
       this.#watch();
@@ -88,7 +89,7 @@ export class Pilot {
     else waiting?.resolve(answer.value as never);
   }
 
-  /** From now on the next answer has all the time there is. */
+  /** Restarts the time limit for the next answer. */
   #watch(): void {
     clearTimeout(this.#watchdog);
     if (this.#waiting.size === 0) return;

@@ -1,5 +1,4 @@
-// A worker of the lab: says that it is there, takes questions one after the other, and answers each with a value or with
-// what went wrong.
+// A worker of the lab: reports that it runs, then answers requests one after the other, with a value or an error.
 import { Engine } from './engine.ts';
 import type { Answer, Ask, Picture } from './messages.ts';
 
@@ -20,7 +19,7 @@ addEventListener('message', ({ data }: MessageEvent<Ask>) => {
 
 const send = (answer: Answer, transfer: Transferable[] = []) => postMessage(answer, { transfer });
 
-/** Pictures are handed over, not copied. */
+/** The buffers of a picture, which are transferred, not copied. */
 function buffersOf({ drawn, slots, lines }: Picture): Transferable[] {
   const buffers: Transferable[] = [drawn.buffer, slots.buffer];
   if (lines) buffers.push(lines.buffer);

@@ -1,4 +1,5 @@
-// Draws what the zones report: entities in the colour of their zone, ghosts as rings, borders, and whom a client sees.
+// Draws what the zones report: entities in the colour of their zone, ghosts as rings, borders, and what one client
+// sees.
 const canvas = document.querySelector('canvas');
 const pen = canvas.getContext('2d');
 const said = document.querySelector('#said');
@@ -9,7 +10,7 @@ let world;
 let zones = 1;
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-/** CSS gives the colour of both schemes: a canvas needs the one in use. */
+/** CSS has a colour for light and one for dark; a canvas needs the one in use. */
 const inUse = (name) => {
   const probe = document.createElement('i');
   probe.style.color = `var(${name})`;
