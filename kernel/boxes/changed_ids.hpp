@@ -1,6 +1,6 @@
 // The ids changed by recent updates, for readers that poll.
-// Idea: each update appends the ids it changed, with the slots of their boxes. If all may have changed, or the list
-// gets longer than the number of boxes, a new epoch begins with an empty list. Each reader remembers the epoch and how
+// Idea: each update appends the ids it changed, with the slots of their boxes. If more than half may have changed, or the
+// list gets longer than the number of boxes, a new epoch begins with an empty list. Each reader remembers the epoch and how
 // much of the list it has read.
 // Cost: about 1 ns for each box that an update has changed, once there is a reader.
 #pragma once
@@ -41,7 +41,7 @@ class ChangedIds {
   /// Records the slots that an update of `boxes` boxes has seen change.
   template <class IdOf> SMALL void note(bool all, const u32* slots, u32 many, u32 boxes, IdOf id_of) {
     if (!kept_) return;
-    if (all || missed_ || count_ + gone_count_ + many > boxes) return note_all();
+    if (all || missed_ || many > boxes / 2 || count_ + gone_count_ + many > boxes) return note_all();
     for (u32 k = 0; k < gone_count_; k++) add(gone_[k], gone);
     for (u32 k = 0; k < many; k++) {
       if (slots[k] < boxes) add(id_of(slots[k]), slots[k]);

@@ -64,6 +64,7 @@ template <int D> class Bulk {
       if (together && n == 0) ask_together(index, asked, kind, k, count, at = found);
       bool asks = kind == Asks::others ? take_box(index, k, asked) : read(kind, k, asked);
       if (kind != Asks::others) asked.ignored = u32(given_[u64(count) * stride(kind) + k]);
+      if (kind != Asks::others) asked.measure_way(kind == Asks::ray);
       asked.limit = limit;
       if (index.world()) asked.wrap(index.world());
       if (together) found = name(index, asked, at, together_.ends[n], found);
@@ -127,7 +128,6 @@ template <int D> class Bulk {
       to.along[a] = from[a];
       good &= is_finite(from[a]);
     }
-    to.measure_way(kind == Asks::ray);
     return good;
   }
 
