@@ -13,6 +13,7 @@ const entities = 6000;
 const zones = cutInto(count);
 /** Milliseconds. The tests run in real time: a zone is silent for five seconds before it is left out. */
 const limit = 120_000;
+const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 let world;
 
 class World {
@@ -58,16 +59,19 @@ class World {
 
   /** Creates all zones, and starts some of them. */
   async start(first = [0, 1, 2]) {
-    for (let zone = 0; zone < count; zone++) {
-      const server = createServer((_, response) => response.end(server.processId));
-      server.processId = `process ${zone}`;
-      await new Promise((resolve) => server.listen(0, resolve));
-      this.servers.push(server);
-      this.links.push(this.#link(zone, `localhost:${server.address().port}`));
-    }
+    for (let zone = 0; zone < count; zone++) await this.create(zone);
     for (const zone of first) this.links[zone].start();
     if (first.length === count) await this.until(() => this.whole > 0);
     else await this.until(() => first.every((zone) => this.links[zone].tick > 2 * first.length));
+  }
+
+  /** Creates a zone in a process of its own, also in place of one that died. */
+  async create(zone) {
+    const server = createServer((_, response) => response.end(server.processId));
+    server.processId = `process ${zone}`;
+    await new Promise((resolve) => server.listen(0, resolve));
+    this.servers.push(server);
+    this.links[zone] = this.#link(zone, `localhost:${server.address().port}`);
   }
 
   #link(zone, address) {
@@ -161,6 +165,33 @@ test(
     await world.until(() => world.lost.length > 0);
     expect(world.lost).toEqual([1]);
     expect(world.said('zone 0: zone 1 cannot be reached (localhost:')).toBe(true);
+  },
+  limit,
+);
+
+test(
+  'a zone that joins again does not recreate one that has died before and is back',
+  async () => {
+    world = new World();
+    await world.start();
+    world.fate = (topic, { from }) => (topic === 'zone:1' || from === 1 ? 'lost' : undefined);
+    await world.links[1].stop();
+    world.servers[1].processId = 'one in its place';
+    await world.until(() => world.said('zone 2: zone 1 cannot be reached') && world.lost.length > 0);
+    await world.create(1);
+    world.fate = () => undefined;
+    world.links[1].start();
+    await world.until(() => world.said('zone 2: zone 1 is here'));
+    // Zone 2 learns that it is left out, and knows no other zone until it is welcome. All stand still for longer than it
+    // waits between two attempts to bring a zone back.
+    world.fate = (topic, { type }) => (topic === 'zone:2' && type === 'welcome' ? 'lost' : undefined);
+    world.presence.publish('zone:2', { type: 'late', from: 0 });
+    await sleep(100);
+    for (const until = performance.now() + 4200; performance.now() < until; );
+    await sleep(100);
+    world.fate = () => undefined;
+    await world.until(() => world.log.filter((line) => line.startsWith('zone 2: begins')).length > 1);
+    expect(world.lost).toEqual([1]);
   },
   limit,
 );

@@ -42,6 +42,8 @@ export class Link {
   /** Zones that take part, with what they sent for each tick; and zones that will from a later tick on. */
   #peers = new Map();
   #coming = new Map();
+  /** Zones that are left out until they join again, each with its info from then. */
+  #lost = new Map();
   /** When each zone last said that it runs, with its info; and when it last asked to join. */
   #ran = new Map();
   #asked = new Map();
@@ -205,17 +207,19 @@ export class Link {
     this.#calls.log(`zone ${zone} ${why} (${info.address}): going on without it`);
     this.#drop(zone);
     this.#asked.delete(zone);
+    this.#lost.set(zone, info);
     if (there) this.#send(zone, { type: 'dropped', to: epoch });
     this.#bringBack(zone, info, !there);
   }
 
   /**
    * Repeats until a zone is back: once its process has died, one of the remaining zones recreates its room. A dead
-   * process stays dead and is not checked again: on a busy machine that may take too long, and cost four seconds.
+   * process stays dead and is not checked again: on a busy machine that may take too long, and cost four seconds. A
+   * zone that is joining knows no others, and so cannot tell whose turn it is.
    */
   async #bringBack(zone, info, wasDead) {
-    if (this.#stopped || this.#peers.has(zone) || this.#coming.has(zone)) return;
-    const isMine = [...this.#peers.keys()].every((peer) => peer > this.#zone);
+    if (this.#stopped || this.#lost.get(zone) !== info) return;
+    const isMine = this.running && [...this.#peers.keys()].every((peer) => peer > this.#zone);
     const comes = performance.now() - (this.#asked.get(zone) ?? -Infinity) < retryTime;
     const isDead = wasDead || !(await isThere(info));
     if (isMine && !comes && isDead) {
@@ -300,6 +304,7 @@ export class Link {
     this.tick = start;
     this.running = true;
     for (const { from, epoch, info } of welcomes) {
+      this.#lost.delete(from);
       this.#peers.set(from, { inbox: new Map(), epoch, info, heard: performance.now() });
       this.#send(from, { type: 'start', start, info: this.#info });
     }
@@ -377,8 +382,12 @@ export class Link {
 
   #admit({ from, epoch, start, info }) {
     if (!this.running) return;
-    if (start <= this.tick) this.#send(from, { type: 'late' });
-    else this.#coming.set(from, { inbox: new Map(), epoch, start, info, heard: 0 });
+    if (start <= this.tick) {
+      this.#send(from, { type: 'late' });
+      return;
+    }
+    this.#lost.delete(from);
+    this.#coming.set(from, { inbox: new Map(), epoch, start, info, heard: 0 });
   }
 }
 
