@@ -4,7 +4,7 @@
 //   npm run bench -- --motions flock,hail   rows of a kind alone, printed; --json file writes them down
 //   npm run bench -- --native               libraries of C++ and Rust, where they are at hand, into the same results
 //   npm run bench -- --compare main         what changed beyond the noise since main; or two files
-//   npm run bench -- --figures              writes the documents anew, from the results that are there
+//   npm run bench -- --figures              rewrites the documents from the recorded results
 import { execFileSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';

@@ -73,7 +73,7 @@ enum Head : u32 { functions, kinds, before, behind, owners, order, lengths, numb
 struct Kind {
   u8 opcode[longest];
   u8 length;  // of the opcode
-  u8 stream, count;  // so many numbers of it follow, or bytes where it is raw
+  u8 stream, count;  // how many of its numbers follow, or bytes if it is raw
   u8 more;  // where one number follows, the bit that says that more belongs to its first byte; else 0
 };
 Kind known[256];
@@ -167,7 +167,7 @@ u8* put_together(const u8* from, u8* to, u32 unused) {
 
 #define EXPORT(name) extern "C" __attribute__((export_name(#name))) auto name
 
-/// Room for a text of so many characters, and a module of so many bytes behind it.
+/// Memory for a text of this many characters, and for a module of this many bytes after it.
 EXPORT(room)(u32 characters, u32 bytes) -> u8* {
   u8* text = &__heap_base;
   size_t needed = size_t(text) + characters + bytes + 16;

@@ -1,4 +1,4 @@
-// Boost.Geometry: its R-tree, packed anew in each frame and searched once for each box.
+// Boost.Geometry: its R-tree, rebuilt in each frame and searched once for each box.
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <boost/iterator/function_output_iterator.hpp>

@@ -51,7 +51,7 @@ function checked(module: WebAssembly.Module): WebAssembly.Module {
   throw new TypeError("init: got a module that is not a kernel, expected that of 'broadphase/kernel.wasm'");
 }
 
-/** A fresh kernel with memory of its own, for boxes of so many dimensions. */
+/** A fresh kernel with memory of its own, for boxes of this many dimensions. */
 export function instantiate(dimensions: Dimensions): KernelExports {
   modules[dimensions] ??= compile(read(kernel, dimensions === 2 ? 3 : 2));
   return new WebAssembly.Instance(modules[dimensions]).exports as unknown as KernelExports;

@@ -1,5 +1,5 @@
 // Bullet hell: many small fast bullets against few large ships, a hundred to one. Each ship drifts and fires in a
-// spiral; a bullet that leaves the world is fired anew by its ship.
+// spiral; a bullet that leaves the world is fired again by its ship.
 import { createRandom } from './random.ts';
 import { BoxScene, type NumbersType } from './scene.ts';
 

@@ -15,7 +15,7 @@ function contender(): Contender {
   return { update: (boxes) => space.setAll(boxes).update().pairCount, pairs: () => space.pairs };
 }
 
-/** Plays a scene to its end, so many frames a turn. */
+/** Plays a scene to its end, `turn` frames per turn. */
 function play(stride: number, turn: number, skipped = 0) {
   const scene = createScene('uniform2d', 200);
   for (let k = 0; k < skipped; k++) scene.step();

@@ -2,7 +2,7 @@
 import { expect, type Page, test } from '@playwright/test';
 import { openExample } from './example.ts';
 
-/** Without it Phaser draws on a 2D canvas: WebGL that runs on the processor is too slow for so many things. */
+/** Without it Phaser draws on a 2D canvas: WebGL that runs on the processor is too slow for this many sprites. */
 const withoutWebgl = (page: Page) =>
   page.addInitScript(() => {
     const { getContext } = HTMLCanvasElement.prototype;

@@ -172,7 +172,7 @@ class Crowds {
 
 const bytesOf = (words: Uint32Array) => new Uint8Array(words.buffer, words.byteOffset, words.byteLength);
 
-/** Runs until `now() >= until`; calls `report` every so many milliseconds. */
+/** Runs until `now() >= until`; calls `report` every `every` milliseconds. */
 export function soak(seed: number, until: number, every: number, report: (totals: Totals) => void): Totals {
   const totals: Totals = { updates: 0, calls: 0, pairs: 0, restores: 0, kept: 0, wasm: 0, used: 0 };
   const subjects = ([2, 3] as const).flatMap((dimensions) =>

@@ -3,7 +3,7 @@
 // Pairs must be equal. What else is counted may grow by the tolerance: a change that pays elsewhere may cost a little
 // here, and what creeps is caught, for expectations only move when somebody moves them. Less work is always fine.
 // What has no expectation yet, such as a new technique, is written down; on CI that is a failure instead.
-//   npm run bench:work      writes all expectations anew
+//   npm run bench:work      rewrites all expectations
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { BroadPhase, type Stats } from 'broadphase';

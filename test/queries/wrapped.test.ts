@@ -90,7 +90,7 @@ class Copied extends Modelled {
     return box.map((x, k) => (this.isFull(box, k % d) ? (k < d ? -Infinity : Infinity) : x));
   }
 
-  /** The copies of a box near a place, up to so many worlds away along each axis. */
+  /** The copies of a box near a place, up to `away` worlds away along each axis. */
   copies(given: readonly number[], place: readonly number[], away: readonly number[]): number[][] {
     const d = this.wrap.length;
     let copies = [this.around(given)];

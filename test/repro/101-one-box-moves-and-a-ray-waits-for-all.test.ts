@@ -1,4 +1,4 @@
-// One of 100,000 boxes moved, and the first ray of the frame made the whole index anew: 2.8 ms. Now the index follows,
+// One of 100,000 boxes moved, and the first ray of the frame rebuilt the whole index: 2.8 ms. Now the index follows,
 // exactly, whatever moves, comes, goes or gets another layer.
 import { BroadPhase } from 'broadphase';
 import { expect, test } from 'vitest';

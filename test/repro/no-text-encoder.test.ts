@@ -4,7 +4,7 @@ import { afterEach, expect, test, vi } from 'vitest';
 
 afterEach(() => vi.unstubAllGlobals());
 
-/** The library as a host without these globals sees it, loaded anew. */
+/** The library as a host without these globals sees it, loaded again. */
 async function without(...names: string[]): Promise<typeof import('broadphase')> {
   vi.resetModules();
   const library = await import('broadphase');

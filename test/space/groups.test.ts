@@ -57,7 +57,7 @@ describe.each(combinations)(`%s in %d dimensions (SEED=${seed})`, (technique, di
   });
 
   test('while boxes tremble, come, go and change their group, and some are off', { tags: 'long' }, () => {
-    // So many that what is found is kept from update to update.
+    // Enough boxes that structure is kept between updates.
     const model = new Modelled({ technique, dimensions }, seed, undefined, dimensions === 2 ? 150 : 45, 1000);
     for (let id = 0; id < 700; id++) {
       model.set(id);

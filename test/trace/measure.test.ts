@@ -22,7 +22,7 @@ afterEach(() => {
   BroadPhase.prototype.update = update;
 });
 
-/** So many frames of 40 boxes that all move by 1. */
+/** A trace of 40 boxes that all move by 1 per frame. */
 function moving(frames: number): FrameSource {
   return {
     dimensions: 2,

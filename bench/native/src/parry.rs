@@ -1,4 +1,4 @@
-// parry: its tree, either built anew in each frame or moved and refitted, by one thread or by all there are.
+// parry: its tree, either rebuilt in each frame or refitted, by one thread or by all.
 use bench_native::{play, Frames};
 
 fn boxes_of(frames: &Frames, frame: &[f32]) -> Vec<Aabb> {

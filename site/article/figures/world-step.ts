@@ -19,7 +19,7 @@ const words: Readonly<Record<Stage, readonly [title: string, what: string]>> = {
     'Accelerate all',
     'Pushes take effect, here gravity: each box is moved a little, and its AABB after it.',
   ],
-  update: ['Update the technique', 'The technique reads where all AABBs are. The grid fills its cells anew.'],
+  update: ['Update the technique', 'The technique reads where all AABBs are. The grid refills its cells.'],
   query: ['Query for pairs', 'The technique says which boxes overlap.'],
   handleCollisions: ['handleCollisions', 'Your code gets the pairs. Here it paints those boxes in another colour.'],
   inertia: ['Inertia for all', 'Each box goes on as far as it came in the last step, and its AABB after it.'],

@@ -23,7 +23,7 @@ export const calls = {
   setEnabled: 15, // id, 0 or 1
   setGroup: 16, // id, group
   setReach: 17, // id, distance
-  many: 18, // kind, as kernel/questions/bulk.hpp counts, k, count, numbers of so many queries
+  many: 18, // kind, as kernel/questions/bulk.hpp counts, k, count, numbers of `count` queries
 } as const;
 
 /** Numbers of a query of each kind, as kernel/questions/bulk.hpp counts them. */
@@ -75,7 +75,7 @@ export function randomTape(
       known.set(k, box);
     });
   };
-  /** So many queries of any kind. */
+  /** Many queries of any kind in one call. */
   const askMany = () => {
     const kind = integer(8);
     const queries = Array.from({ length: kind === 7 ? 0 : integer(40) }, () => {

@@ -47,7 +47,7 @@ export const tuple = <T>(arbitrary: fc.Arbitrary<T>, length: number) =>
 
 export const show = (values: readonly unknown[]) => values.map((value) => fc.stringify(value)).join(', ');
 
-/** Boxes, points and ways of a space of so many dimensions. */
+/** Boxes, points and ways of a space of this many dimensions. */
 export function shapes(dimensions: 2 | 3) {
   const boxFrom = (ends: number[][]) => [
     ...ends.map(([a, b]) => Math.min(a!, b!)),

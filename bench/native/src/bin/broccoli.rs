@@ -1,4 +1,4 @@
-// broccoli: its tree is built anew in each frame, as it asks for, and tells all pairs. In 2D only.
+// broccoli: its tree is rebuilt in each frame, as its documentation advises, and reports all pairs. In 2D only.
 use bench_native::play;
 use broccoli::{bbox, rect, Tree};
 
