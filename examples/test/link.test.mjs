@@ -74,6 +74,13 @@ class World {
     this.links[zone] = this.#link(zone, `localhost:${server.address().port}`);
   }
 
+  /** A zone's process dies, and another one answers at its address. */
+  async kill(zone) {
+    this.fate = (topic, { from }) => (topic === `zone:${zone}` || from === zone ? 'lost' : undefined);
+    await this.links[zone].stop();
+    this.servers[zone].processId = 'one in its place';
+  }
+
   #link(zone, address) {
     const simulation = new Simulation(zones, zone);
     const mine = () => [...beginnings(entities)].filter((entity) => zoneOf(zones, entity) === zone);
@@ -159,9 +166,7 @@ test(
   async () => {
     world = new World();
     await world.start();
-    world.fate = (topic, { from }) => (topic === 'zone:1' || from === 1 ? 'lost' : undefined);
-    await world.links[1].stop();
-    world.servers[1].processId = 'one in its place';
+    await world.kill(1);
     await world.until(() => world.lost.length > 0);
     expect(world.lost).toEqual([1]);
     expect(world.said('zone 0: zone 1 cannot be reached (localhost:')).toBe(true);
@@ -174,9 +179,7 @@ test(
   async () => {
     world = new World();
     await world.start();
-    world.fate = (topic, { from }) => (topic === 'zone:1' || from === 1 ? 'lost' : undefined);
-    await world.links[1].stop();
-    world.servers[1].processId = 'one in its place';
+    await world.kill(1);
     await world.until(() => world.said('zone 2: zone 1 cannot be reached') && world.lost.length > 0);
     await world.create(1);
     world.fate = () => undefined;
