@@ -38,8 +38,8 @@ u32 read_number(const u8*& from) {
   return low | middle << 8 | read_one(from) << 16;
 }
 
-u8* copy(const u8*& from, u32 count, u8* to) {
-  for (; count; count--) *to++ = read_one(from);
+u8* copy(const u8* from, const u8* end, u8* to) {
+  while (from < end) *to++ = read_one(from);
   return to;
 }
 
@@ -64,10 +64,11 @@ void read_alphabet(const u8*& from) {
 }
 
 // As in scripts/streams.mjs.
-constexpr u32 streams = 10, raw = 0;
+constexpr u32 streams = 11, of_kinds = 0, raw = 1;
 constexpr u32 longest = 4;  // bytes of an opcode
 constexpr u8 trap[] = {0, 0, 0x0b};  // a function without locals, whose only instruction is `unreachable`
-enum Head : u32 { functions, kinds, before, behind, owners, order, lengths, numbers_in_head = lengths + streams };
+constexpr u32 owners[] = {0, 2, 3};  // functions are for both dimensions, or for one
+enum Head : u32 { functions, kinds, before, owned, behind, lengths, numbers_in_head = lengths + 3 * streams };
 
 /// A kind of instructions.
 struct Kind {
@@ -107,8 +108,9 @@ u8* close(u8* to, const u8* begin, const u8* end) {
 }
 constexpr u32 gap = 5;
 
-/// Writes one function; returns its end.
-u8* write_function(const u8*& next, const u8** at, u8* to) {
+/// Writes one function; returns its end. `at`: where each stream is read.
+u8* write_function(const u8** at, u8* to) {
+  const u8* next = at[of_kinds];
   u32 k;
   do {
     k = read(next);
@@ -129,55 +131,49 @@ u8* write_function(const u8*& next, const u8** at, u8* to) {
       while (byte & bit);
     }
   } while (k != 0);
+  at[of_kinds] = next;
   return to;
 }
 
-/// Writes the module that a text stands for; what is only for `unused` dimensions does nothing. Returns its end.
+/// Writes the module that a text stands for; what is only for `unused` dimensions is not in the text, and does nothing.
+/// Returns its end.
 u8* put_together(const u8* from, u8* to, u32 unused) {
   read_alphabet(from);
   u32 head[numbers_in_head];
   for (u32& one : head) one = read_number(from);
   read_kinds(from, head[kinds]);
-  to = copy(from, head[before], to);
-  const u8* owner = from;
-  from += head[owners];
-  const u8* next = from;
-  from += head[order];
-  const u8* at[streams];
-  for (u32 s = 0; s < streams; s++) {
-    at[s] = from;
-    from += head[lengths + s];
+  to = copy(from, from + head[before], to);
+  const u8* owner = from += head[before];
+  const u8* last_part = from += head[owned];
+  from += head[behind];
+  static const u8* at[4][streams];  // by owner
+  const u32* length = head + lengths;
+  for (u32 one : owners) {
+    for (u32 s = 0; s < streams; s++, length++) {
+      at[one][s] = from;
+      if (one == 0 || one != unused) from += *length;
+    }
   }
   u8* section = to + gap;
   u8* last = write_number(section, head[functions]);
   for (u32 left = head[functions]; left; left--) {
+    u32 one = read_one(owner);
     u8* begin = last + gap;
-    u8* end = write_function(next, at, begin);
-    if (unused && read_one(owner) == unused) {
-      __builtin_memcpy(begin, trap, sizeof trap);
-      end = begin + sizeof trap;
-    }
+    u8* end = begin + sizeof trap;
+    if (one && one == unused) __builtin_memcpy(begin, trap, sizeof trap);
+    else end = write_function(at[one], begin);
     last = close(last, begin, end);
   }
   to = close(to, section, last);
-  return copy(from, head[behind], to);
+  return copy(last_part, last_part + head[behind], to);
 }
 
 }  // namespace
 
 #define EXPORT(name) extern "C" __attribute__((export_name(#name))) auto name
 
-/// Memory for a text of this many characters, and for a module of this many bytes after it.
-EXPORT(room)(u32 characters, u32 bytes) -> u8* {
-  u8* text = &__heap_base;
-  size_t needed = size_t(text) + characters + bytes + 16;
-  size_t pages = (needed + 0xffff) / 0x10000, there = __builtin_wasm_memory_size(0);
-  if (pages > there) __builtin_wasm_memory_grow(0, pages - there);
-  return text;
-}
-
-/// Decodes the text, of that many characters; returns how many bytes the module has, which begins behind it. Functions
-/// that are only for `unused` dimensions become traps.
+/// Decodes the text, of that many characters, which begins at `__heap_base`; returns how many bytes the module has, which
+/// begins behind it. What is only for `unused` dimensions is not in the text, and becomes traps.
 EXPORT(decode)(u32 characters, u32 unused) -> u32 {
   u8* text = &__heap_base;
   u8* module = text + characters;

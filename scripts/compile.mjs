@@ -54,21 +54,27 @@ export function techniqueNames() {
   return names.split(',').flatMap((name) => name.trim().replaceAll('_', '-').replace('automatic', 'auto') || []);
 }
 
-/** The flag that leaves out all techniques but these. */
-export function only(techniques) {
+/** A bit for each of these techniques. */
+export function bitsOf(techniques) {
   const names = techniqueNames();
-  const bits = techniques.reduce((bits, technique) => {
+  return techniques.reduce((bits, technique) => {
     if (!names.includes(technique)) throw new Error(`there is no technique ${technique}, expected one of ${names}`);
     return bits | (1 << names.indexOf(technique));
   }, 0);
-  return `-DTECHNIQUES=${bits}`;
 }
+
+/** The flag that leaves out all techniques but these. */
+export const only = (techniques) => `-DTECHNIQUES=${bitsOf(techniques)}`;
 
 /** The flag that keeps the names of functions. */
 export const keepNames = '-Wl,--strip-debug';
 
-/** The module that decodes the inlined text. It is compiled by the engine before it runs once: small is fast. */
-export const compileDecoder = () => compile('kernel/decoder.cpp', ['-Oz']);
+/**
+ * The module that decodes the inlined text. It is compiled by the engine before it runs once: small is fast. Its memory
+ * has room for any kernel and its text, so that it never grows; what is not written costs nothing.
+ */
+export const compileDecoder = () =>
+  compile('kernel/decoder.cpp', ['-Oz', '-Wl,--initial-memory=4194304', '-Wl,--export=__heap_base']);
 
 /** The wasm made from one source file, given by its path relative to the root, and the kernel's headers. */
 export async function compile(entry, more = []) {

@@ -1,1 +1,1 @@
-export function inline(wasm: Uint8Array, owners?: number[]): { text: string; size: number };
+export function inline(wasm: Uint8Array, owners?: number[]): { text: string; ends: number[] }[];

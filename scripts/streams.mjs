@@ -3,10 +3,10 @@
 // the module byte for byte. From: executable packers, and Java's pack200 (W. Pugh, Compressing Java Class Files, 1999).
 
 /**
- * In the order of the file, in which similar streams are next to each other for gzip. All are numbers in LEB128, except
- * the first, which has raw bytes.
+ * In the order of the file, in which similar streams are next to each other for gzip. The first has the kinds of all
+ * instructions, the second raw bytes, the others numbers in LEB128.
  */
-const streams = ['raw', 'locals', 'long', 'integer', 'offset', 'call', 'local', 'branch', 'small', 'block'];
+const streams = ['kind', 'raw', 'locals', 'long', 'integer', 'offset', 'call', 'local', 'branch', 'small', 'block'];
 /**
  * The most kinds of instructions. A kind is an opcode with those of its immediates that are not numbers of a stream.
  */
@@ -169,28 +169,27 @@ function kindsOf(instructions) {
 }
 
 /**
- * The module apart: how many functions and kinds of instructions it has; the kinds, one property after the other; of each
- * function the dimensions that it is for, or 0; and the bytes of its streams, in the order of the file: those before the
- * size of the code, the kinds of all instructions, what belongs to them, and the bytes behind the code.
+ * The module apart: the kinds of instructions, one property after the other; the bytes before the size of the code, and
+ * those behind the code; and of each function its bytes in each stream.
  */
-export function apart(wasm, owners) {
+export function apart(wasm) {
   const code = codeOf(wasm);
   const functions = functionsOf(wasm, code);
-  const instructions = functions.flat();
-  const kinds = kindsOf(instructions);
+  const kinds = kindsOf(functions.flat());
   const numbers = new Map(kinds.map((one, k) => [keyOf(one), k]));
-  const given = (name) => instructions.flatMap((one) => (one.stream === name ? [...one.given] : []));
+  const inStream = (name) => (one) => {
+    if (name === 'kind') return numbers.get(keyOf(one));
+    return one.stream === name ? [...one.given] : [];
+  };
   return {
-    counts: [functions.length, kinds.length],
     kinds: [
       ...Array.from({ length: longest }, (_, k) => kinds.map(({ bytes }) => bytes[k] ?? 0)).flat(),
       ...kinds.map(({ bytes, stream }) => bytes.length * 16 + streams.indexOf(stream)),
       ...kinds.map(({ count }) => count),
     ],
+    kindCount: kinds.length,
     before: [...wasm.subarray(0, code.section)],
-    owners: functions.map((_, k) => owners[k] ?? 0),
-    order: instructions.map((one) => numbers.get(keyOf(one))),
-    given: streams.map(given),
     behind: [...wasm.subarray(code.to)],
+    functions: functions.map((list) => streams.map((name) => list.flatMap(inStream(name)))),
   };
 }

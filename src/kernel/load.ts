@@ -4,22 +4,23 @@
 // with all techniques take the other text (scripts/every-technique.mjs).
 import type { Dimensions } from '../dimensions.ts';
 import type { KernelExports } from '../generated/abi.ts';
-import * as kernel from '../generated/kernel-lean.ts';
+import { dimensions as builtDimensions, decoder, techniques as inlined, text } from '../generated/kernel-lean.ts';
 import { bytesOf, isModule } from '../values.ts';
 
 /** The exported functions of kernel/decoder.cpp. */
 interface DecoderExports {
   memory: WebAssembly.Memory;
-  room(characters: number, bytes: number): number;
+  /** Where the text is put. */
+  __heap_base: WebAssembly.Global<'i32'>;
   decode(characters: number, unused: number): number;
 }
 
 /** The dimensions that this build supports, the default first. */
-export const builtDimensions = kernel.dimensions;
+export { builtDimensions };
 
 /** By dimensions. */
 let modules: (WebAssembly.Module | undefined)[] = [];
-let techniques = 0;
+let techniques = inlined;
 
 /**
  * Gives the library its kernel, once, before the first `new BroadPhase()`. Not needed if WebAssembly may be compiled
@@ -53,15 +54,13 @@ function checked(module: WebAssembly.Module): WebAssembly.Module {
 
 /** A fresh kernel with memory of its own, for boxes of this many dimensions. */
 export function instantiate(dimensions: Dimensions): KernelExports {
-  modules[dimensions] ??= compile(read(kernel, dimensions === 2 ? 3 : 2));
+  modules[dimensions] ??= compile(read(text, dimensions === 2 ? 3 : 2));
   return new WebAssembly.Instance(modules[dimensions]).exports as unknown as KernelExports;
 }
 
 /** The techniques of the kernel: a bit for each. */
 export function builtTechniques(): number {
-  techniques ||= instantiate(
-    builtDimensions.find((dimensions) => modules[dimensions]) ?? builtDimensions[0]!,
-  ).techniques();
+  techniques ||= instantiate(builtDimensions[0]!).techniques();
   return techniques;
 }
 
@@ -83,26 +82,19 @@ function compile(bytes: BufferSource): WebAssembly.Module {
 }
 
 /**
- * The module of `size` bytes that scripts/inline.mjs has written as text: see there. What is only for `unused` dimensions
- * is left out, since engines take about as long for every byte that they compile. A small module decodes the text
- * (kernel/decoder.cpp).
+ * The module that scripts/inline.mjs has written as text: see there. What is only for `unused` dimensions is left out,
+ * since engines take about as long for every byte that they compile. A small module decodes the text (kernel/decoder.cpp).
  */
-export function read(
-  { text, decoder, size }: { text: string; decoder: string; size: number },
-  unused = 0,
-): Uint8Array<ArrayBuffer> {
-  const made = compile(bytesOfLetters(decoder)); // first: it says so where there is no WebAssembly
-  const { memory, room, decode } = new WebAssembly.Instance(made).exports as unknown as DecoderExports;
-  const at = room(text.length, size);
-  encodeInto(text, new Uint8Array(memory.buffer, at));
-  return new Uint8Array(memory.buffer, at + text.length, decode(text.length, unused));
-}
-
-/** The bytes that stand as two letters each. */
-function bytesOfLetters(text: string): Uint8Array<ArrayBuffer> {
-  const bytes = new Uint8Array(text.length / 2);
-  for (let k = 0; k < bytes.length; k++) bytes[k] = (text.charCodeAt(2 * k) << 4) | (text.charCodeAt(2 * k + 1) & 15);
-  return bytes;
+export function read(parts: typeof text, unused?: Dimensions): Uint8Array<ArrayBuffer> {
+  const made = compile(new Uint8Array(decoder)); // first: it says so where there is no WebAssembly
+  const { memory, __heap_base: at, decode } = new WebAssembly.Instance(made).exports as unknown as DecoderExports;
+  let needed = '';
+  for (let k = 0; k < 3; k++) {
+    if (k > 0 && k + 1 === unused) continue;
+    for (const { text, ends } of parts) needed += text.slice(ends[k], ends[k + 1]);
+  }
+  encodeInto(needed, new Uint8Array(memory.buffer, at.value));
+  return new Uint8Array(memory.buffer, at.value + needed.length, decode(needed.length, unused ?? 0));
 }
 
 /** Writes characters of ASCII as bytes. Jest's pages and audio worklets have no TextEncoder, which is much faster. */

@@ -4,13 +4,13 @@ import { fileURLToPath } from 'node:url';
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { inline } from '../../scripts/inline.mjs';
-import * as lean from '../../src/generated/kernel-lean.ts';
+import type { KernelExports } from '../../src/generated/abi.ts';
+import { techniques, text } from '../../src/generated/kernel-lean.ts';
 import { read } from '../../src/kernel/load.ts';
 
 const fileOf = (name: string) =>
   new Uint8Array(readFileSync(fileURLToPath(new URL(`../../build/${name}.wasm`, import.meta.url))));
-const through = (bytes: Uint8Array, owners?: number[], unused?: number) =>
-  read({ ...lean, ...inline(bytes, owners) }, unused);
+const through = (bytes: Uint8Array, owners?: number[], unused?: 2 | 3) => read(inline(bytes, owners), unused);
 
 /** A number as WebAssembly writes it. */
 const leb = (value: number): number[] => (value < 128 ? [value] : [(value & 127) | 128, ...leb(value >> 7)]);
@@ -90,10 +90,25 @@ test('functions that are only for unused dimensions become traps', () => {
   expect(through(wasm, [0, 2, 3])).toEqual(wasm);
 });
 
+test('functions keep their order, whichever dimensions they are for', () => {
+  const body = fc
+    .array(fc.nat(2 ** 31 - 1), { maxLength: 100 })
+    .map((all) => [0, ...all.flatMap((n) => [0x41, ...leb(n)]), 0x0b]);
+  const functions = fc.array(fc.tuple(body, fc.constantFrom(0, 2, 3)), { minLength: 1, maxLength: 200 });
+  fc.assert(
+    fc.property(functions, fc.constantFrom(undefined, 2, 3), (given, unused) => {
+      const wasm = moduleOf(given.map(([body]) => body));
+      const owners = given.map(([, owner]) => owner);
+      const expected = moduleOf(given.map(([body, owner]) => (owner === unused ? [0, 0, 0x0b] : body)));
+      expect(through(wasm, owners, unused as 2 | 3 | undefined)).toEqual(expected);
+    }),
+  );
+});
+
 test('about half of the kernel is for each number of dimensions', () => {
-  const whole = read(lean);
-  for (const unused of [2, 3]) {
-    const half = read(lean, unused);
+  const whole = read(text);
+  for (const unused of [2, 3] as const) {
+    const half = read(text, unused);
     expect(WebAssembly.validate(half)).toBe(true);
     expect(half.length).toBeLessThan(0.7 * whole.length);
   }
@@ -109,5 +124,10 @@ test.each(['kernel', 'kernel-lean'])('the %s comes back', (name) => {
 
 test('the inlined text is that of the kernel that was built', () => {
   // Tests run with every technique: vitest.config.ts.
-  expect(Buffer.compare(read(lean), fileOf('kernel'))).toBe(0);
+  expect(Buffer.compare(read(text), fileOf('kernel'))).toBe(0);
+});
+
+test('the techniques told are those of the kernel', () => {
+  const kernel = new WebAssembly.Instance(new WebAssembly.Module(read(text))).exports as unknown as KernelExports;
+  expect(techniques).toBe(kernel.techniques());
 });
