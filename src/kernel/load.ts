@@ -89,6 +89,7 @@ export function read(parts: typeof text, unused?: Dimensions): Uint8Array<ArrayB
   const made = compile(new Uint8Array(decoder)); // first: it says so where there is no WebAssembly
   const { memory, __heap_base: at, decode } = new WebAssembly.Instance(made).exports as unknown as DecoderExports;
   let needed = '';
+  // First what is for both dimensions, then what is for two, then what is for three.
   for (let k = 0; k < 3; k++) {
     if (k > 0 && k + 1 === unused) continue;
     for (const { text, ends } of parts) needed += text.slice(ends[k], ends[k + 1]);
