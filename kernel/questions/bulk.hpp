@@ -1,12 +1,13 @@
 // Many queries in one call.
 // Idea: the queries are stored one after the other, as doubles, and answered in that order. All answers go into one
-// list. A second list has the offset at which the answers of each query begin. Boxes and points go down the index
-// together: see together.hpp.
-// Cost: for boxes and points, at most half of that of single queries; for other queries, the same without the calls.
+// list. A second list has the offset at which the answers of each query begin. Boxes, points, rays and moving boxes go
+// down the index together: see together.hpp.
+// Cost: for boxes and points, at most half of that of single queries; for rays and moving boxes, about two thirds; for
+// other queries, the same without the calls.
 // Running them in Hilbert order was slower in all but a few cases: see docs/decisions/0011-many-queries.md.
 #pragma once
+#include "questions/casts.hpp"
 #include "questions/queries.hpp"
-#include "questions/together.hpp"
 
 /// The kind of all queries of a call.
 enum class Asks : u32 { nearest, ray, way, box, within, point, circle, others, meeting };
@@ -17,7 +18,8 @@ template <int D> class Bulk {
   static constexpr u32 crowded = 1000;
 
   Buffer<f64> given_;  // the numbers of all queries, then the id that each ignores
-  Together<D> together_;
+  Areas<D> areas_;
+  Casts<D> casts_;
   Buffer<u32> offsets_;  // per query, where its answers begin; then where those of the last end
 
   static bool has_box(Asks kind) {
@@ -56,20 +58,51 @@ template <int D> class Bulk {
   SMALL void answer(const Index<D>& index, Question<D> asked, Asks kind, u32 count, u32 most, Hits& best) {
     offsets_.reserve(u64(count) + 1)[0] = 0;
     looks = 0;
+    if (moves(kind) && !index.world()) return cast_all(index, asked, kind, count, best);
     bool may = !index.world() && (kind == Asks::box || kind == Asks::point || kind == Asks::meeting), together = false;
     f64 limit = asked.limit;
     for (u32 k = 0, at = 0; k < count; k++) {
-      u32 found = offsets_[k], n = k % Together<D>::most;
+      u32 found = offsets_[k], n = k % Areas<D>::most;
       if (n == 0) together = may && found <= u64(k) * crowded;
       if (together && n == 0) ask_together(index, asked, kind, k, count, at = found);
       bool asks = kind == Asks::others ? take_box(index, k, asked) : read(kind, k, asked);
-      if (kind != Asks::others) asked.ignored = u32(given_[u64(count) * stride(kind) + k]);
-      if (kind != Asks::others) asked.measure_way(kind == Asks::ray);
+      if (kind != Asks::others) asked.ignored = ignored(kind, k, count);
+      if (moves(kind)) asked.measure_way(kind == Asks::ray);
       asked.limit = limit;
       if (index.world()) asked.wrap(index.world());
-      if (together) found = name(index, asked, at, together_.ends[n], found);
+      if (together) found = name(index, asked, at, areas_.ends[n], found);
       else if (asks) found = ask(index, asked, kind, most, found, best);
       offsets_[k + 1] = found;
+    }
+  }
+
+  /// Answers rays or moving boxes: in a batch, and alone what the batch has left.
+  SMALL void cast_all(const Index<D>& index, const Question<D>& asked, Asks kind, u32 count, Hits& best) {
+    CastPace pace;
+    for (u32 k = 0, some, found = 0; k < count; k += some) {
+      some = smaller(count - k, pace.batch());
+      casts_.begin(index);
+      for (u32 n = 0; n < some; n++) {
+        Question<D>& one = casts_.asked(n) = asked;
+        read(kind, k + n, one);
+        one.ignored = ignored(kind, k + n, count);
+        one.measure_way(kind == Asks::ray);
+      }
+      u64 together = pace.tries() ? casts_.search(some, pace.reach()) : 0, before = looks;
+      u32 missed = 0;
+      for (u32 n = 0; n < some; n++) {
+        if (!casts_.knows(n)) {
+          found = ask(index, casts_.asked(n), kind, 1, found, best);
+          missed++;
+        } else if (const Hit* hit = casts_.hit(n)) {
+          hits.grow(u64(found) + 1, found);
+          hits[found++] = *hit;
+        }
+        pace.note(found > offsets_[k + n] ? hits[found - 1].rank : asked.limit);
+        offsets_[k + n + 1] = found;
+      }
+      pace.judge(some, missed, looks - before, together, asked.limit);
+      looks += together;
     }
   }
 
@@ -98,7 +131,8 @@ template <int D> class Bulk {
 
   SMALL void release() {
     given_.release();
-    together_.release();
+    casts_.release();
+    areas_.release();
     offsets_.release();
     ids.release();
     hits.release();
@@ -133,12 +167,13 @@ template <int D> class Bulk {
 
   /// Runs a batch of box queries together, from query `first` on. The places of the boxes they touch begin at `found`.
   SMALL void ask_together(const Index<D>& index, Question<D>& asked, Asks kind, u32 first, u32 count, u32 found) {
-    u32 many = together_.begin(index, count - first);
+    u32 many = smaller(count - first, Areas<D>::most);
+    areas_.begin(index);
     for (u32 n = 0; n < many; n++) {
       read(kind, first + n, asked);
-      together_.aim(n, asked);
+      areas_.aim(n, asked);
     }
-    looks += together_.search(many, ids, found);
+    looks += areas_.search(many, ids, found);
   }
 
   /// Appends the names of the boxes that a query touches in float32: those at the places from `from` on. Leaves out
@@ -158,6 +193,8 @@ template <int D> class Bulk {
     }
     return found;
   }
+
+  u32 ignored(Asks kind, u32 k, u32 count) const { return u32(given_[u64(count) * stride(kind) + k]); }
 
   /// Makes the box in a slot the query; false if it is off.
   static bool take_box(const Index<D>& index, u32 slot, Question<D>& to) {

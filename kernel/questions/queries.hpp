@@ -7,15 +7,13 @@
 // index, in float32 rounded outward, only prunes. Ties are ordered by id, so that answers do not depend on the index.
 // Cost, among 10,000 boxes: 0.4 us for a box with 20 in it, 0.5 us for a ray that goes far, 1.4 us for the 10 nearest.
 #pragma once
-#include "questions/meeting.hpp"
+#include "questions/cast_aim.hpp"
 #include "questions/question.hpp"
 
 template <int D> class Queries {
   using Block = typename Index<D>::Block;
   static constexpr u32 lane_bits = 7;
   static constexpr u32x4 lanes = {0, 1, 2, 3};
-  // Up to this magnitude, estimating times in float32 neither overflows nor loses digits.
-  static constexpr f64 tame = 1e30;
 
   const Index<D>& index_;
   const Question<D>& asked_;
@@ -24,11 +22,11 @@ template <int D> class Queries {
   f64 reach_[D];  // how far the moving box may get
   Hits* hits_ = nullptr;  // for moving boxes
   f32x4 lo_[D], hi_[D];  // the region searched
-  f32x4 above_[D], below_[D];  // the point or moving box, rounded outward at least
-  f32x4 slowness_[D];  // time per unit of distance
+  f32x4 above_[D], below_[D];  // the point, rounded outward
+  CastAim<D> aim_;  // the moving box
   f64 squared_;  // the circle's radius, squared
   f64 scale_ = 1;  // from ranks to estimated times
-  bool is_tame_ = true, all_move_ = true;  // whether times may be estimated, and suffice for all axes
+  bool is_tame_ = true;  // whether times may be estimated
   const u32* const names_;  // what answers consist of: ids, or slots if another space asks
   const Wanted<D> wanted_;
   const bool all_wanted_;
@@ -71,7 +69,7 @@ template <int D> class Queries {
 
   /// The first boxes that the moving box meets, ranked by how far it has moved by then.
   SMALL void cast(Hits& hits) {
-    scale_ = (1 + 1e-6) / asked_.length;
+    scale_ = asked_.scale();
     for (int a = 0; a < D; a++) {
       // The path up to the limit, and a little more for rounding errors.
       f64 reach = asked_.along[a] * (asked_.limit / asked_.length) * (1 + 1e-9);
@@ -126,18 +124,15 @@ template <int D> class Queries {
   }
 
   void aim_ahead() {
-    is_tame_ = all_move_ = asked_.length > 0;
+    f64 lo[D], hi[D];
     for (int a = 0; a < D; a++) {
-      f64 along = asked_.along[a], far = __builtin_fabs(along), lo = low(a), hi = high(a);
-      f32 least = round_down(lo + smaller(0.0, reach_[a])), most = round_up(hi + larger(0.0, reach_[a]));
+      lo[a] = low(a);
+      hi[a] = high(a);
+      f32 least = round_down(lo[a] + smaller(0.0, reach_[a])), most = round_up(hi[a] + larger(0.0, reach_[a]));
       lo_[a] = splat(detail::is_finite(least) ? next_toward(least, false) : least);
       hi_[a] = splat(detail::is_finite(most) ? next_toward(most, true) : most);
-      below_[a] = splat(round_down(lo));
-      above_[a] = splat(round_up(hi));
-      slowness_[a] = splat(f32(1 / along));
-      is_tame_ &= lo > -tame && hi < tame && (far == 0 || (far > 1 / tame && far < tame));
-      all_move_ &= is_tame_ && far > 0;
     }
+    is_tame_ = aim_.take(lo, hi, asked_.along) && asked_.length > 0;
   }
 
   /// In a world that wraps around: whether the area touches a box in this turn, and in no earlier one.
@@ -293,30 +288,15 @@ template <int D> class Queries {
 
   /// The same for the times at which the moving box meets eight boxes, as shares of its path.
   NOINLINE u32 least_times(const Block& block, u32 (&to)[8]) const {
-    // If it moves along all axes, the times suffice.
-    u32 close = all_move_ ? 0xff : touched(block);
     if (!is_tame_) {
       for (u32 lane = 0; lane < 8; lane++) to[lane] = lane;
-      return close;
+      return touched(block);
     }
-    constexpr f32 slack = 1e-6f, least_slack = 1e-37f;
-    f32x4 most = splat(most_rank_);
+    u32 close = 0;
     ROLLED for (u32 half = 0; half < 8; half += 4) {
-      f32x4 enter = {}, leave = splat(__builtin_inff());
-      i32x4 missed = load<f32x4>(block.lo[0] + half) != load<f32x4>(block.lo[0] + half);  // there is no box
-      for (int a = 0; a < D; a++) {
-        if (asked_.along[a] == 0) continue;
-        f32x4 ahead = (load<f32x4>(block.lo[a] + half) - above_[a]) * slowness_[a];
-        f32x4 behind = (load<f32x4>(block.hi[a] + half) - below_[a]) * slowness_[a];
-        bool forth = asked_.along[a] > 0;
-        enter = max(forth ? ahead : behind, enter);  // NaN is ignored
-        leave = min(forth ? behind : ahead, leave);
-      }
-      enter = max(f32x4{}, enter * splat(1 - slack) - splat(least_slack));
-      leave = leave + max(leave, -leave) * splat(slack) + splat(least_slack);
-      missed |= (enter > leave) | (enter > most);
-      close &= ~(bitmask(missed) << half);
-      store(to + half, (bits<u32x4>(enter) & ~lane_bits) | (lanes + half));
+      f32x4 times;
+      close |= bitmask(aim_.reaches(block, half, times)) << half;
+      store(to + half, (bits<u32x4>(max(f32x4{}, times)) & ~lane_bits) | (lanes + half));
     }
     return close;
   }
@@ -345,7 +325,7 @@ template <int D> class Queries {
   /// Sets the limit, in the unit of the lower bounds, a time or a squared distance; never rounded below it.
   template <bool moving> void set_most(f64 limit) {
     if (!moving) most_rank_ = round_up(squared_limit(limit));
-    else most_rank_ = is_tame_ ? round_up(limit * scale_) : __builtin_inff();
+    else aim_.most = most_rank_ = is_tame_ ? round_up(limit * scale_) : __builtin_inff();
   }
   /// An upper bound for the square of every distance within the limit.
   static f64 squared_limit(f64 limit) { return limit * limit * (1 + 1e-15) + 1e-300; }
@@ -410,19 +390,11 @@ template <int D> class Queries {
     }
   }
 
-  /// How the moving box meets a box; false where it does not.
-  NOINLINE bool meets_box(const f64* box, u32 id, Hit& hit) const {
-    Meeting met;
-    if (!meets<D>(asked_.lo, asked_.hi, asked_.along, box, asked_.stops, met)) return false;
-    hit = {met.time * asked_.length, id | (met.corner ? Hit::corner : 0), met.side};
-    return true;
-  }
-
-  /// The same in a world that wraps around; also false if it meets the box earlier in another turn.
+  /// How the moving box meets a box in a world that wraps around; false where it does not, or earlier in another turn.
   SMALL bool meets_around(const f64* box, u32 id, Hit& hit, f64 limit) const {
     f64 copy[2 * D];
     copies_.copy(box, copy);
-    if (!meets_box(copy, id, hit) || hit.rank > limit) return false;
+    if (!asked_.hits(copy, id, hit) || hit.rank > limit) return false;
     struct Others {
       const Queries& asks;
       const f64* box;
@@ -438,7 +410,7 @@ template <int D> class Queries {
           Hit other;
           before &= !at.same_turn(asks.copies_);
           at.copy(box, copy);
-          if (first && asks.meets_box(copy, hit.id & ~Hit::corner, other))
+          if (first && asks.asked_.hits(copy, hit.id & ~Hit::corner, other))
             first = !(other < hit) && (!before || hit < other);
         },
         &others);
@@ -453,7 +425,7 @@ template <int D> class Queries {
       f64 box[2 * D];
       index_.box(place, box);
       Hit hit;
-      if (world_ ? meets_around(box, index_.id(place), hit, hits.limit) : meets_box(box, index_.id(place), hit))
+      if (world_ ? meets_around(box, index_.id(place), hit, hits.limit) : asked_.hits(box, index_.id(place), hit))
         hits.offer(hit);
     }
   }

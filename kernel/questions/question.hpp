@@ -1,6 +1,19 @@
 // A query, the boxes it is about, and the list of hits or neighbours.
 #pragma once
 #include "questions/index.hpp"
+#include "questions/meeting.hpp"
+
+struct Hit {
+  f64 rank;  // how far the box has moved, or the distance
+  u32 id;  // may have the flag `corner`
+  i32 side;  // for moving boxes: axis + 1 of the face that is hit, negative if its normal is; 0: none
+
+  /// A flag on the ids of boxes that are met only at a corner, so that faces met at the same time come first: a box
+  /// sliding over a floor of boxes touches the one below and does not stop at the next.
+  static constexpr u32 corner = 0x80000000;
+
+  bool operator<(const Hit& other) const { return rank < other.rank || (rank == other.rank && id < other.id); }
+};
 
 /// The arguments of a query.
 template <int D> struct Question {
@@ -25,6 +38,17 @@ template <int D> struct Question {
     for (int a = 0; a < D && most > 0; a++) sum += (along[a] / most) * (along[a] / most);
     length = is_ray ? most * __builtin_sqrt(sum) : 1;
     stops = !is_ray;
+  }
+
+  /// From ranks to times estimated in float32.
+  f64 scale() const { return (1 + 1e-6) / length; }
+
+  /// How the moving box meets a box; false where it does not.
+  NOINLINE bool hits(const f64* box, u32 id, Hit& hit) const {
+    Meeting met;
+    if (!meets<D>(lo, hi, along, box, stops, met)) return false;
+    hit = {met.time * length, id | (met.corner ? Hit::corner : 0), met.side};
+    return true;
   }
 
   /// Whether its box touches another; `whole`: has it within.
@@ -64,18 +88,6 @@ template <int D> class Wanted {
 
  private:
   SMALL bool meets(const Rule& its) const { return (own_ & its.mask) && (its.layer & mask_); }
-};
-
-struct Hit {
-  f64 rank;  // how far the box has moved, or the distance
-  u32 id;  // may have the flag `corner`
-  i32 side;  // for moving boxes: axis + 1 of the face that is hit, negative if its normal is; 0: none
-
-  /// A flag on the ids of boxes that are met only at a corner, so that faces met at the same time come first: a box
-  /// sliding over a floor of boxes touches the one below and does not stop at the next.
-  static constexpr u32 corner = 0x80000000;
-
-  bool operator<(const Hit& other) const { return rank < other.rank || (rank == other.rank && id < other.id); }
 };
 
 /// The `most` smallest hits after a given one: few are kept in order, many in a heap with the largest on top.

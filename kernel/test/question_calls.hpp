@@ -135,6 +135,7 @@ template <int D> class QuestionCalls {
         u32 from = 0, alone = space_.questions.ask_area(from, ~0u);
         good &= many == std::vector<u32>(space_.questions.answers.data(), space_.questions.answers.data() + alone);
       }
+      if (count) good &= casts_agree(common, boxes, ignored);
       space_.questions.asked = common;
       u32 all = space_.questions.ask_many(Asks::others, 0, most);
       good &= all == (trial_.seen ? trial_.seen->count() : 0);
@@ -198,6 +199,42 @@ template <int D> class QuestionCalls {
       question.hi[a] = given[D + a];
     }
     return question;
+  }
+
+  /// Whether boxes that move from one of these places to others meet in one call what each meets alone.
+  bool casts_agree(const Question<D>& common, const std::vector<Box<D>>& boxes, const std::vector<u32>& ignored) {
+    constexpr u32 stride = 3 * D, count = 150;
+    std::vector<Question<D>> asks(count, common);
+    f64* to = space_.questions.bulk.stage(count * (stride + 1));
+    for (u32 k = 0; k < count; k++) {
+      const Box<D>&from = boxes[k % boxes.size()], &other = boxes[k * k % boxes.size()];
+      std::copy_n(from.begin(), D, asks[k].lo);
+      std::copy_n(from.begin() + D, D, asks[k].hi);
+      for (u32 a = 0; a < D; a++) {
+        f64 along = k % 3 ? (other[a] - from[a]) * 3 : 50.0 * (a == k % D);
+        asks[k].along[a] = std::isfinite(along) ? along : 1;
+      }
+      asks[k].ignored = ignored[k % boxes.size()];
+      asks[k].limit = 1;
+      asks[k].measure_way(false);
+      std::copy_n(asks[k].lo, D, to + k * stride);
+      std::copy_n(asks[k].hi, D, to + k * stride + D);
+      std::copy_n(asks[k].along, D, to + k * stride + 2 * D);
+      to[count * stride + k] = asks[k].ignored;
+    }
+    space_.questions.asked = common;
+    space_.questions.asked.limit = 1;
+    bool good = space_.questions.bulk.first_bad(Asks::way, count) == -1 &&
+                space_.questions.ask_many(Asks::way, count, 1) == count;
+    for (u32 k = 0; k < count && good; k++) {
+      u32 at = space_.questions.bulk.offsets()[k], many = space_.questions.bulk.offsets()[k + 1] - at;
+      space_.questions.asked = asks[k];
+      good = space_.questions.ask_order(true, 1, nullptr) == many;
+      if (!many || !good) continue;
+      const Hit &one = space_.questions.hits.data()[0], &hit = space_.questions.bulk.hits[at];
+      good = one.rank == hit.rank && one.id == hit.id && one.side == hit.side;
+    }
+    return good;
   }
 
   /// The ids that a query asks for.
