@@ -10,6 +10,7 @@ BOTH(Index)
 BOTH(Queries)
 BOTH(PlaneQuery)
 BOTH(Bulk)
+BOTH(Neighbours)
 BOTH(Numbers)
 BOTH(Store)
 BOTH(Questions)
@@ -323,10 +324,6 @@ EXPORT(log_count)() -> u32 {
 EXPORT(log_address)() -> const u32* {
   return with_space([](auto& space) { return space.store.changed.list(); });
 }
-/// The number of boxes in the last update.
-EXPORT(seen_count)() -> u32 {
-  return with_space([](auto& space) { return space.questions.index().count(); });
-}
 /// Fills rows that were staged instead of queries, and begin with a slot: see Bulk::fill_rows.
 EXPORT(see_rows)(u32 count) -> void {
   with_space([&](auto& space) { space.questions.bulk.fill_rows(space.questions.index(), count); });
@@ -335,9 +332,28 @@ EXPORT(see_rows)(u32 count) -> void {
 EXPORT(most_reach)() -> f64 {
   return with_space([](auto& space) { return space.questions.index().most_reach(); });
 }
-/// Whether the two boxes at the start of `io` overlap, in a world that wraps around.
-EXPORT(meet_around)() -> u32 {
-  return with_space([](auto& space) { return u32(space.questions.meet_around(io)); });
+/// The pairs with another space, for each a set of lists. Begins to bring them up to date: see Questions::begin_pairs.
+EXPORT(begin_pairs)(u32 set, u32 changes, u32 same, u32 first, f64 reach) -> u32 {
+  return with_space(
+      [&](auto& space) { return space.questions.begin_pairs(set, changes, same != 0, first != 0, reach); });
+}
+/// Takes the staged answers of the other space.
+EXPORT(take_answers)(u32 set, u32 total, u32 exact) -> void {
+  with_space([&](auto& space) { space.questions.take_answers(set, total, exact != 0); });
+}
+/// Stages rows that begin with the slots of the loose boxes in the other space; returns how many.
+EXPORT(stage_loose)(u32 set) -> u32 {
+  return with_space([&](auto& space) { return space.questions.stage_loose(set); });
+}
+/// Finds the pairs of the loose boxes, whose rows are staged.
+EXPORT(meet_loose)(u32 set) -> void {
+  with_space([&](auto& space) { space.questions.meet_loose(set); });
+}
+EXPORT(met_address)(u32 set) -> const u64* {
+  return with_space([&](auto& space) { return space.questions.neighbours[set].pairs(); });
+}
+EXPORT(met_count)(u32 set) -> u32 {
+  return with_space([&](auto& space) { return space.questions.neighbours[set].count(); });
 }
 EXPORT(hits_address)() -> const Hit* {
   return with_space([](auto& space) { return space.questions.hits.data(); });

@@ -76,6 +76,8 @@ export function abi() {
     '/** The ring: numbers before its entries, and how many entries it holds. */',
     number('boxes/ring.hpp', 'head', 'ringHead'),
     number('boxes/ring.hpp', 'most_entries', 'ringCapacity'),
+    '/** For the pairs with other spaces: how many sets of lists there are, and an answer: nothing has changed. */',
+    number('space/questions.hpp', 'most_neighbours'),
     '/** Places of the counters. */',
     constant('statsLength', stats.length),
     ...stats.map((name, place) => constant(`${name}Stat`, place)),
