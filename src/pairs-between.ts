@@ -3,7 +3,16 @@
 // one kernel to the other, and copies the pairs.
 import { known, tellTouching } from './answers.ts';
 import { badValue } from './errors.ts';
-import { asks, mostNeighbours } from './generated/abi.ts';
+import {
+  asks,
+  logAt,
+  logCountAt,
+  looseCountAt,
+  metAt,
+  metCountAt,
+  mostNeighbours,
+  mostReachAt,
+} from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { everything } from './query-options.ts';
 
@@ -28,6 +37,7 @@ export class Kept {
   used = 0;
   #list = new Uint32Array(64);
   #views: Uint32Array[] = [];
+  length = 0;
 
   /** Copies the pairs. */
   take(pairs: Uint32Array): void {
@@ -36,7 +46,6 @@ export class Kept {
     this.#list.set(pairs);
     this.length = length;
   }
-  length = 0;
 
   /** The pairs, as a view made earlier if possible. */
   view(): Uint32Array {
@@ -65,8 +74,8 @@ export function pairsWith(
     kept = new Kept();
     keptOf.set(other, kept);
   }
-  const mine = instance.kernel.size();
-  const others = other.kernel.size();
+  const mine = instance.size;
+  const others = other.size;
   // The space with fewer boxes, or nearly so.
   const forth = kept.forth ? mine <= 2 * others : 2 * mine < others;
   if (forth !== kept.forth) kept.epoch = 0;
@@ -80,7 +89,7 @@ function checkOther(instance: KernelInstance, other: KernelInstance): void {
   if (other === instance) {
     throw new TypeError(`${where}: got the space itself, expected another: the pairs within it are in its pairs`);
   }
-  instance.kernel.size(); // throws where this one was disposed of
+  instance.exports.size(); // throws where this one was disposed of
   if (other.isDisposed) throw new Error(`${where}: the other BroadPhase was disposed and can no longer be used`);
   if (other.dimensions !== instance.dimensions) {
     badValue(`${where}: dimensions of the other`, other.dimensions, `${instance.dimensions} as here`);
@@ -103,15 +112,16 @@ function keep(few: KernelInstance, kept: Kept, many: KernelInstance): void {
   const row = few.width + rowMore;
   let running = many;
   try {
-    const epoch = known(where, many.kernel.log_epoch());
-    const total = many.kernel.log_count();
-    const reach = many.kernel.most_reach();
+    const epoch = known(where, many.kernel.read_log());
+    const log = many.io();
+    const total = log[logCountAt]!;
+    const reach = log[mostReachAt]!;
     const same = epoch === kept.epoch;
     const changes = same ? total - kept.read : 0;
+    running = few;
+    if (changes > 0) stageChanges(few, many, (log[logAt]! >>> 2) + 2 * kept.read, 2 * changes);
     kept.epoch = epoch;
     kept.read = total;
-    running = few;
-    stageChanges(few, many, changes, total);
     const asked = known(where, few.kernel.begin_pairs(set, changes, same ? 1 : 0, kept.forth ? 1 : 0, reach));
     if (asked === still) return;
     if (asked > 0) {
@@ -124,8 +134,9 @@ function keep(few: KernelInstance, kept: Kept, many: KernelInstance): void {
       copyStaged(many, few, found * row + asked + 1);
       few.kernel.take_answers(set, found, reach === 0 ? 1 : 0);
     }
-    const loose = few.kernel.stage_loose(set);
+    const loose = few.io()[looseCountAt]!;
     if (loose > 0) {
+      few.kernel.stage_loose(set);
       running = many;
       copyStaged(few, many, loose * row);
       many.kernel.see_rows(loose);
@@ -133,7 +144,8 @@ function keep(few: KernelInstance, kept: Kept, many: KernelInstance): void {
       copyStaged(many, few, loose * row);
       few.kernel.meet_loose(set);
     }
-    kept.take(few.pairView(firstList + set, few.kernel.met_address(set), few.kernel.met_count(set)));
+    const met = few.io();
+    kept.take(few.pairView(firstList + set, met[metAt]!, met[metCountAt]!));
   } catch (error) {
     kept.epoch = 0;
     running.recover(error, where);
@@ -156,13 +168,12 @@ function setOf(instance: KernelInstance, kept: Kept): number {
   return set;
 }
 
-/** Takes the last `count` changes of the other space to the kernel with the lists: of each the id and the slot. */
-function stageChanges(few: KernelInstance, many: KernelInstance, count: number, total: number): void {
-  const at = few.kernel.stage_questions(2 * count) >>> 3;
-  const first = (many.kernel.log_address() >>> 2) + 2 * (total - count);
+/** Takes changes of the other space to the kernel with the lists: `count` of its words from `first` on. */
+function stageChanges(few: KernelInstance, many: KernelInstance, first: number, count: number): void {
+  const at = few.kernel.stage_questions(count) >>> 3;
   const words = many.wordView();
   const to = few.doubleView();
-  for (let n = 0; n < 2 * count; n++) to[at + n] = words[first + n]!;
+  for (let n = 0; n < count; n++) to[at + n] = words[first + n]!;
 }
 
 /** Copies what is staged in one kernel to another. */

@@ -2,9 +2,10 @@
 // Idea: each box here has a region, which is the box enlarged by a share of its size, and a list of the other space's
 // boxes that overlap the region. While the box stays within its region, its pairs are among these. When it leaves, it
 // gets another list: the caller queries the other space, many boxes in one call. A box of the other space that has
-// changed is loose: lists ignore it, and it asks this space. If too many are loose, all lists are dropped.
-// Cost: about 10 ns for each box that moved within its region, one query for each that left it, one for each loose box.
-// If few boxes here have changed, a pass over the pairs instead.
+// changed is loose: lists ignore it, and it asks this space. If too many are loose, all lists are dropped. Regions of
+// fast boxes become larger, those of slow ones smaller. Entries stay in the order of tests, since memory is read ahead.
+// Cost: about 12 ns for each box that moved within its region, one query for each that left it, one for each loose box.
+// If few boxes here have changed, a pass over the pairs instead of the other boxes.
 // From: L. Verlet, "Computer Experiments on Classical Fluids", 1967.
 #pragma once
 #include "questions/bulk.hpp"
@@ -32,26 +33,34 @@ class IdMarks {
 
 /// What does not depend on the number of axes: one copy for 2D and 3D, since it is code that runs rarely.
 class NeighbourLists {
-  static constexpr f64
-      growth = 0.5;  // of its longest side, on each side: more makes lists longer, less made more often
+  static constexpr f64 least_growth = 0.25, most_growth = 1;
+  static constexpr u32 query_work = 400;  // of a query, and of making a list, in tests of an entry
+  static constexpr u32 least_age = 4;  // calls that a list has to serve: of faster boxes, larger regions would not help
   static constexpr u32 least_loose = 32, loose_share = 16;  // boxes that may be loose, plus one in so many boxes here
-  static constexpr u32 least_unused = 1024;  // entries that may be unused, besides as many as are used
-  static constexpr f64 rounding_share = 0x1p-52;  // twice the rounding error of a sum, relative to its terms
+  static constexpr u32 tidy_share = 4;  // entries are tidied once one in so many lists has been made again
+  static constexpr f64 sum_share = 0x1p-52;  // twice the rounding error of a sum, relative to its terms
 
  protected:
+  static constexpr f64 growth = 0.5;  // at first
+
   /// The list of a box.
   struct List {
     u32 first, count;  // of its entries
     u32 layer, mask;
+    u32 made;  // the call in which it was made; 0: there is no list
   };
 
   u32 axes_ = 0;
+  f64 growth_ = 0;  // a region is a box enlarged on each side by this share of its longest side
+  u32 calls_ = 0;
   Buffer<List> lists_;  // per slot
   Buffer<f64> regions_;  // per slot, as in a row; NaN: there is no list
   u32 known_ = 0;  // slots that have an entry in these
   Buffer<f64> near_;  // of all lists: what the numbers of the box are compared with
   Buffer<u32> near_ids_;
-  u32 end_ = 0, unused_ = 0;  // where the entries of all lists end; how many belong to none
+  Buffer<f64> tidy_near_;  // the same while they are put in order
+  Buffer<u32> tidy_ids_;
+  u32 end_ = 0, made_ = 0;  // where the entries of all lists end; lists made since these were in the order of slots
   Buffer<u64> pairs_;
   u32 count_ = 0;
   u32 shift_ = 0;  // of the ids from here within a pair
@@ -69,7 +78,7 @@ class NeighbourLists {
 
   SMALL void drop() {
     for (u32 k = 0; k < loose_count_; k++) loose_at_.set(loose_[2 * k], 0);
-    loose_count_ = known_ = end_ = unused_ = 0;
+    loose_count_ = known_ = end_ = made_ = 0;
   }
 
   /// Makes changed boxes of the other space loose: of each the id and the slot. If too many are, drops all lists first.
@@ -109,7 +118,7 @@ class NeighbourLists {
   }
 
   /// Drops the pairs with a marked id in the half that `shift` says.
-  NOINLINE void filter(const IdMarks& marks, u32 shift) {
+  SMALL void filter(const IdMarks& marks, u32 shift) {
     u64* list = pairs_.data();
     u32 left = 0;
     for (u32 k = 0; k < count_; k++) {
@@ -125,26 +134,34 @@ class NeighbourLists {
     pairs_[count_++] = u64(mine[0]) << shift_ | u64(its[0]) << (32 - shift_);
   }
 
+  /// Changes the growth a little for each list that ends: making one should be as much work as all its tests.
+  SMALL void adapt() {
+    for (u32 k = 0; k < asked_; k++) {
+      const List& list = lists_[asking_[k]];
+      u32 age = calls_ - list.made;
+      f64 more = age >= least_age && age * list.count < query_work ? growth_ : -growth_;
+      if (list.made) growth_ = smaller(larger(growth_ + more / known_, least_growth), most_growth);
+    }
+  }
+
   /// Makes the list of a box, of the first of the rows.
   SMALL void make_list(u32 slot, f64* mine, const f64* rows, u32 many, bool touching) {
     enlarge(mine + 1);
     __builtin_memcpy(&regions_[slot * width()], mine + 1, width() * sizeof(f64));
-    unused_ += lists_[slot].count;
-    lists_[slot] = {end_, many, u32(mine[width() + 1]), u32(mine[width() + 2])};
+    made_++;
+    lists_[slot] = {end_, many, u32(mine[width() + 1]), u32(mine[width() + 2]), calls_};
     for (u32 k = 0; k < many; k++, rows += row(), end_++) {
       near_ids_[end_] = u32(rows[0]);
       face(rows + 1, touching, &near_[end_ * width()]);
     }
   }
 
-  /// Puts the entries of all lists in the order of slots, if many are unused.
+  /// Puts the entries of all lists in the order of slots, which is that of the tests, if many are elsewhere.
   SMALL void tidy() {
-    if (unused_ <= end_ / 2 + least_unused) return;
-    Buffer<f64> near;
-    Buffer<u32> ids;
-    near.reserve(u64(end_ - unused_) * width());
-    ids.reserve(end_ - unused_);
-    end_ = unused_ = 0;
+    if (made_ <= known_ / tidy_share) return;
+    f64* near = tidy_near_.reserve(u64(end_) * width());
+    u32* ids = tidy_ids_.reserve(end_);
+    end_ = made_ = 0;
     for (u32 slot = 0; slot < known_; slot++) {
       List& list = lists_[slot];
       __builtin_memcpy(&near[end_ * width()], &near_[list.first * width()], list.count * width() * sizeof(f64));
@@ -152,10 +169,10 @@ class NeighbourLists {
       list.first = end_;
       end_ += list.count;
     }
-    near_.swap(near);
-    near_ids_.swap(ids);
-    near.release();
-    ids.release();
+    near_.swap(tidy_near_);
+    near_ids_.swap(tidy_ids_);
+    tidy_near_.release();
+    tidy_ids_.release();
   }
 
   /// Writes what the numbers of another box are compared with: each is at most this if the boxes overlap. Unless
@@ -174,14 +191,14 @@ class NeighbourLists {
       f64 size = -box[axes_ + a] - box[a];
       if (size < __builtin_inf()) most = larger(most, size);
     }
-    widen(box, most * growth);
+    widen(box, most * growth_);
   }
 
   /// Enlarges a box by `more` on each side, rounded outward. Bounds may be infinite.
   SMALL void widen(f64* box, f64 more) const {
     for (u32 k = 0; k < width(); k++) {
       f64 far = __builtin_fabs(box[k]);
-      if (far < __builtin_inf()) box[k] -= more + (far + more) * rounding_share;
+      if (far < __builtin_inf()) box[k] -= more + (far + more) * sum_share;
     }
   }
 
@@ -240,19 +257,21 @@ class NeighbourLists {
     regions_.release();
     near_.release();
     near_ids_.release();
+    tidy_near_.release();
+    tidy_ids_.release();
     pairs_.release();
     asking_.release();
     loose_.release();
     loose_at_.release();
     changed_.release();
     rows_.release();
-    known_ = end_ = unused_ = count_ = loose_count_ = epoch_ = 0;
+    known_ = end_ = made_ = count_ = loose_count_ = epoch_ = 0;
   }
 };
 
 template <int D> class Neighbours : public NeighbourLists {
   static constexpr u32 width = 2 * D;
-  static constexpr u32 row = Index<D>::row;
+  static constexpr u32 row = width + 3;  // as in Index
 
  public:
   /// Brings the pairs up to date as far as lists tell. `others`: of `many` changed boxes of the other space the id and
@@ -263,9 +282,11 @@ template <int D> class Neighbours : public NeighbourLists {
     bool follows = same && epoch == epoch_;
     if (follows && many == 0 && changed.count() == read_) return still;
     u32 n = index.count();
+    calls_++;
     if (!same) {
       drop();
       axes_ = D;
+      growth_ = growth;
       shift_ = first ? 0 : 32;
     }
     loosen(others, many, n);
@@ -281,7 +302,8 @@ template <int D> class Neighbours : public NeighbourLists {
   }
 
   /// Writes the queries of the boxes that ask. `reach`: how far the answers may reach.
-  SMALL void write_questions(const Index<D>& index, f64* to, f64 reach) const {
+  SMALL void write_questions(const Index<D>& index, f64* to, f64 reach) {
+    adapt();
     for (u32 k = 0; k < asked_; k++) {
       f64 mine[row];
       index.write_row(asking_[k], mine);
@@ -325,34 +347,40 @@ template <int D> class Neighbours : public NeighbourLists {
  private:
   /// Appends the pairs of the boxes in these slots, or in all. Those that are not within their regions have to ask:
   /// their slots go to `asking_`, which may be `slots` itself.
-  NOINLINE void look(const Index<D>& index, const u32* slots, u32 many) {
+  SMALL void look(const Index<D>& index, const u32* slots, u32 many) {
     u64* out = pairs_.grow(u64(count_) + end_ + 1, count_) + count_;
     const u32* ids = near_ids_.data();
     const f64* near = near_.data();
     u32 asked = 0;
     for (u32 k = 0; k < many; k++) {
       u32 slot = slots ? slots[k] : k;
-      f64 box[width];
-      Rule rule;
-      if (!index.meeting_box(slot, box, rule)) continue;
+      Rule rule = index.rule(slot);
+      if (!rule.meets_some()) continue;
+      f64x2 box[D];
+      index.turned_box(slot, box);
       const List& list = lists_[slot];
-      if (list.layer != rule.layer || list.mask != rule.mask || !all_at_most(&regions_[slot * width], box)) {
+      if (list.layer != rule.layer || list.mask != rule.mask || !is_within(box, &regions_[slot * width])) {
         asking_[asked++] = slot;
         continue;
       }
       u64 mine = u64(index.id_of_slot(slot)) << shift_;
       for (u32 n = list.first, end = n + list.count; n < end; n++) {
         *out = mine | u64(ids[n]) << (32 - shift_);
-        out += all_at_most(box, near + n * width);
+        out += overlaps(box, near + n * width);
       }
     }
     asked_ = asked;
     count_ = Pairs::between(pairs_.data(), out);
   }
 
-  static bool all_at_most(const f64* a, const f64* b) {
-    i32x4 all = bits<i32x4>(load<f64x2>(a) <= load<f64x2>(b));
-    for (u32 k = 2; k < width; k += 2) all &= bits<i32x4>(load<f64x2>(a + k) <= load<f64x2>(b + k));
+  INLINE static bool is_within(const f64x2* box, const f64* region) {
+    i32x4 all = bits<i32x4>(load<f64x2>(region) <= box[0]);
+    for (u32 k = 1; k < D; k++) all &= bits<i32x4>(load<f64x2>(region + 2 * k) <= box[k]);
+    return bitmask(all) == 15;
+  }
+  INLINE static bool overlaps(const f64x2* box, const f64* facing) {
+    i32x4 all = bits<i32x4>(box[0] <= load<f64x2>(facing));
+    for (u32 k = 1; k < D; k++) all &= bits<i32x4>(box[k] <= load<f64x2>(facing + 2 * k));
     return bitmask(all) == 15;
   }
 };

@@ -97,19 +97,16 @@ template <int D> class Questions {
   }
 
   /// Takes the staged answers of the other space: see Neighbours::take_answers.
-  SMALL void take_answers(u32 set, u32 total, bool exact) {
+  SMALL u32 take_answers(u32 set, u32 total, bool exact) {
     neighbours[set].take_answers(index(), bulk.given.data(), total, exact, options_.touching);
+    return total;
   }
 
-  /// Stages rows that begin with the slots of the loose boxes; returns how many.
-  SMALL u32 stage_loose(u32 set) {
-    u32 count = neighbours[set].loose();
-    if (count > 0) neighbours[set].write_loose(bulk.stage(count * Index<D>::row));
-    return count;
-  }
+  /// Stages rows that begin with the slots of the loose boxes.
+  SMALL void stage_loose(u32 set) { neighbours[set].write_loose(bulk.stage(neighbours[set].loose() * Index<D>::row)); }
 
   /// Finds the pairs of the loose boxes, whose rows are staged.
-  SMALL void meet_loose(u32 set) {
+  SMALL u32 meet_loose(u32 set) {
     Neighbours<D>& near = neighbours[set];
     f64 reach = index().most_reach();
     u32 count = near.take_loose(bulk.given, reach);
@@ -117,6 +114,7 @@ template <int D> class Questions {
     asked.touching = options_.touching;
     ask_many(Asks::meeting, count, 1);
     near.meet_loose(index(), bulk.offsets(), bulk.ids.data(), reach == 0, options_.touching);
+    return count;
   }
 
   SMALL void release() {
