@@ -17,7 +17,7 @@ import type { KernelInstance } from './kernel/instance.ts';
 import { everything } from './query-options.ts';
 
 const where = 'pairsWith';
-/** Numbers of a row besides the box: see `fill_rows` in kernel/questions/bulk.hpp. */
+/** Numbers of a row besides the box: see `write_row` in kernel/questions/index.hpp. */
 const rowMore = 3;
 /** The number of views kept, so that a length seen recently makes no garbage. */
 const viewsKept = 256;
