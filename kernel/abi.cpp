@@ -10,6 +10,7 @@ BOTH(Index)
 BOTH(Queries)
 BOTH(PlaneQuery)
 BOTH(Bulk)
+BOTH(Neighbours)
 BOTH(Numbers)
 BOTH(Store)
 BOTH(Questions)
@@ -312,32 +313,51 @@ EXPORT(many_ids_address)() -> const u32* {
 EXPORT(many_hits_address)() -> const Hit* {
   return with_space([](auto& space) { return space.questions.bulk.hits.data(); });
 }
-/// For spaces that keep pairs with this one: the epoch of the list of changes (-1: no copy was kept of what the last
-/// update saw), its length, and the list itself: see changed_ids.hpp.
-EXPORT(log_epoch)() -> u32 {
-  return with_space([](auto& space) { return space.questions.keep_changes(); });
-}
-EXPORT(log_count)() -> u32 {
-  return with_space([](auto& space) { return space.store.changed.count(); });
-}
-EXPORT(log_address)() -> const u32* {
-  return with_space([](auto& space) { return space.store.changed.list(); });
-}
-/// The number of boxes in the last update.
-EXPORT(seen_count)() -> u32 {
-  return with_space([](auto& space) { return space.questions.index().count(); });
+/// What read_log and the functions for pairs with another space write to io, in this order: of the list of changes its
+/// length, its address, and how far boxes reach; the address and the number of the pairs, and of loose boxes how many.
+enum LogPlace : u32 { log_count_at, log_at, most_reach_at };
+enum MetPlace : u32 { met_at, met_count_at, loose_count_at };
+/// For spaces that keep pairs with this one: the epoch of the list of changes, which is described in changed_ids.hpp.
+/// -1: no copy was kept of what the last update saw.
+EXPORT(read_log)() -> u32 {
+  return with_space([](auto& space) {
+    u32 epoch = space.questions.keep_changes();
+    io[log_count_at] = space.store.changed.count();
+    io[log_at] = f64(reinterpret_cast<size_t>(space.store.changed.list()));
+    io[most_reach_at] = space.questions.index().most_reach();
+    return epoch;
+  });
 }
 /// Fills rows that were staged instead of queries, and begin with a slot: see Bulk::fill_rows.
 EXPORT(see_rows)(u32 count) -> void {
   with_space([&](auto& space) { space.questions.bulk.fill_rows(space.questions.index(), count); });
 }
-/// The largest reach of a box in the last update.
-EXPORT(most_reach)() -> f64 {
-  return with_space([](auto& space) { return space.questions.index().most_reach(); });
+/// Calls `what` with the queries, then says which pairs a set has.
+template <class What> static auto with_met(u32 set, What what) {
+  return with_space([&](auto& space) {
+    u32 result = what(space.questions);
+    auto& near = space.questions.neighbours[set];
+    io[met_at] = f64(reinterpret_cast<size_t>(near.pairs()));
+    io[met_count_at] = near.count();
+    io[loose_count_at] = near.loose();
+    return result;
+  });
 }
-/// Whether the two boxes at the start of `io` overlap, in a world that wraps around.
-EXPORT(meet_around)() -> u32 {
-  return with_space([](auto& space) { return u32(space.questions.meet_around(io)); });
+/// Brings the pairs with another space up to date as far as lists tell: see Questions::begin_pairs.
+EXPORT(begin_pairs)(u32 set, u32 changes, u32 same, u32 first, f64 reach) -> u32 {
+  return with_met(set, [&](auto& asks) { return asks.begin_pairs(set, changes, same != 0, first != 0, reach); });
+}
+/// Takes the staged answers of the other space.
+EXPORT(take_answers)(u32 set, u32 total, u32 exact) -> u32 {
+  return with_met(set, [&](auto& asks) { return asks.take_answers(set, total, exact != 0); });
+}
+/// Stages rows that begin with the slots of the loose boxes in the other space.
+EXPORT(stage_loose)(u32 set) -> void {
+  with_space([&](auto& space) { space.questions.stage_loose(set); });
+}
+/// Finds the pairs of the loose boxes, whose rows are staged.
+EXPORT(meet_loose)(u32 set) -> u32 {
+  return with_met(set, [&](auto& asks) { return asks.meet_loose(set); });
 }
 EXPORT(hits_address)() -> const Hit* {
   return with_space([](auto& space) { return space.questions.hits.data(); });

@@ -18,12 +18,11 @@ import type {
 } from './dimensions.ts';
 import { areNumbers, badCentred, badSet, badSwept, badValue, checkId, isId, isSize, maxId } from './errors.ts';
 import type { Technique as LeanTechnique } from './generated/kernel-lean.ts';
-import type { Kept } from './kept-pairs.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import type { Ring } from './kernel/ring.ts';
 import { type BroadPhaseOptions, type ConstructorOptions, open } from './options.ts';
 import { beganIn, eachPair, endedIn, pairsIn, update } from './pairs.ts';
-import { pairsWith } from './pairs-between.ts';
+import { type Kept, pairsWith } from './pairs-between.ts';
 import * as places from './place-queries.ts';
 import { queryPlanes } from './plane-queries.ts';
 import * as ahead from './queries.ts';

@@ -38,6 +38,8 @@ struct Failure {
 };
 [[noreturn]] inline void fail(Fault what, f64 bytes) { throw Failure{what, bytes}; }
 #endif
+// Always inlined: for hot loops in which the compiler decides otherwise.
+#define INLINE __attribute__((always_inline)) inline
 
 /// A sink for values that are read only to prefetch them: it keeps the compiler from removing the reads.
 inline volatile u32 unneeded;

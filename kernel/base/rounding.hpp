@@ -15,6 +15,12 @@ inline f32 round_down(f64 x) {
 }
 inline f32 round_up(f64 x) { return -round_down(-x); }
 
+/// The smallest double above x; NaN above infinity.
+inline f64 next_up(f64 x) {
+  u64 b = bits<u64>(x);
+  return x == 0 ? 0x1p-1074 : bits<f64>(x > 0 ? b + 1 : b - 1);
+}
+
 /// The largest below x, and the smallest above; NaN where there is none.
 inline f32 next_below(f64 x) {
   f32 least = round_down(x);

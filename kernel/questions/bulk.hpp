@@ -17,7 +17,6 @@ template <int D> class Bulk {
   // Mean number of answers per query so far. Above this, single queries are faster, since they take whole subtrees.
   static constexpr u32 crowded = 1000;
 
-  Buffer<f64> given_;  // the numbers of all queries, then the id that each ignores
   Areas<D> areas_;
   Casts<D> casts_;
   Buffer<u32> offsets_;  // per query, where its answers begin; then where those of the last end
@@ -35,6 +34,7 @@ template <int D> class Bulk {
   static bool is_finite(f64 x) { return x - x == 0; }
 
  public:
+  Buffer<f64> given;  // the numbers of all queries, then the id that each ignores, unless they are for meeting
   Buffer<u32> ids;  // the answers of queries for areas
   Buffer<Hit> hits;  // the answers of queries with an order
   u64 looks = 0;  // blocks visited by all queries of a call
@@ -42,7 +42,7 @@ template <int D> class Bulk {
   const u32* offsets() const { return offsets_.data(); }
 
   /// Room for the numbers of queries.
-  SMALL f64* stage(u32 numbers) { return given_.reserve(numbers); }
+  SMALL f64* stage(u32 numbers) { return given.reserve(numbers); }
 
   /// The first query with bad numbers, or -1.
   SMALL i32 first_bad(Asks kind, u32 count) const {
@@ -66,7 +66,7 @@ template <int D> class Bulk {
       if (n == 0) together = may && found <= u64(k) * crowded;
       if (together && n == 0) ask_together(index, asked, kind, k, count, at = found);
       bool asks = kind == Asks::others ? take_box(index, k, asked) : read(kind, k, asked);
-      if (kind != Asks::others) asked.ignored = ignored(kind, k, count);
+      if (kind < Asks::others) asked.ignored = ignored(kind, k, count);
       if (moves(kind)) asked.measure_way(kind == Asks::ray);
       asked.limit = limit;
       if (index.world()) asked.wrap(index.world());
@@ -106,21 +106,10 @@ template <int D> class Bulk {
     }
   }
 
-  /// Fills rows with what the last update saw. A row begins with a slot, which becomes the id, or -1 if the box meets
-  /// nobody. After it come the box, enlarged by its reach, its layer and its mask.
+  /// Fills staged rows, each of which begins with a slot.
   SMALL void fill_rows(const Index<D>& index, u32 count) {
-    f64* row = given_.data();
-    for (u32 k = 0; k < count; k++, row += width + 3) {
-      u32 slot = u32(row[0]);
-      Rule rule = slot < index.count() ? index.rule(slot) : Rule{};
-      row[0] = -1;
-      if (rule.is_off() || rule.layer == 0 || rule.mask == 0) continue;
-      row[0] = index.id_of_slot(slot);
-      index.box_of_slot(slot, row + 1);
-      for (u32 k = 0; k < width; k++) row[1 + k] += k < D ? -index.reach(slot) : index.reach(slot);
-      row[width + 1] = rule.layer;
-      row[width + 2] = rule.mask;
-    }
+    f64* to = given.data();
+    for (u32 k = 0; k < count; k++, to += Index<D>::row) index.write_row(u32(to[0]), to);
   }
 
   /// Answers `count` queries with nothing.
@@ -130,7 +119,7 @@ template <int D> class Bulk {
   }
 
   SMALL void release() {
-    given_.release();
+    given.release();
     casts_.release();
     areas_.release();
     offsets_.release();
@@ -141,7 +130,7 @@ template <int D> class Bulk {
  private:
   /// Reads a query; false if its numbers are bad.
   bool read(Asks kind, u32 k, Question<D>& to) const {
-    const f64* from = given_.data() + u64(k) * stride(kind);
+    const f64* from = given.data() + u64(k) * stride(kind);
     bool boxed = has_box(kind), good = true;
     for (int a = 0; a < D; a++) {
       to.lo[a] = from[a];
@@ -194,7 +183,7 @@ template <int D> class Bulk {
     return found;
   }
 
-  u32 ignored(Asks kind, u32 k, u32 count) const { return u32(given_[u64(count) * stride(kind) + k]); }
+  u32 ignored(Asks kind, u32 k, u32 count) const { return u32(given[u64(count) * stride(kind) + k]); }
 
   /// Makes the box in a slot the query; false if it is off.
   static bool take_box(const Index<D>& index, u32 slot, Question<D>& to) {

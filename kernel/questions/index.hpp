@@ -35,6 +35,8 @@ template <int D> class Index {
   RadixSort sort_;
 
  public:
+  /// Numbers in a row: see `write_row`.
+  static constexpr u32 row = width + 3;
   /// The place of a box that is off.
   static constexpr u32 nowhere = 0xffffffff;
   /// Eight boxes; NaN for unused lanes.
@@ -65,15 +67,34 @@ template <int D> class Index {
   u32 id_of_slot(u32 slot) const { return seen_.named ? seen_.ids[slot] : slot; }
   /// Of all places.
   const u32* ids() const { return seen_.named ? placed_ids_.data() : slots_.data(); }
-  /// By slot: the rule of a box, and the numbers it was given with.
+  /// By slot: the rule of a box.
   Rule rule(u32 slot) const { return seen_.filtered ? seen_.rules[slot] : Rule{0xffffffff, 0xffffffff, 0}; }
-  void box_of_slot(u32 slot, f64* to) const {
-    for (u32 k = 0; k < width; k++)
-      to[k] = seen_.rounded ? seen_.exact[u64(slot) * width + k] : f64(seen_.boxes[u64(slot) * width + k]);
+  /// Writes the box in a slot, enlarged by its reach and with its maxima negated, two numbers at a time.
+  void turned_box(u32 slot, f64x2* to) const {
+    f64 reach = seen_.reached ? seen_.reaches[slot] : 0;
+    for (u32 k = 0; k < D; k++) {
+      u64 from = u64(slot) * width + 2 * k;
+      f64x2 bounds = seen_.rounded ? load<f64x2>(&seen_.exact[from])
+                                   : widen(bits<f32x4>(f64x2{load<f64>(&seen_.boxes[from]), 0}));
+      f64x2 sign = {2 * k < D ? 0.0 : -0.0, 2 * k + 1 < D ? 0.0 : -0.0};
+      to[k] = bits<f64x2>(bits<u64x2>(bounds) ^ bits<u64x2>(sign)) - splat(reach);
+    }
+  }
+  /// Writes a row: the id, or -1 if the box meets nobody, this box, its layer and its mask.
+  SMALL void write_row(u32 slot, f64* to) const {
+    to[0] = -1;
+    if (slot >= count()) return;
+    Rule its = rule(slot);
+    if (!its.meets_some()) return;
+    f64x2 box[D];
+    turned_box(slot, box);
+    __builtin_memcpy(to + 1, box, sizeof(box));
+    to[0] = id_of_slot(slot);
+    to[width + 1] = its.layer;
+    to[width + 2] = its.mask;
   }
   bool filtered() const { return seen_.filtered; }
-  /// By slot: how far a box reaches; and an upper bound for all boxes.
-  f64 reach(u32 slot) const { return seen_.reached ? seen_.reaches[slot] : 0; }
+  /// An upper bound for how far boxes reach.
   f64 most_reach() const { return seen_.most_reach; }
   u32 slot(u32 place) const { return slots_[place]; }
   const u32* slots() const { return slots_.data(); }

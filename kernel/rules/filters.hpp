@@ -18,6 +18,8 @@ struct Rule {
   /// A mark beside the exclusion bits: the box is off, and in no pair and no answer.
   static constexpr u32 off = 2;
   bool is_off() const { return excluded & off; }
+  /// Whether it may meet boxes of another space.
+  bool meets_some() const { return !is_off() && layer != 0 && mask != 0; }
 };
 
 inline bool meet(const Rule& a, const Rule& b) {

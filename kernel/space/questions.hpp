@@ -1,9 +1,12 @@
 // The queries of a space: their arguments, the code that answers them, and the place of the answers. Queries see the
 // boxes of the last update: see seen.hpp.
 #pragma once
-#include "questions/bulk.hpp"
+#include "questions/neighbours.hpp"
 #include "questions/plane_query.hpp"
 #include "space/store.hpp"
+
+/// With how many other spaces a space can have pairs without starting over.
+inline constexpr u32 most_neighbours = 16;
 
 template <int D> class Questions {
   const Settings& options_;
@@ -15,6 +18,7 @@ template <int D> class Questions {
   Buffer<u32> answers;  // ids, of the last query
   Hits hits;  // of queries whose answers are in order
   Bulk<D> bulk;  // many queries in one call, and their answers
+  Neighbours<D> neighbours[most_neighbours];  // for the pairs with other spaces
 
   static constexpr u32 unknown = 0xffffffff;  // an answer: no copy was kept of what the last update saw
 
@@ -81,17 +85,43 @@ template <int D> class Questions {
     return store_.changed.keep();
   }
 
-  /// Whether two boxes, stored one after the other, overlap in a world that wraps around.
-  SMALL bool meet_around(const f64* boxes) const {
-    Copies copies;
-    copies.begin(options_.wrap, D, boxes, boxes + D);
-    return copies.meets(boxes + 2 * D, options_.touching);
+  /// Brings the pairs of a set up to date as far as its lists tell: see Neighbours::begin. The changes are staged as
+  /// queries are; then queries of the other space are, which reaches as far as `reach`.
+  SMALL u32 begin_pairs(u32 set, u32 changes, bool same, bool first, f64 reach) {
+    u32 epoch = keep_changes();
+    if (epoch == unknown) return unknown;
+    Neighbours<D>& near = neighbours[set];
+    u32 asked = near.begin(index(), store_.changed, epoch, bulk.given.data(), changes, same, first);
+    if (asked != near.still && asked > 0) near.write_questions(index(), bulk.stage(asked * (Index<D>::row - 1)), reach);
+    return asked;
+  }
+
+  /// Takes the staged answers of the other space: see Neighbours::take_answers.
+  SMALL u32 take_answers(u32 set, u32 total, bool exact) {
+    neighbours[set].take_answers(index(), bulk.given.data(), total, exact, options_.touching);
+    return total;
+  }
+
+  /// Stages rows that begin with the slots of the loose boxes.
+  SMALL void stage_loose(u32 set) { neighbours[set].write_loose(bulk.stage(neighbours[set].loose() * Index<D>::row)); }
+
+  /// Finds the pairs of the loose boxes, whose rows are staged.
+  SMALL u32 meet_loose(u32 set) {
+    Neighbours<D>& near = neighbours[set];
+    f64 reach = index().most_reach();
+    u32 count = near.take_loose(bulk.given, reach);
+    asked = {};
+    asked.touching = options_.touching;
+    ask_many(Asks::meeting, count, 1);
+    near.meet_loose(index(), bulk.offsets(), bulk.ids.data(), reach == 0, options_.touching);
+    return count;
   }
 
   SMALL void release() {
     answers.release();
     hits.release();
     bulk.release();
+    for (Neighbours<D>& near : neighbours) near.release();
   }
 
  private:

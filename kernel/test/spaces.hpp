@@ -2,6 +2,7 @@
 #pragma once
 #include "calls.hpp"
 #include "corpus.hpp"
+#include "pairs_between.hpp"
 
 /// Calls `what(technique)` for every technique; messages name it by its number.
 template <class What> void each_technique(What what) {
@@ -376,6 +377,7 @@ template <int D> void list_space_tests() {
       {"spaces keep the numbers they were given", D, check_rounding<D>},
       {"spaces name bad boxes written in place", D, check_exposed<D>},
       {"spaces refuse bad boxes and stay as they were", D, check_bad_boxes<D>},
+      {"spaces find the pairs with another space", D, check_pairs_between<D>},
       {"spaces leave out pairs that share an exclusion bit", D, check_colours<D>},
       {"statistics are finite whatever the boxes", D, check_statistics<D>},
   });

@@ -115,7 +115,7 @@ export interface Pairs<D extends Dimensions> {
    * each: for example of a level at rest and the things that move in it. The pairs are retained between calls, so a
    * call costs only what has changed. Filters and reaches count as between boxes of one space, boxes that are off are
    * in no pair, and static boxes and groups make no difference. The order depends on the calls made. The array stays as
-   * it is until the next call.
+   * it is until the next call. If tens of thousands of boxes move, the first call may detach views such as `pairs`.
    *
    * @param other a space with the same `dimensions`, `wrap` and `touching`
    * @throws TypeError for anything but another space; RangeError for one that differs in these; Error for one that was

@@ -20,6 +20,8 @@ export class KernelInstance {
   readonly farthest: number;
   /** Whether boxes that only touch overlap. */
   readonly touching: boolean;
+  /** What uses each of the kernel's sets of lists: see pairs-between.ts. */
+  neighbours: { used: number }[] = [];
   /** The kernel's functions, without flushing the ring first. */
   exports: KernelExports;
   readonly ring: Ring;
@@ -76,6 +78,7 @@ export class KernelInstance {
     this.#doubles = this.#io = this.#stats = new Float64Array();
     this.exposed = undefined;
     this.#pairViews = [];
+    this.neighbours = [];
     this.#stagedViews = [];
   }
 

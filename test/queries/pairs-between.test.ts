@@ -85,6 +85,78 @@ describe(`pairs with another space (SEED=${seed})`, () => {
     }
   });
 
+  /** Moves most boxes of a side a little: they stay within their regions, whose lists then have the pairs. */
+  function creep(side: Side, doubles: boolean): void {
+    for (const [id, { box }] of side.entries) {
+      if (side.random() < 0.1) continue;
+      const by = box.map(() => (side.random() - 0.5) / 4);
+      const d = box.length / 2;
+      side.set(id, doubles ? box.map((x, k) => x + by[k % d]!) : box.map((x, k) => Math.fround(x + by[k % d]!)));
+    }
+  }
+
+  test.each(cases.filter(([, wrap]) => !wrap))(
+    'of boxes that creep, come, go, and change their rules, in %iD, wrapped %j, touching %j',
+    (dimensions, _, touching) => {
+      for (let round = 0; round < runs(16); round++) {
+        const options = { dimensions, touching } as never;
+        const here = new Side(options, seed + round);
+        const there = new Side(options, seed + round + 1000);
+        here.reaching = round % 4 > 1;
+        there.reaching = round % 2 > 0;
+        if (round % 3) here.space.technique = there.space.technique = 'incremental';
+        for (let frame = 0; frame < 24; frame++) {
+          creep(here, round % 5 > 1);
+          if (frame % 8 === 7) creep(there, round % 5 > 2);
+          here.change(frame === 0 ? 50 : here.integer(2) * here.integer(4));
+          there.change(frame === 0 ? 90 : there.integer(2) * there.integer(3));
+          here.update();
+          there.update();
+          if (frame % 12 === 11) here.replace(40, round % 2 > 0, () => here.box());
+          expect(keys(here.space.pairsWith(there.space))).toEqual(expected(here.seen, there.seen, undefined, touching));
+        }
+      }
+    },
+  );
+
+  test('with more spaces than have lists, in any order', () => {
+    for (let round = 0; round < runs(8); round++) {
+      const options = { dimensions: 2 } as never;
+      const movers = new Side(options, seed + round);
+      movers.change(30);
+      const others = Array.from({ length: 24 }, (_, k) => new Side(options, seed + round + 100 * k));
+      for (const other of others) {
+        other.change(20 + other.integer(60));
+        other.update();
+      }
+      for (let frame = 0; frame < 20; frame++) {
+        creep(movers, true);
+        movers.update();
+        for (let n = 0; n < 12; n++) {
+          const k = movers.integer(others.length);
+          const other = others[k]!;
+          if (other.random() < 0.1) {
+            other.space.dispose();
+            others[k] = new Side(options, seed + round + 100 * frame);
+            continue;
+          }
+          if (other.random() < 0.3) other.change(2);
+          if (other.random() < 0.7) other.update();
+          expect(keys(movers.space.pairsWith(other.space))).toEqual(expected(movers.seen, other.seen));
+          if (n % 4) continue;
+          expect(keys(other.space.pairsWith(movers.space))).toEqual(expected(other.seen, movers.seen));
+        }
+      }
+    }
+  });
+
+  test('an array of pairs stays as it is when another space takes over the lists', () => {
+    const movers = new BroadPhase().set(3, 0, 0, 1, 1).update();
+    const levels = Array.from({ length: 20 }, (_, k) => new BroadPhase().set(k, 0, 0, 9, 9).update());
+    const found = levels.map((level) => movers.pairsWith(level));
+    expect(found.map((pairs) => [...pairs])).toEqual(levels.map((_, k) => [3, k]));
+  });
+
   test('what rests is looked at once, and the same array comes again', () => {
     const level = new BroadPhase().setAll(Array.from({ length: 400 }, (_, k) => (k >> 2) + (k & 2 ? 2 : 0))).update();
     const movers = new BroadPhase().set(3, 5, 5, 6, 6).update();
