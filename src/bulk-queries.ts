@@ -188,31 +188,24 @@ function collect(
   const ordered = kind < asks.box || kind === asks.others;
   const first = (ordered ? instance.kernel.many_hits_address() : instance.kernel.many_ids_address()) >>> 2;
   for (let k = 0; k <= count; k++) offsets[k] = words[ends + k]!;
-  if (ordered) copyHits(instance, answer, total, first);
-  else for (let n = 0; n < total; n++) ids[n] = words[first + n]!;
+  for (let n = 0; n < total; n++) {
+    if (ordered) copyHit(instance, answer, n, first + 4 * n);
+    else ids[n] = words[first + n]!;
+  }
   const all = instance.kernel.answers_address() >>> 2;
   if (of !== undefined) for (let k = 0; k < count; k++) of[k] = words[all + k]!;
   return answer;
 }
 
-/** Copies `total` hits from a place in the kernel's memory. */
-function copyHits(
-  instance: KernelInstance,
-  { ids, distances, times, normals }: Answer,
-  total: number,
-  at: number,
-): void {
+/** Copies the hit at a place in the kernel's memory. */
+function copyHit(instance: KernelInstance, to: Answer, n: number, at: number): void {
   const words = instance.wordView();
-  const doubles = instance.doubleView();
-  const ranks = distances ?? times!;
-  const { dimensions } = instance;
-  if (normals !== undefined) normals.fill(0, 0, total * dimensions);
-  for (let n = 0; n < total; n++, at += 4) {
-    ids[n] = words[at + 2]! & maxId; // the bits above it say whether it was met at a corner
-    ranks[n] = doubles[at >>> 1]!;
-    if (normals === undefined) continue;
-    const side = words[at + 3]! | 0;
-    if (side !== 0) normals[n * dimensions + Math.abs(side) - 1] = Math.sign(side);
+  to.ids[n] = words[at + 2]! & maxId; // the bits above it say whether it was met at a corner
+  (to.distances ?? to.times!)[n] = instance.doubleView()[at >>> 1]!;
+  if (to.normals === undefined) return;
+  const side = words[at + 3]! | 0;
+  for (let axis = 0; axis < instance.dimensions; axis++) {
+    to.normals[n * instance.dimensions + axis] = side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0;
   }
 }
 

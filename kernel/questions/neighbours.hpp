@@ -10,24 +10,43 @@
 #pragma once
 #include "questions/bulk.hpp"
 
-/// A number for each id, 0 at first.
+/// A number for each of a few ids, 0 for all others: a hash table with linear probing, at most half full. Ids may be
+/// near 2^24, and a table by id would then grow memory, which detaches JavaScript's views.
 class IdMarks {
-  Buffer<u32> marks_;
-  u32 known_ = 0;
+  Buffer<u64> places_;  // the id + 1, above its number; 0: free
+  u32 log_ = 0;  // 2^log_ of them; 0: none
+
+  u32 home(u32 id) const { return (id * 0x9e3779b9u) >> (32 - log_); }
+  u32 next(u32 at) const { return (at + 1) & ((1u << log_) - 1); }
 
  public:
-  u32 operator[](u32 id) const { return id < known_ ? marks_[id] : 0; }
-  SMALL void set(u32 id, u32 mark) {
-    if (id >= known_) {
-      marks_.grow(u64(id) + 1, known_);
-      __builtin_memset(&marks_[known_], 0, (id + 1 - known_) * sizeof(u32));
-      known_ = id + 1;
+  bool has_room(u64 ids) const { return log_ > 0 && 2 * ids <= u64(1) << log_; }
+  /// Forgets all, and makes room for this many ids.
+  SMALL void begin(u64 ids) {
+    u32 log = 6;
+    while (u64(1) << log < 2 * ids) log++;
+    log_ = 0;  // while there is no memory
+    __builtin_memset(places_.reserve(u64(1) << log), 0, sizeof(u64) << log);
+    log_ = log;
+  }
+  SMALL void forget() { log_ = 0; }
+
+  u32 operator[](u32 id) const {
+    if (log_ == 0) return 0;
+    for (u32 at = home(id); places_[at]; at = next(at)) {
+      if (places_[at] >> 32 == id + 1) return u32(places_[at]);
     }
-    marks_[id] = mark;
+    return 0;
+  }
+  /// Adds an id that has no number. There must be room for it.
+  SMALL void add(u32 id, u32 number) {
+    u32 at = home(id);
+    while (places_[at]) at = next(at);
+    places_[at] = u64(id + 1) << 32 | number;
   }
   SMALL void release() {
-    marks_.release();
-    known_ = 0;
+    places_.release();
+    log_ = 0;
   }
 };
 
@@ -68,8 +87,8 @@ class NeighbourLists {
   u32 asked_ = 0;
   Buffer<u32> loose_;  // of each loose box the id, and the slot in the other space
   u32 loose_count_ = 0;
-  IdMarks loose_at_;  // per id of the other space: its place among these + 1
-  IdMarks changed_;  // per id of this space
+  IdMarks loose_at_;  // by id of the other space: its place among these + 1
+  IdMarks changed_;  // by id of this space
   Buffer<f64> rows_;  // of loose boxes
   u32 epoch_ = 0, read_ = 0;  // of the list of changes here: its epoch, and how much has been read
 
@@ -77,7 +96,7 @@ class NeighbourLists {
   u32 row() const { return width() + 3; }
 
   SMALL void drop() {
-    for (u32 k = 0; k < loose_count_; k++) loose_at_.set(loose_[2 * k], 0);
+    loose_at_.forget();
     loose_count_ = known_ = end_ = made_ = 0;
   }
 
@@ -85,9 +104,13 @@ class NeighbourLists {
   SMALL void loosen(const f64* others, u32 many, u32 boxes) {
     if (loose_count_ + many > least_loose + boxes / loose_share) drop();
     loose_.grow(2 * u64(loose_count_ + many) + 1, 2 * loose_count_);
+    if (!loose_at_.has_room(loose_count_ + many)) {
+      loose_at_.begin(2 * u64(loose_count_ + many));
+      for (u32 k = 0; k < loose_count_; k++) loose_at_.add(loose_[2 * k], k + 1);
+    }
     for (u32 k = 0; k < many; k++) {
       u32 id = u32(others[2 * k]), at = loose_at_[id];
-      if (at == 0) loose_at_.set(id, at = ++loose_count_);
+      if (at == 0) loose_at_.add(id, at = ++loose_count_);
       loose_[2 * at - 2] = id;
       loose_[2 * at - 1] = u32(others[2 * k + 1]);
     }
@@ -107,13 +130,13 @@ class NeighbourLists {
   SMALL u32 take_changed(const ChangedIds& changed, u32 boxes) {
     u32 some = 0;
     const u32* list = changed.list();
+    changed_.begin(changed.count() - read_);
     for (u32 k = changed.count(); k-- > read_;) {  // backwards: only the last change of an id counts
       if (changed_[list[2 * k]]) continue;
-      changed_.set(list[2 * k], 1);
+      changed_.add(list[2 * k], 1);
       if (list[2 * k + 1] < boxes) asking_[some++] = list[2 * k + 1];
     }
     filter(changed_, shift_);
-    for (u32 k = read_; k < changed.count(); k++) changed_.set(list[2 * k], 0);
     return some;
   }
 
