@@ -81,6 +81,7 @@ export function abi() {
     number('boxes/ring.hpp', 'most_entries', 'ringCapacity'),
     '/** For the pairs with other spaces: how many sets of lists there are, and an answer: nothing has changed. */',
     number('space/questions.hpp', 'most_neighbours'),
+    number('questions/neighbours.hpp', 'still'),
     '/** Places of the counters. */',
     constant('statsLength', stats.length),
     ...stats.map((name, place) => constant(`${name}Stat`, place)),

@@ -12,6 +12,7 @@ import {
   metCountAt,
   mostNeighbours,
   mostReachAt,
+  still,
 } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { everything } from './query-options.ts';
@@ -21,8 +22,6 @@ const where = 'pairsWith';
 const rowMore = 3;
 /** The number of views kept, so that a length seen recently makes no garbage. */
 const viewsKept = 256;
-/** An answer of `begin_pairs`: nothing has changed. As a signed number. */
-const still = -2;
 /** The first of the numbers by which views of pairs are kept: those below are of the space's own pairs. */
 const firstList = 3;
 

@@ -15,6 +15,9 @@ inline f32 round_down(f64 x) {
 }
 inline f32 round_up(f64 x) { return -round_down(-x); }
 
+/// Twice the rounding error of a sum of two doubles, relative to them.
+inline constexpr f64 sum_rounding = 0x1p-52;
+
 /// The smallest double above x; NaN above infinity.
 inline f64 next_up(f64 x) {
   u64 b = bits<u64>(x);

@@ -80,7 +80,7 @@ template <int D> class Bulk {
   SMALL void cast_all(const Index<D>& index, const Question<D>& asked, Asks kind, u32 count, Hits& best) {
     CastPace pace;
     for (u32 k = 0, some, found = 0; k < count; k += some) {
-      some = smaller(count - k, pace.batch());
+      some = smaller(count - k, pace.batch(Casts<D>::most));
       casts_.begin(index);
       for (u32 n = 0; n < some; n++) {
         Question<D>& one = casts_.asked(n) = asked;

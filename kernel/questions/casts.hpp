@@ -87,9 +87,9 @@ class CastPace {
   u32 seen_ = 0, next_ = 0;
 
  public:
-  /// How far the next batch searches; the number of its rays; whether it is worth trying.
+  /// How far the next batch searches; the number of its rays, at most `most`; whether it is worth trying.
   f64 reach() const { return reach_; }
-  u32 batch() const { return reach_ > 0 ? 64 : first; }
+  u32 batch(u32 most) const { return reach_ > 0 ? most : first; }
   bool tries() const { return reach_ > 0 && seen_ >= next_; }
 
   /// Records how far a ray went.

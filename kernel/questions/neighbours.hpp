@@ -57,7 +57,6 @@ class NeighbourLists {
   static constexpr u32 least_age = 4;  // calls that a list has to serve: of faster boxes, larger regions would not help
   static constexpr u32 least_loose = 32, loose_share = 16;  // boxes that may be loose, plus one in so many boxes here
   static constexpr u32 tidy_share = 4;  // entries are tidied once one in so many lists has been made again
-  static constexpr f64 sum_share = 0x1p-52;  // twice the rounding error of a sum, relative to its terms
 
  protected:
   static constexpr f64 growth = 0.5;  // at first
@@ -221,7 +220,7 @@ class NeighbourLists {
   SMALL void widen(f64* box, f64 more) const {
     for (u32 k = 0; k < width(); k++) {
       f64 far = __builtin_fabs(box[k]);
-      if (far < __builtin_inf()) box[k] -= more + (far + more) * sum_share;
+      if (far < __builtin_inf()) box[k] -= more + (far + more) * sum_rounding;
     }
   }
 
@@ -249,7 +248,7 @@ class NeighbourLists {
   }
 
  public:
-  static constexpr u32 still = 0xfffffffe;  // an answer: nothing has changed
+  static constexpr u32 still = -2;  // an answer: nothing has changed
 
   const u64* pairs() const { return pairs_.data(); }
   u32 count() const { return count_; }

@@ -101,14 +101,13 @@ template <int D> struct SeenBoxes {
  private:
   /// Adding the reach to a bound rounds the sum, so that it may end up further away than the reach.
   SMALL f64 reach_of(u32 slot) const {
-    constexpr f64 rounding_share = 0x1p-52;  // twice that of one sum
     f64 reach = reaches[slot], most = reach;
     if (reach == 0) return 0;
     for (u64 k = u64(slot) * width; k < (u64(slot) + 1) * width; k++) {
       f64 bound = __builtin_fabs(rounded ? exact[k] : f64(boxes[k]));
       if (bound < __builtin_inf()) most = larger(most, bound);
     }
-    return reach + 2 * most * rounding_share;
+    return reach + 2 * most * sum_rounding;
   }
 
   template <class T> static void copy(Buffer<T>& to, const T* from, u64 n, u64 padding) {
