@@ -5,15 +5,28 @@
 /// A 2D box with the signs of its maxima flipped: the test of two boxes is then four comparisons of the same kind.
 inline f32x4 turned(i32x4 box) { return bits<f32x4>(box ^ i32x4{0, 0, i32(1u << 31), i32(1u << 31)}); }
 
-template <int D> bool boxes_touch(const f32* one, const f32* other) {
+/// Whether two boxes overlap. If bounds of theirs that face each other are equal, lanes of `equal` are set, and perhaps its
+/// last lane for no reason in 3D.
+template <int D> bool boxes_touch(const f32* one, const f32* other, i32x4& equal) {
   if constexpr (D == 2) {
     i32x4 its = load<i32x4>(other);
-    return bitmask(turned(load<i32x4>(one)) <= turned(__builtin_shufflevector(its, its, 2, 3, 0, 1))) == 15;
+    f32x4 mine = turned(load<i32x4>(one)), facing = turned(__builtin_shufflevector(its, its, 2, 3, 0, 1));
+    equal |= mine == facing;
+    return bitmask(mine <= facing) == 15;
   } else {
-    u32 both = bitmask((load<f32x4>(one) <= load<f32x4>(other + D)) & (load<f32x4>(other) <= load<f32x4>(one + D)));
-    return !(~both & 7);
+    f32x4 low = load<f32x4>(one), high = load<f32x4>(one + D), its_low = load<f32x4>(other);
+    f32x4 its_high = load<f32x4>(other + D);
+    equal |= (low == its_high) | (its_low == high);
+    return !(~bitmask((low <= its_high) & (its_low <= high)) & 7);
   }
 }
+template <int D> bool boxes_touch(const f32* one, const f32* other) {
+  i32x4 unused;
+  return boxes_touch<D>(one, other, unused);
+}
+
+/// Whether `boxes_touch` has found equal bounds.
+template <int D> bool any_equal(i32x4 equal) { return bitmask(equal) & (D == 2 ? 15 : 7); }
 
 /// A box is held as its first four numbers and its last four, which in 2D are the same. Writes it.
 template <int D> void store_box(f32* to, f32x4 first, f32x4 last) {
@@ -31,10 +44,4 @@ template <int D> f32x4 maxima(f32x4 first, f32x4 last) {
 template <int D> i32x4 alike(const f32* one, const f32* other) {
   i32x4 same = load<f32x4>(one) == load<f32x4>(other);
   return D == 2 ? same : same & (load<f32x4>(one + 2) == load<f32x4>(other + 2));
-}
-
-/// The axes along which a bound of one box equals the facing bound of the other.
-template <int D> i32x4 equal_bounds(const f32* one, const f32* other) {
-  i32x4 equal = (load<f32x4>(one) == load<f32x4>(other + D)) | (load<f32x4>(other) == load<f32x4>(one + D));
-  return equal & (D == 2 ? i32x4{-1, -1, 0, 0} : i32x4{-1, -1, -1, 0});
 }

@@ -53,6 +53,7 @@ template <int D> class CandidateList {
 
   bool is_empty() const { return count_ == 0; }
   u32 resting() const { return resting_; }
+  bool rests_at(u32 slot) const { return slot < count_ && (tags_[slot] & rests); }
   /// Candidates that are tested in each update.
   u64 tested() const { return candidates_.count + extra_.count; }
   /// The statistics of the sweep that made the list.
@@ -103,6 +104,8 @@ template <int D> class CandidateList {
 
   /// Counts an update.
   void pass() { origin_age_++; }
+  /// The updates since boxes were recorded.
+  u32 origin_age() const { return origin_age_; }
 
   /// Makes a list of these boxes. `some_rest`: some may be at rest. Regions that would reach further ahead than `far`
   /// do not reach ahead at all.
@@ -235,7 +238,11 @@ template <int D> class CandidateList {
     for (u64 k = 0; k < candidates_.count; k++) {
       u64 pair = list[k];
       bool rest = tags_[u32(pair)] & tags_[u32(pair >> 32)] & rests;
-      if (watched_ && rest) rest = !any(equal_bounds<D>(scene.box(u32(pair)), scene.box(u32(pair >> 32))));
+      if (watched_ && rest) {
+        i32x4 touching = {};
+        boxes_touch<D>(scene.box(u32(pair)), scene.box(u32(pair >> 32)), touching);
+        rest = !any_equal<D>(touching);
+      }
       list[left] = *out = pair;
       left += !rest;
       out += rest;
@@ -428,10 +435,9 @@ template <int D> class CandidateList {
           u64 pair = list[k];
           const f32 *one = boxes + u64(u32(pair)) * width, *other = boxes + (pair >> 32) * width;
           *out = pair;
-          out += boxes_touch<D>(one, other);
-          if constexpr (watch) touching |= equal_bounds<D>(one, other);
+          out += boxes_touch<D>(one, other, touching);
         }
-        if (watch && any(touching)) pairs.doubt(begin, out);
+        if (watch && any_equal<D>(touching)) pairs.doubt(begin, out);
       }
     }
     pairs.count = Pairs::between(pairs.list.data(), out);

@@ -21,6 +21,7 @@ template <int D> class Incremental {
   Prospect<D> prospect_ = {};
   PairOrder order_;
   bool ended_ = false;  // a new list is due
+  u32 rested_ = 0;  // boxes at rest when a list last ended since more of them rest
   u32 age_ = 0;  // of the list, in updates
   f64 made_ = 0;  // work per box: of making the list
   f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // since then: for late boxes; the running mean of that; in all
@@ -40,9 +41,9 @@ template <int D> class Incremental {
     list_.watch(pairs.watch);
     bool kept = find(scene, f32(options.margin), pairs, stats);
     if (!kept) rebuild(scene, options, pairs, stats);
-    stats.reason = f64(u32(kept                                     ? Reason::kept
-                           : pause_ > 0 || scene.count < tuning.few ? Reason::moving
-                                                                    : Reason::watching));
+    stats.reason = f64(u32(kept                                                  ? Reason::kept
+                           : pause_ > 0 || scene.count < Watch<D>::least_watched ? Reason::moving
+                                                                                 : Reason::watching));
     if (!scene.ordered) return;
     order_.sort(pairs.list.data(), pairs.count, scene.count);
     pairs.doubt_count = 0;  // the pairs have moved
@@ -71,7 +72,7 @@ template <int D> class Incremental {
 
   SMALL bool find(const Scene<D>& scene, f32 margin, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
-    if (n < tuning.few) {
+    if (n < Watch<D>::least_watched) {
       forget();
       return false;
     }
@@ -95,8 +96,13 @@ template <int D> class Incremental {
       return false;
     }
     Plan plan = choose(scene);
-    if (plan.work > tuning.worth * prospect_.fresh) {
+    if (plan.work == __builtin_inf()) {
       if (!list_.is_empty() || watch_.known() >= tuning.watched) give_up();
+      return false;
+    }
+    if (list_.is_empty() && list_.origin_age() > 2 * plan.lead && plan.lead > 0) {  // velocities are out of date
+      list_.remember(scene, watch_.common());
+      pause_ = plan.lead;
       return false;
     }
     if (margin > 0) plan = {margin, watch_.growth(margin, prospect_), 0, 0};
@@ -113,7 +119,8 @@ template <int D> class Incremental {
   SMALL Plan choose(const Scene<D>& scene) {
     prospect_.looked = scene.listed() ? f64(scene.changes->count()) / scene.count : 1;
     prospect_.rest = watch_.resting();
-    return watch_.plan(prospect_, tuning);
+    prospect_.planning = tuning.planning / scene.count;
+    return watch_.plan(prospect_, tuning, prospect_.fresh);
   }
 
   void rebuild(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
@@ -124,7 +131,7 @@ template <int D> class Incremental {
     prospect_.fresh = (tuning.entry * stats.entries + stats.tests) / n;
     prospect_.tests = stats.tests / n;
     prospect_.pairs = larger(pairs.count / n, tuning.least_pairs);
-    if (scene.count >= tuning.few) learn_sizes(scene.count);
+    if (scene.count >= Watch<D>::least_watched) learn_sizes(scene.count);
   }
 
   SMALL void build(const Scene<D>& scene, const Plan& plan) {
@@ -133,7 +140,7 @@ template <int D> class Incremental {
     ended_ = false;
     age_ = 0;
     lateness_ = smooth_ = life_ = 0;
-    made_ = list_.made_work() / n;
+    made_ = prospect_.planning + list_.made_work() / n;
     prospect_.rest = list_.resting() / n;
     // These two estimates may only go down. One that is too low is corrected by the rebuild after the list is given up.
     // One that is too high would keep the list alive, so it would never be corrected.
@@ -180,13 +187,17 @@ template <int D> class Incremental {
     f64 least = list_.least_work(looked) / n;
     life_ += late + least;
     age_++;
-    ended_ |= least > tuning.worth * prospect_.fresh;
+    ended_ |= least > prospect_.fresh;
     ended_ |= smooth_ * age_ > made_ + lateness_;
-    // If more boxes have come to rest, a new list will not test their pairs.
-    bool judged = (age_ & (age_ - 1)) == 0 || watch_.is_new();
-    ended_ |= judged && age_ >= tuning.watched && list_.tested() > 0 && watch_.more_rest(list_.resting() / n);
+    if (age_ < tuning.watched || list_.tested() == 0) return;
+    // A new list will not test the pairs of boxes that have come to rest.
+    f64 more = watch_.newly_resting([&](u32 slot) { return list_.rests_at(slot); });
+    bool pays = 2 * more * tuning.candidate * list_.tested() / n * age_ > made_;
+    if (!pays && (more < 1 || list_.resting() == rested_)) return;
+    rested_ = list_.resting();
+    ended_ = true;
   }
 
   /// Whether the list has cost less than rebuilds would have.
-  bool has_paid() const { return life_ + made_ <= tuning.worth * prospect_.fresh * age_; }
+  bool has_paid() const { return life_ + made_ <= prospect_.fresh * age_; }
 };

@@ -35,6 +35,7 @@ template <int D> struct Prospect {
   f64 fresh = 0;  // work of a rebuild
   f64 tests = 0;  // the tests in that
   f64 rest = 0;  // the share of boxes that will be known to rest
+  f64 planning = 0;  // work of choosing the margin
 
   /// Candidates that an update tests: all but the pairs of two boxes at rest.
   f64 candidates(f64 growth) const { return pairs * growth * (1 - rest * rest); }
@@ -77,7 +78,7 @@ template <int D> struct Growth {
 
 template <int D> class Watch {
   // One box in `watched_share` is watched, within these limits.
-  static constexpr u32 watched_share = 16, least_watched = 32, most_watched = 256;
+  static constexpr u32 watched_share = 16, most_watched = 256;
   static constexpr f64 common_share = 0.75;  // common motion is subtracted if it leaves less than this share
   static constexpr u32 width = 2 * D, horizons = 7, buckets = 24, voters = 31;
 
@@ -89,12 +90,13 @@ template <int D> class Watch {
     f32x4 led;  // the furthest it has been since then from the path that goes on like that
     u32 slot, jumps;
   };
-  /// How far the samples got within 1, 2, 4 … updates, and how often they jumped.
+  /// How far the samples got within 1, 2, 4 … updates.
   struct Horizon {
-    // From where they began; and in as many further updates, from regions that reach ahead.
-    f32 reach[2][most_watched];
+    // How many got how far: from where they began; and in as many further updates, from regions that reach ahead.
+    u32 far[2][buckets + 1];
+    f32 size;  // the unit of the buckets
+    u32 many, still, jumps;  // samples; those that did not move; jumps of all
     f32x4 lead[2 * voters];
-    u32 jumps[most_watched];
   };
 
   Buffer<Sample> samples_;
@@ -105,6 +107,7 @@ template <int D> class Watch {
 
  public:
   static constexpr f32 farthest = 4;  // of a box's size: longer motion counts as this, so that one jump does not decide
+  static constexpr u32 least_watched = 16;  // boxes: fewer are not watched
   static constexpr u32 longest = 1u << (horizons - 1);  // updates
 
   /// The common motion so far.
@@ -123,16 +126,23 @@ template <int D> class Watch {
 
   /// The share of boxes that have not moved within `known` updates.
   f64 resting() const {
-    u32 count = 0;
-    for (u32 k = 0; known_ > 0 && !common_ && k < many_; k++)
-      count += horizons_[known_ - 1].reach[0][k] == 0 && horizons_[known_ - 1].jumps[k] == 0;
-    return count ? f64(count) / many_ : 0;
+    if (known_ == 0 || common_) return 0;
+    const Horizon& last = horizons_[known_ - 1];
+    return f64(last.still) / last.many;
   }
 
-  /// Whether all boxes are at rest, or significantly more than `share`: by two standard deviations of such a sample.
-  bool more_rest(f64 share) const {
-    f64 more = resting() - share;
-    return more > 0 && (share + more == 1 || more * more * many_ > 4 * share * (1 - share));
+  /// The share of boxes that have come to rest without being `known` to rest; 1 if no box moves. 0 in most updates: it is
+  /// looked for 8, 16 and 32 updates after samples were taken.
+  template <class Known> SMALL f64 newly_resting(Known known) const {
+    if (age_ < 8 || (age_ & (age_ - 1)) != 0 || common_) return 0;
+    u32 still = 0, found = 0;
+    for (u32 k = 0; k < many_; k++) {
+      const Sample& sample = samples_[k];
+      bool rests = sample.jumps == 0 && most_of(sample.far) == 0;
+      still += rests;
+      found += rests && !known(sample.slot);
+    }
+    return still == many_ ? 1 : f64(found) / many_;
   }
 
   /// Follows the samples in this update. `size`: of a box; one that moves further than this in one update has jumped.
@@ -149,30 +159,18 @@ template <int D> class Watch {
     total_ = now;
     for (u32 k = 0; k < many_; k++) follow(samples_[k], scene.box(samples_[k].slot), since, step, size);
     for (u32 h = 0; h < horizons; h++) {
-      if (age_ != 1u << h) continue;
-      for (u32 k = 0; k < many_; k++) {
-        Sample& sample = samples_[k];
-        horizons_[h].reach[0][k] = most_of(sample.far);
-        horizons_[h].jumps[k] = sample.jumps;
-        if (h > 0) horizons_[h - 1].reach[1][k] = most_of(sample.led);
-        const f32* box = scene.box(sample.slot);
-        sample.lead = bounded(on_axes(load<f32x4>(box) - since(sample.at[0])), farthest * size);
-        sample.led = f32x4{};
-        if (k < 2 * voters) horizons_[h].lead[k] = sample.lead;
-      }
-      known_ = larger(known_, h + 1);
+      if (age_ == 1u << h) record(scene, h, since, size);
     }
     if (age_ == longest) begin(scene);
   }
 
-  /// The plan with the least work.
-  SMALL Plan plan(const Prospect<D>& prospect, const Tuning<D>& tuning) const {
+  /// The plan with the least work, if that is less than `most`.
+  SMALL Plan plan(const Prospect<D>& prospect, const Tuning<D>& tuning, f64 most) const {
     Plan best;
-    f64 scale = larger(prospect.size, 1e-30), plain = space(prospect, nullptr)(0);
+    Growth<D> plain = space(prospect, nullptr);
     for (u32 led = 0; led < 2; led++) {
-      u32 late[buckets] = {};
-      f64 bursts[buckets] = {};
-      for (u32 h = 0; h + led < known_; h++) weigh(h, led, scale, plain, late, bursts, prospect, tuning, best);
+      f64 late[buckets] = {}, bursts[buckets] = {};
+      for (u32 h = 0; h + led < known_; h++) weigh(h, led, plain, late, bursts, prospect, tuning, most, best);
     }
     return best;
   }
@@ -205,6 +203,29 @@ template <int D> class Watch {
     return all;
   }
 
+  /// Records how far the samples have got within 2^h updates.
+  SMALL void record(const Scene<D>& scene, u32 h, const Shift& since, f32 size) {
+    Horizon &now = horizons_[h], &before = horizons_[h > 0 ? h - 1 : horizons];
+    now.size = larger(size, 1e-30f);
+    now.many = many_;
+    now.still = now.jumps = 0;
+    __builtin_memset(now.far[0], 0, sizeof(now.far[0]));
+    __builtin_memset(before.far[1], 0, sizeof(before.far[1]));
+    for (u32 k = 0; k < many_; k++) {
+      Sample& sample = samples_[k];
+      f32 far = most_of(sample.far);
+      now.far[0][bucket_of(far, now.size)]++;
+      now.still += far == 0 && sample.jumps == 0;
+      now.jumps += sample.jumps;
+      before.far[1][bucket_of(most_of(sample.led), before.size)]++;
+      const f32* box = scene.box(sample.slot);
+      sample.lead = bounded(on_axes(load<f32x4>(box) - since(sample.at[0])), farthest * size);
+      sample.led = f32x4{};
+      if (k < 2 * voters) now.lead[k] = sample.lead;
+    }
+    known_ = larger(known_, h + 1);
+  }
+
   static f32 most_of(f32x4 far) { return larger(larger(far[0], far[1]), larger(far[2], far[3])); }
 
   /// Sets the lanes that are not an axis to 0.
@@ -218,7 +239,7 @@ template <int D> class Watch {
 
   SMALL void begin(const Scene<D>& scene) {
     samples_.reserve(most_watched);
-    horizons_.reserve(horizons);
+    horizons_.reserve(horizons + 1);  // one more, which takes what nobody asks for
     many_ = smaller(most_watched, larger(scene.count / watched_share, least_watched));
     smallest_ = 0;
     detail::Sampling sampling(scene.count, many_);
@@ -302,44 +323,50 @@ template <int D> class Watch {
     return true;
   }
 
-  /// The upper end of a bucket of distances, in mean sizes. Buckets are half octaves.
+  /// The upper end of a bucket of distances, in sizes. Buckets are half octaves.
   static f64 edge(u32 bucket) {
     f64 octave = bits<f64>(u64(1023 + bucket / 2 - 10) << 52);
     return bucket & 1 ? octave * 1.5 : octave;
   }
+  static u32 bucket_of(f32 far, f32 size) {
+    i32 bucket = i32((bits<u32>(far / size) + (1u << 22) - 1) >> 22) - i32(bits<u32>(f32(edge(0))) >> 22);
+    return u32(larger(0, smaller(bucket, i32(buckets))));
+  }
 
-  /// Weighs all margins for one horizon, and replaces `best` if one takes less work. `led`: regions reach ahead. Per
-  /// margin, `lates`: samples that were late in half as many updates; `bursts`: the most per update so far.
-  SMALL void weigh(u32 h, u32 led, f64 scale, f64 plain, u32* lates, f64* bursts, const Prospect<D>& prospect,
-                   const Tuning<D>& tuning, Plan& best) const {
-    Growth<D> all = space(prospect, led ? horizons_[h].lead : nullptr);
-    u32 tail[buckets + 1] = {};  // samples whose distance is in a bucket
-    f64 jumps = 0, updates = 1u << h;
-    f32 unit = f32(1 / scale);
-    u32 lowest = bits<u32>(f32(edge(0))) >> 22;
-    for (u32 k = 0; k < many_; k++) {
-      i32 bucket = i32((bits<u32>(horizons_[h].reach[led][k] * unit) + (1u << 22) - 1) >> 22) - i32(lowest);
-      tail[larger(0, smaller(bucket, i32(buckets)))]++;
-      jumps += horizons_[h].jumps[k];
-    }
+  /// Weighs all margins for one horizon, and replaces `best` if one takes less work, and less than `most`. `plain`: the
+  /// growth of regions that do not reach ahead; `led`: these do. Per margin, `lates`: the share of samples that were late
+  /// in half as many updates; `bursts`: the most per update so far.
+  NOINLINE void weigh(u32 h, u32 led, const Growth<D>& plain, f64* lates, f64* bursts, const Prospect<D>& prospect,
+                      const Tuning<D>& tuning, f64 most, Plan& best) const {
+    const Horizon& horizon = horizons_[h];
+    f64 updates = 1u << h, share = 1.0 / horizon.many;
     // A box is late once, and once more for each `late_margin` that it moves further.
     f64 events[buckets + 1] = {}, beyond = 0, sum = 0;
     for (u32 m = buckets + 1; m-- > 0;) {
       if (m < buckets) {
-        bursts[m] = larger(bursts[m], (f64(beyond) - lates[m]) / (updates - u32(updates) / 2));
-        lates[m] = u32(beyond);
+        bursts[m] = larger(bursts[m], (beyond - lates[m]) * (h ? 2 / updates : 1));
+        lates[m] = beyond;
       }
       events[m] = beyond + (sum - beyond * edge(m)) / tuning.late_margin;
-      beyond += tail[m];
-      sum += tail[m] * edge(m);
+      f64 here = horizon.far[led][m] * share;
+      beyond += here;
+      sum += here * edge(m);
     }
-    f64 late = tuning.late / many_;
+    f64 looked = tuning.look * prospect.looked, jumps = horizon.jumps * share;
+    f64 least = looked + tuning.candidate * prospect.candidates(1) +
+                (prospect.planning + prospect.build(1, tuning)) / updates;
+    Growth<D> all = led ? Growth<D>{} : plain;
     for (u32 m = 0; m < buckets - 2; m++) {
-      f64 margin = scale * edge(m), growth = all(margin) / plain, build = prospect.build(growth, tuning);
-      if (bursts[m] * late > tuning.burst * prospect.fresh || build > tuning.build * prospect.fresh) continue;
-      f64 work = tuning.look * prospect.looked + tuning.candidate * prospect.candidates(growth);
-      work += (build + (jumps + events[m]) * late) / updates;
-      if (work < best.work * (led && !best.lead ? tuning.ahead : 1)) best = {f32(margin), growth, led << h, work};
+      f64 limit = smaller(most, best.work * (led && !best.lead ? tuning.ahead : 1));
+      f64 lateness = (jumps + events[m]) * tuning.late / updates;
+      if (bursts[m] * tuning.late > tuning.burst * prospect.fresh || least + lateness >= limit) continue;
+      if (all.of[0] == 0) all = space(prospect, horizon.lead);
+      f64 margin = horizon.size * edge(m), growth = all(margin) / plain(0), build = prospect.build(growth, tuning);
+      if (build > tuning.build * prospect.fresh) return;  // as for all larger ones
+      f64 work = looked + tuning.candidate * prospect.candidates(growth) + lateness;
+      work += (prospect.planning + build) / updates;
+      if (work < limit) best = {f32(margin), growth, led << h, work};
+      if (events[m] == 0) return;  // larger ones only cost more
     }
   }
 };

@@ -65,8 +65,10 @@ template <int D> class SweepList {
       u32x4 at = axes(load<f32x4>(hi + k));  // past the last item: NaN, for which any cell will do
       u32x4 until = {starts[at[0]], starts[at[1]], starts[at[2]], starts[at[3]]};
       store(end + k, until);
+      tests += u64(until[0]) + until[1] + until[2] + until[3];
     }
-    for (u32 k = 0; k < count; k++) tests += end[k] - k - 1;
+    for (u32 k = count; k % 4 > 0; k++) tests -= end[k];
+    tests -= u64(count) * (count + 1) / 2;
     if (crowd > uneven * count && 3 * crowd > tests) return order_by_sorting(items, count);
     return tests;
   }

@@ -22,7 +22,8 @@ template <int D> class StripSweep {
   // Strips with more items than this do not fit the cache of the core.
   static constexpr f64 cached_items = 8192;
   static constexpr f64 least_items = 100;  // in a strip, on average: shorter ones cost more than they save
-  static constexpr u32 one_strip_below = 2000;  // fewer boxes stay one strip, unless that has too many candidates
+  static constexpr u32 one_strip_below = 400;  // fewer boxes stay one strip, unless that has too many candidates
+  static constexpr u32 sampled_from = 2000;  // fewer boxes are not sampled: all are looked at
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
   static constexpr u32 deepest = 6;
   // A strip is cut again if it has this many candidates per item, this many in all, and fewer hits among them than the
@@ -189,15 +190,18 @@ template <int D> class StripSweep {
   SMALL bool cut_up(const Scene<D>& scene) {
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     SceneSample<D> world;
-    bool one_strip = scene.count < one_strip_below;
-    if (one_strip) {
+    bool is_finite = false;
+    if (scene.count < sampled_from) {
       world = glance<D>(plain, scene.count);
-      int a = world.longest();
-      one_strip = scene.count * world.size[a] <= again_factor * (world.high[a] - world.low[a]);
+      is_finite = true;
+      for (f64 high : world.high) is_finite &= high < __builtin_inf();
+      for (f64 low : world.low) is_finite &= low > -__builtin_inf();
     }
-    if (!one_strip) world = measure<D>(plain, scene.count);
-    order_ = AxisOrder<D>::make(world.longest());
-    if (one_strip) {
+    if (!is_finite) world = measure<D>(plain, scene.count);
+    int a = world.longest();
+    order_ = AxisOrder<D>::make(a);
+    bool sparse = scene.count * world.size[a] <= again_factor * (world.high[a] - world.low[a]);
+    if (sparse && scene.count < one_strip_below) {
       cut_.world = world.in(order_);
       leave_whole();
       return false;
