@@ -60,7 +60,7 @@ template <int D> class CandidateList {
   const Stats& built() const { return built_; }
 
   /// The work of this update for late boxes, and of any update without them. `looked`: boxes that it checks.
-  f64 late_work() const { return late_count_ * tuning.late + (met_ + extra_.count) * tuning.candidate; }
+  f64 late_work() const { return late_count_ * tuning.late_among(count_) + (met_ + extra_.count) * tuning.candidate; }
   f64 least_work(f64 looked) const { return candidates_.count * tuning.candidate + looked * tuning.look; }
   /// The work of making the list.
   f64 made_work() const {
@@ -144,7 +144,7 @@ template <int D> class CandidateList {
     bool moved = shift.differs(shift_);
     shift_ = shift;
     if (!shift.is_sound()) return false;
-    u32 enough = u32(smaller(most * n / tuning.late, n / 2.0));
+    u32 enough = u32(smaller(most * n / tuning.late_among(n), n / 2.0));
     if (!moved && scene.listed() && !scene.changes->most(n)) late_count_ = look_at(scene, both, list);
     else late_count_ = resting_ ? look<true>(scene, both, list, enough) : look<false>(scene, both, list, enough);
     bool other = filtered_ != (scene.excluded != nullptr) || grouped_ != (scene.groups != nullptr);

@@ -120,6 +120,7 @@ template <int D> class Incremental {
     prospect_.looked = scene.listed() ? f64(scene.changes->count()) / scene.count : 1;
     prospect_.rest = watch_.resting();
     prospect_.planning = tuning.planning / scene.count;
+    prospect_.late = tuning.late_among(scene.count);
     return watch_.plan(prospect_, tuning, prospect_.fresh);
   }
 

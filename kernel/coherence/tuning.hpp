@@ -9,8 +9,9 @@ template <int D> struct Tuning {
   f64 look = 1;                      // tests: to check whether a box is in its region
   f64 candidate = D == 2 ? 2 : 3;    // tests: to test a candidate
   f64 planning = 3000;               // tests: to choose a margin
-  f64 late = D == 2 ? 300 : 500;                    // tests: to give a box that has left its region a new one
-  f64 late_margin = 0.5;             // of a box's size: the margin of that new region, or the list's if larger
+  f64 late = D == 2 ? 300 : 400;  // tests: to give a box that has left its region a new one
+  f64 far = D == 2 ? 1e9 : 5e4;  // boxes: among so many, that takes twice as long, since caches do not hold them all
+  f64 late_margin = 0.5;  // of a box's size: the margin of that new region, or the list's if larger
   f64 burst = 0.5;  // of a rebuild: the most work for late boxes that a plan may expect in one update
   f64 spike = 2;  // of an update's mean work, making the list included: if late boxes take more in one, the list ends
   f64 ahead = 0.85;  // of a plan with a margin alone: one that reaches ahead must promise to cost less
@@ -20,4 +21,7 @@ template <int D> struct Tuning {
   f64 smoothing = 0.4;  // weight of an update in the running mean of the work for late boxes
   f64 least_pairs = 0.02;  // pairs per box: fewer count as this many, so that nothing is divided by 0
   f64 apart = 8;  // boxes count as no smaller than their spacing divided by this
+
+  /// The work for a late box among n: at most three times `late`.
+  constexpr f64 late_among(f64 n) const { return late * (1 + 2 * n / (n + far)); }
 };
