@@ -21,7 +21,7 @@ template <int D> bool boxes_touch(const f32* one, const f32* other, i32x4& equal
   }
 }
 template <int D> bool boxes_touch(const f32* one, const f32* other) {
-  i32x4 unused;
+  i32x4 unused = {};
   return boxes_touch<D>(one, other, unused);
 }
 

@@ -1,5 +1,5 @@
 // The numbers that decide when retaining pairs pays. `npm run bench -- --motions --set tune --count 10000 --dimensions
-// 2 --by boxes` measures them; docs/decisions/0007-coherence.md shows the effect of halving and doubling each.
+// 2 --by boxes` measures them; docs/decisions/0007-coherence.md shows the effect of halving and doubling most.
 #pragma once
 #include "base/simd.hpp"
 

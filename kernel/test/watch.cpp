@@ -1,0 +1,95 @@
+// What a sample tells of how boxes move, and the margin chosen from it: watch.hpp.
+#include "coherence/watch.hpp"
+
+#include <vector>
+
+#include "check.hpp"
+#include "random.hpp"
+
+namespace {
+
+template <int D> struct World {
+  static constexpr u32 count = 60;
+  std::vector<f32> boxes = std::vector<f32>(count * 2 * D + 4);
+  std::vector<f64> velocities = std::vector<f64>(count * D);
+  Watch<D> watch;
+  Tuning<D> tuning;
+  Prospect<D> prospect;
+  Random random{31};
+
+  World() {
+    for (u32 k = 0; k < count; k++) {
+      for (u32 a = 0; a < D; a++) {
+        f32& low = boxes[k * 2 * D + a];
+        low = f32(200 * random.fraction());
+        boxes[k * 2 * D + D + a] = low + 10;
+        velocities[k * D + a] = random.fraction() - 0.5;
+      }
+    }
+    prospect.size = 10;
+    prospect.pairs = 0.5;
+    prospect.tests = 8;
+    prospect.fresh = tuning.entry + prospect.tests;
+    prospect.looked = 1;
+    prospect.late = tuning.late;
+  }
+  ~World() { watch.release(); }
+
+  /// Moves all boxes by their velocities times `speed`, and looks.
+  void update(f64 speed) {
+    for (u32 k = 0; k < count; k++) {
+      for (u32 a = 0; a < 2 * D; a++) boxes[k * 2 * D + a] += f32(speed * velocities[k * D + a % D]);
+    }
+    watch.look(Scene<D>{boxes.data(), count, nullptr}, 10);
+  }
+  void run(u32 updates, f64 speed) {
+    for (u32 k = 0; k < updates; k++) update(speed);
+  }
+  Plan plan() const { return watch.plan(prospect, tuning, prospect.fresh); }
+};
+
+/// Choosing a margin is part of what a list costs: then it must live longer, or is not worth it.
+template <int D> void check_planning() {
+  World<D> world;
+  world.run(65, 0.5);
+  Plan free = world.plan();
+  CHECK(free.work < world.prospect.fresh);
+  world.prospect.planning = world.tuning.planning / world.count;
+  Plan paid = world.plan();
+  CHECK(paid.work > free.work);
+  world.prospect.planning = 1e6;
+  CHECK(world.plan().work == __builtin_inf());
+}
+
+/// Boxes that were at rest for as long as is known, but move now, have not come to rest.
+template <int D> void check_rest() {
+  World<D> world;
+  auto nobody = [](u32) { return false; };
+  auto everybody = [](u32) { return true; };
+  world.run(65, 0);
+  CHECK(world.watch.resting() == 1);
+  world.run(8, 0.5);
+  CHECK(world.watch.resting() == 1);
+  CHECK(world.watch.newly_resting(nobody) == 0);
+  world.run(56, 0.5);
+  CHECK(world.watch.resting() == 0);
+  world.run(7, 0);
+  CHECK(world.watch.newly_resting(nobody) == 0);  // too early to tell
+  world.update(0);
+  CHECK(world.watch.newly_resting(nobody) == 1);
+  CHECK(world.watch.newly_resting(everybody) == 1);
+  world.velocities.assign(world.velocities.size(), 0);
+  for (u32 a = 0; a < D; a++) world.velocities[a] = 1;  // the first box is in every sample
+  world.run(64, 0.5);
+  f64 others = world.watch.newly_resting(nobody);
+  CHECK(others > 0.5);
+  CHECK(others < 1);
+  CHECK(world.watch.newly_resting(everybody) == 0);
+}
+
+TEST("the choice of a margin is counted, 2D") { check_planning<2>(); }
+TEST("the choice of a margin is counted, 3D") { check_planning<3>(); }
+TEST("boxes come to rest only if they move no longer, 2D") { check_rest<2>(); }
+TEST("boxes come to rest only if they move no longer, 3D") { check_rest<3>(); }
+
+}  // namespace
