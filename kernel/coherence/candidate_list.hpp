@@ -8,7 +8,7 @@
 //     first region, still determines which candidates are listed.
 //   - At rest: a box that has not moved since the previous list was made is its own region. Pairs of two such boxes are
 //     settled: they are at the head of the list of pairs and are not tested again.
-// Cost: about 1 ns per box and 2 ns per candidate; 0.1 (2D) to 0.6 µs per late box; 1.5 to two strip sweeps to make the
+// Cost: about 1 ns per box and 2 ns per candidate; 0.2 (2D) to 1.3 µs per late box; 1.5 to two strip sweeps to make the
 // list. Memory, in addition to that of strip sweep: about 71 (2D) or 95 (3D) bytes per box, and 8 per candidate.
 // From: L. Verlet, "Computer Experiments on Classical Fluids", 1967.
 #pragma once

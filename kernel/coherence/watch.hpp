@@ -92,6 +92,8 @@ template <int D> class Watch {
     f32x4 lead;  // its displacement at the last horizon
     f32x4 led;  // the furthest it has been since then from the path that goes on like that
     u32 slot, jumps;
+
+    bool rests() const { return jumps == 0 && most_of(far) == 0; }
   };
   /// How far the samples got within 1, 2, 4 … updates.
   struct Horizon {
@@ -141,9 +143,8 @@ template <int D> class Watch {
     u32 still = 0, found = 0;
     for (u32 k = 0; k < many_; k++) {
       const Sample& sample = samples_[k];
-      bool rests = sample.jumps == 0 && most_of(sample.far) == 0;
-      still += rests;
-      found += rests && !known(sample.slot);
+      still += sample.rests();
+      found += sample.rests() && !known(sample.slot);
     }
     return still == many_ ? 1 : f64(found) / many_;
   }
@@ -161,9 +162,7 @@ template <int D> class Watch {
     Shift now = since.after(begun_), step = now.after(total_.back());
     total_ = now;
     for (u32 k = 0; k < many_; k++) follow(samples_[k], scene.box(samples_[k].slot), since, step, size);
-    for (u32 h = 0; h < horizons; h++) {
-      if (age_ == 1u << h) record(scene, h, since, size);
-    }
+    if (judged) record(scene, u32(__builtin_ctz(age_)), since, size);
     if (age_ == longest) begin(scene);
   }
 
@@ -217,9 +216,8 @@ template <int D> class Watch {
     if (before) __builtin_memset(before->far[1], 0, sizeof(before->far[1]));
     for (u32 k = 0; k < many_; k++) {
       Sample& sample = samples_[k];
-      f32 far = most_of(sample.far);
-      now.far[0][bucket_of(far, now.size)]++;
-      now.still += far == 0 && sample.jumps == 0;
+      now.far[0][bucket_of(most_of(sample.far), now.size)]++;
+      now.still += sample.rests();
       now.jumps += sample.jumps;
       if (before) before->far[1][bucket_of(most_of(sample.led), before->size)]++;
       const f32* box = scene.box(sample.slot);

@@ -67,6 +67,7 @@ template <int D> class SweepList {
       store(end + k, until);
       tests += u64(until[0]) + until[1] + until[2] + until[3];
     }
+    // Each item k has end[k] - k - 1. What was added past the last item does not count.
     for (u32 k = count; k % 4 > 0; k++) tests -= end[k];
     tests -= u64(count) * (count + 1) / 2;
     if (crowd > uneven * count && 3 * crowd > tests) return order_by_sorting(items, count);

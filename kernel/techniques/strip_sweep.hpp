@@ -194,8 +194,8 @@ template <int D> class StripSweep {
     if (scene.count < sampled_from) {
       world = glance<D>(plain, scene.count);
       is_finite = true;
-      for (f64 high : world.high) is_finite &= high < __builtin_inf();
-      for (f64 low : world.low) is_finite &= low > -__builtin_inf();
+      for (int a = 0; a < D; a++)
+        is_finite &= detail::is_finite(f32(world.low[a])) && detail::is_finite(f32(world.high[a]));
     }
     if (!is_finite) world = measure<D>(plain, scene.count);
     int a = world.longest();
