@@ -42,6 +42,9 @@ Ring<3> solid_ring;
 template <class What> auto with_ring(What what) { return is_flat ? what(flat, flat_ring) : what(solid, solid_ring); }
 #endif
 
+/// The bytes of a space as it was in the beginning.
+template <int D> u8 initial[sizeof(Space<D>)];
+
 /// Calls `what` with the space in use.
 template <class What> auto with_space(What what) {
   return with_ring([&](auto& space, auto&) { return what(space); });
@@ -58,6 +61,7 @@ EXPORT(open_space)([[maybe_unused]] u32 dimensions) -> void {
 #if !defined(DIMENSIONS)
   is_flat = dimensions == 2;
 #endif
+  with_space([]<int D>(Space<D>& space) { __builtin_memcpy(initial<D>, &space, sizeof space); });
 }
 EXPORT(set_cell_size)() -> void {
   for (int k = 0; k < 3; k++) options.cell_size[k] = io[k];
@@ -397,11 +401,11 @@ EXPORT(recover)() -> u32 {
 }
 
 /// Resets everything as in a new instance, except that memory stays grown. Returns the largest number of bytes that were
-/// ever in use. Objects are constructed again rather than emptied, so that nothing can be missed.
+/// ever in use. Objects get their first bytes rather than being emptied, so that nothing can be missed.
 SMALL EXPORT(begin_anew)() -> size_t {
   new (&ids) Ids;
   options = Settings{};
-  with_space([]<int D>(Space<D>& space) SMALL { new (&space) Space<D>(ids, options); });
+  with_space([]<int D>(Space<D>& space) { __builtin_memcpy(static_cast<void*>(&space), initial<D>, sizeof space); });
   return heap::forget_all();
 }
 #endif
