@@ -84,6 +84,9 @@ inline Item<3> with_tag(Item<3> item, u32 more) {
   return {bits<f32x4>(bits<u32x4>(item.low) | u32x4{0, 0, 0, more}), item.high};
 }
 
+inline u32 tag_of(const Item<2>& item) { return item.tag; }
+inline u32 tag_of(const Item<3>& item) { return bits<u32x4>(item.low)[3]; }
+
 /// Whether two items are the same, bit by bit.
 inline bool same(const Item<2>& a, const Item<2>& b) {
   return a.tag == b.tag && !any(bits<i32x4>(a.box) ^ bits<i32x4>(b.box));

@@ -4,12 +4,13 @@
 // region also reaches ahead, to where the box will be if it keeps moving as it has since the previous list was made.
 // Two boxes whose regions touch are a candidate. While boxes stay in their regions, an update only checks all boxes and
 // tests the candidates.
-//   - Late: a box that has left its region gets another, with the candidates that this adds. Its base, which is its
-//     first region, still determines which candidates are listed.
+//   - Late: a box that has left its region gets another, with the candidates that this adds. They are searched for in
+//     the strips that were swept to make the list, and among the new regions of other late boxes. Its base, which is
+//     its first region, still determines which candidates are listed.
 //   - At rest: a box that has not moved since the previous list was made is its own region. Pairs of two such boxes are
 //     settled: they are at the head of the list of pairs and are not tested again.
-// Cost: about 1 ns per box and 2 ns per candidate; 0.2 (2D) to 1.3 µs per late box; 1.5 to two strip sweeps to make the
-// list. Memory, in addition to that of strip sweep: about 71 (2D) or 95 (3D) bytes per box, and 8 per candidate.
+// Cost: about 1 ns per box and 2 ns per candidate; 0.3 (2D) to 2 µs per late box; 1.5 to two strip sweeps to make the
+// list. Memory, in addition to that of strip sweep: about 55 (2D) or 70 (3D) bytes per box, and 8 per candidate.
 // From: L. Verlet, "Computer Experiments on Classical Fluids", 1967.
 #pragma once
 #include "coherence/places.hpp"
@@ -23,7 +24,7 @@ template <int D> class CandidateList {
   static constexpr u32 padding = 4;  // vector loads may read this many floats past the last box
   static constexpr Tuning<D> tuning = {};
   // In a tag, below the exclusion bits:
-  enum : u32 { rests = 1, late = 2, fresh = 4 };
+  enum : u32 { rests = 1, late = 2, fresh = 4, moved = 8 };  // moved: it has a new region
 
   StripSweep<D>& anew_;
   u32 count_ = 0;  // boxes in the list; 0: there is no list
@@ -34,11 +35,11 @@ template <int D> class CandidateList {
   Buffer<f32> regions_;
   Buffer<f32> origins_;  // boxes as they were when the list was made; without a list, when the samples were taken
   u32 origin_count_ = 0, origin_age_ = 0;  // number of these boxes; updates since
-  Buffer<u32> tags_;  // exclusion bits, and below them `rests`, `late` and `fresh`
+  Buffer<u32> tags_;  // exclusion bits, and below them `rests`, `late`, `fresh` and `moved`
   Buffer<u32> groups_;  // while `grouped_`: two boxes of one group are not a candidate
   Buffer<u32> late_;  // slots of late boxes; after them, those that a search finds
-  Places<D> places_;  // of the regions and the bases; filled when the first box is late
-  bool placed_ = false;
+  Places<D> places_;  // of late boxes
+  bool finished_ = false;  // whether all candidates were found
   u32 late_count_ = 0, resting_ = 0;
   u64 met_ = 0;  // regions that the searches for late boxes have tested in this update
   Pairs candidates_, extra_, settled_;  // extra: those added by late boxes
@@ -52,15 +53,23 @@ template <int D> class CandidateList {
   constexpr explicit CandidateList(StripSweep<D>& anew) : anew_(anew) {}
 
   bool is_empty() const { return count_ == 0; }
+  u32 count() const { return count_; }
   u32 resting() const { return resting_; }
   bool rests_at(u32 slot) const { return slot < count_ && (tags_[slot] & rests); }
+  /// Whether the box of this slot, one of the list, will stay in its region if it moves by this much.
+  bool stays(const Scene<D>& scene, u32 slot, f32x4 move) const {
+    f32 box[width + padding];
+    store(box, load<f32x4>(scene.box(slot)) + move);
+    if constexpr (D == 3) store(box + D, load<f32x4>(scene.box(slot) + D) + move);
+    return is_expected<true>(box, region(slot), tags_[slot], shift_);
+  }
   /// Candidates that are tested in each update.
   u64 tested() const { return candidates_.count + extra_.count; }
   /// The statistics of the sweep that made the list.
   const Stats& built() const { return built_; }
 
   /// The work of this update for late boxes, and of any update without them. `looked`: boxes that it checks.
-  f64 late_work() const { return late_count_ * tuning.late_among(count_) + (met_ + extra_.count) * tuning.candidate; }
+  f64 late_work() const { return late_count_ * tuning.late_among(count_) + met_ + extra_.count * tuning.candidate; }
   f64 least_work(f64 looked) const { return candidates_.count * tuning.candidate + looked * tuning.look; }
   /// The work of making the list.
   f64 made_work() const {
@@ -107,9 +116,10 @@ template <int D> class CandidateList {
   /// The updates since boxes were recorded.
   u32 origin_age() const { return origin_age_; }
 
-  /// Makes a list of these boxes. `some_rest`: some may be at rest. Regions that would reach further ahead than `far`
-  /// do not reach ahead at all.
-  SMALL void build(const Scene<D>& scene, const Plan& plan, const Shift& common, bool some_rest, f32 far) {
+  /// Begins a list of these boxes, in place of the one there is. It can be used once `finish` has been called, also with
+  /// boxes that have moved since. `some_rest`: some may be at rest. Regions that would reach further ahead than `far` do
+  /// not reach ahead at all.
+  SMALL void begin(const Scene<D>& scene, const Plan& plan, const Shift& common, bool some_rest, f32 far) {
     u32 n = scene.count;
     make_room(n, smaller(count_, n));
     shift_ = common_.after(common.back());
@@ -125,37 +135,48 @@ template <int D> class CandidateList {
     margin_ = plan.margin;
     candidates_.count = extra_.count = settled_.count = head_ = 0;
     built_ = Stats{};
-    anew_.update(Scene<D>{regions_.data(), n, scene.excluded}, Settings{}, candidates_, built_);
-    if (grouped_) filter(candidates_, [&](u32 a, u32 b) { return !one_group(groups_[a], groups_[b]); });
-    built_.candidates = f64(candidates_.count);
-    if (resting_ > 0) settle(scene);
-    placed_ = false;
+    anew_.fill(Scene<D>{regions_.data(), n, scene.excluded}, built_, true);
+    finished_ = false;
+    places_.forget();
     shift_ = {};
     late_count_ = 0;
     met_ = 0;
   }
 
+  /// Finds this share of the candidates of a list that has begun.
+  SMALL void sweep(f64 share) { anew_.sweep(share, candidates_); }
+
+  /// Finds the candidates that are left.
+  SMALL void finish() {
+    sweep(1);
+    if (grouped_) filter(candidates_, [&](u32 a, u32 b) { return !one_group(groups_[a], groups_[b]); });
+    built_.candidates = f64(candidates_.count);
+    if (resting_ > 0) settle();
+    finished_ = true;
+  }
+  bool is_finished() const { return finished_; }
+
   /// Gives new regions to boxes that have left theirs. Returns false if that would take more than `most` work per box:
   /// then a new list is due. `size`: the size of boxes.
   SMALL bool follow(const Scene<D>& scene, const Shift& common, f64 most, f32 size) {
     u32 n = scene.count, had = count_, both = smaller(n, had);
-    u32* list = late_.reserve(2 * u64(n) + 4);
+    u32* list = late_.reserve(u64(n) + larger(n, anew_.count()) + 4);
     Shift shift = common_.after(common.back());
-    bool moved = shift.differs(shift_);
+    bool shifts = shift.differs(shift_);
     shift_ = shift;
     if (!shift.is_sound()) return false;
     u32 enough = u32(smaller(most * n / tuning.late_among(n), n / 2.0));
-    if (!moved && scene.listed() && !scene.changes->most(n)) late_count_ = look_at(scene, both, list);
+    if (!shifts && scene.listed() && !scene.changes->most(n)) late_count_ = look_at(scene, both, list);
     else late_count_ = resting_ ? look<true>(scene, both, list, enough) : look<false>(scene, both, list, enough);
     bool other = filtered_ != (scene.excluded != nullptr) || grouped_ != (scene.groups != nullptr);
     if (scene.filtered || other) refilter(scene, both, list);
     if (late_count_ + (n - both) > enough) return false;
     met_ = 0;
     if (late_count_ == 0 && n == had) return true;
-    if (!placed_) place();
+    if (!places_.has_room()) place();
     for (u32 slot = n; slot < had; slot++) {
       resting_ -= tags_[slot] & rests;
-      places_.remove(region(slot), slot);
+      if (tags_[slot] & moved) places_.remove(region(slot), slot);
     }
     make_room(n, both);
     if (grouped_) groups_.grow(n, both);
@@ -231,7 +252,7 @@ template <int D> class CandidateList {
   }
 
   /// Moves candidates of two boxes at rest to the settled pairs, except those in doubt, if these are recorded.
-  NOINLINE void settle(const Scene<D>& scene) {
+  NOINLINE void settle() {
     u64 left = 0;
     u64* list = candidates_.list.data();
     u64* out = settled_.list.reserve(candidates_.count + 1);
@@ -240,7 +261,7 @@ template <int D> class CandidateList {
       bool rest = tags_[u32(pair)] & tags_[u32(pair >> 32)] & rests;
       if (watched_ && rest) {
         i32x4 touching = {};
-        boxes_touch<D>(scene.box(u32(pair)), scene.box(u32(pair >> 32)), touching);
+        boxes_touch<D>(region(u32(pair)), region(u32(pair >> 32)), touching);
         rest = !any_equal<D>(touching);
       }
       list[left] = *out = pair;
@@ -319,13 +340,15 @@ template <int D> class CandidateList {
     }
   }
 
-  /// Puts all regions into grids, in which the neighbours of late boxes are searched.
-  NOINLINE void place() {
+  /// Makes room for late boxes.
+  SMALL void place() {
     f64 low[D], high[D], sizes[D];
     anew_.bounds(low, high, sizes);
-    places_.fill(regions_.data(), count_, low, high);
-    placed_ = true;
+    places_.clear(count_, low, high);
   }
+
+  /// The base of a box: the region that it had first.
+  const f32* base(u32 slot) const { return tags_[slot] & moved ? places_.base(slot) : region(slot); }
 
   template <class Stays> NOINLINE static void filter(Pairs& pairs, Stays stays) {
     u64 left = 0;
@@ -348,13 +371,14 @@ template <int D> class CandidateList {
       list[many++] = slot;
       were |= tag;
       resting_ -= tag & rests;
-      if (slot < had) places_.remove(region(slot), slot);
+      if (tag & moved) places_.remove(region(slot), slot);
+      else if (!(tag & fresh)) places_.keep_base(region(slot), slot);
       if (tag & fresh) {  // its listed candidates are dropped below
         tag = fresh | scene.excluded_of(slot);
         if (grouped_) groups_[slot] = scene.group_of(slot);
         places_.forget_base(slot);
       }
-      tags_[slot] = (tag & ~rests) | late;
+      tags_[slot] = (tag & ~rests) | late | moved;
     }
     auto filter_listed = [&](u32 a, u32 b) { return b < count_ && !((tags_[a] | tags_[b]) & fresh); };
     if (had > count_ || (were & fresh)) {
@@ -396,14 +420,20 @@ template <int D> class CandidateList {
     u32 tag = tags_[slot];
     shifted(scene.box(slot), box);
     widen(box, aside, f32x4{}, larger_one);
-    u32 found = places_.near(larger_one, regions_.data(), near, met_);
+    const f32* its_base = base(slot);
+    u32 found = 0;
+    for (u32 k = 0, all = anew_.near(larger_one, near, met_); k < all; k++) {
+      u32 other = near[k];
+      near[found] = other;
+      found += other < count_ && !(tags_[other] & moved);
+    }
+    found += places_.near(larger_one, regions_.data(), near + found, met_);
     u64* out = extra_.room(extra_.list.data() + extra_.count, found);
-    const f32* its_base = places_.base(slot);
     for (u32 k = 0; k < found; k++) {
       u32 other = near[k];
       *out = pair_of(slot, other);
       u32 together = grouped_ && one_group(groups_[slot], groups_[other]);
-      out += !(boxes_touch<D>(its_base, places_.base(other)) | together | (tag & tags_[other] & ~slot_mask));
+      out += !(boxes_touch<D>(its_base, base(other)) | together | (tag & tags_[other] & ~slot_mask));
     }
     extra_.count = Pairs::between(extra_.list.data(), out);
     __builtin_memcpy(region(slot), larger_one, width * sizeof(f32));

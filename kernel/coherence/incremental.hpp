@@ -5,6 +5,9 @@
 //     strip sweep runs, and a list is tried again after 8 to 512 updates.
 //   - A list ends when late boxes cost more than a new list would, on average, or much more in one update.
 //     Bounded motion never ends one.
+//   - A new list costs 1.5 rebuilds or more. If the old one has lived long, that is divided between two updates: the
+//     last one that the old list answers puts the regions into strips, the next one sweeps most of them. So the new list
+//     is begun when the sample tells that too many boxes will be late in the next update.
 // Nothing here reads a clock: work is counted, so the order of the pairs depends on the calls alone.
 // Wins when boxes are at rest, jitter, turn, or move by less than a tenth of their size. Equals strip sweep when they
 // jump.
@@ -20,10 +23,11 @@ template <int D> class Incremental {
   Watch<D> watch_;
   Prospect<D> prospect_ = {};
   PairOrder order_;
-  bool ended_ = false;  // a new list is due
   u32 rested_ = 0;  // boxes at rest when a list last ended since more of them rest
   u32 age_ = 0;  // of the list, in updates
+  bool ended_ = false;  // a new list is due
   f64 made_ = 0;  // work per box: of making the list
+  f64 growth_ = 1;  // that was expected of the list
   f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // since then: for late boxes; the running mean of that; in all
   u32 pause_ = 0, pauses_ = tuning.watched;
 
@@ -52,7 +56,8 @@ template <int D> class Incremental {
     pairs.same = false;
   }
 
-  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {
+  SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) {
+    if (!list_.is_empty() && !list_.is_finished()) finish();
     anew_.structure(boxes, count, list_.is_empty() ? stats : list_.built());
   }
 
@@ -84,31 +89,14 @@ template <int D> class Incremental {
     list_.pass();
     if (list_.is_empty() && watch_.is_new()) list_.remember(scene, watch_.common());
     if (prospect_.fresh == 0) return false;
-    if (!list_.is_empty() && !ended_ && list_.follow(scene, watch_.common(), most_lateness(), size())) {
-      list_.report(scene, pairs, stats);
-      account(scene);
-      return true;
+    if (!list_.is_empty() && !list_.is_finished()) finish();
+    if (list_.is_empty() || ended_ || !list_.follow(scene, watch_.common(), most_lateness(), size())) {
+      if (!begin(scene, margin)) return false;
+      finish();
     }
-    if (!list_.is_empty() && !has_paid()) give_up();
-    else if (!list_.is_empty() && age_ >= tuning.watched) pauses_ = tuning.watched;
-    if (list_.is_empty() && pause_ > 0) {
-      pause_--;
-      return false;
-    }
-    Plan plan = choose(scene);
-    if (plan.work == __builtin_inf()) {
-      if (!list_.is_empty() || watch_.known() >= tuning.watched) give_up();
-      return false;
-    }
-    if (list_.is_empty() && list_.origin_age() > 2 * plan.lead && plan.lead > 0) {  // velocities are out of date
-      list_.remember(scene, watch_.common());
-      pause_ = plan.lead;
-      return false;
-    }
-    if (margin > 0) plan = {margin, watch_.growth(margin, prospect_), 0, 0};
-    build(scene, plan);
     list_.report(scene, pairs, stats);
-    account(scene);
+    ended_ = account(scene);
+    if (ended_ && is_divided() && begin(scene, margin)) list_.sweep(tuning.at_once);
     return true;
   }
 
@@ -135,12 +123,37 @@ template <int D> class Incremental {
     if (scene.count >= Watch<D>::least_watched) learn_sizes(scene.count);
   }
 
-  SMALL void build(const Scene<D>& scene, const Plan& plan) {
-    f64 n = scene.count, growth = plan.growth;
-    list_.build(scene, plan, watch_.common(), watch_.resting() > 0, Watch<D>::farthest * size());
-    ended_ = false;
+  /// Begins a list in place of the one there is, if one is expected to pay. Otherwise drops that.
+  SMALL bool begin(const Scene<D>& scene, f32 margin) {
+    if (!list_.is_empty() && !has_paid()) give_up();
+    else if (!list_.is_empty() && age_ >= tuning.watched) pauses_ = tuning.watched;
+    if (list_.is_empty() && pause_ > 0) {
+      pause_--;
+      return false;
+    }
+    Plan plan = choose(scene);
+    if (plan.work == __builtin_inf()) {
+      if (!list_.is_empty() || watch_.known() >= tuning.watched) give_up();
+      return false;
+    }
+    if (list_.is_empty() && list_.origin_age() > 2 * plan.lead && plan.lead > 0) {  // velocities are out of date
+      list_.remember(scene, watch_.common());
+      pause_ = plan.lead;
+      return false;
+    }
+    if (margin > 0) plan = {margin, watch_.growth(margin, prospect_), 0, 0};
+    list_.begin(scene, plan, watch_.common(), watch_.resting() > 0, Watch<D>::farthest * size());
+    growth_ = plan.growth;
     age_ = 0;
+    ended_ = false;
     lateness_ = smooth_ = life_ = 0;
+    return true;
+  }
+
+  /// Finishes a list, and learns from its work.
+  SMALL void finish() {
+    list_.finish();
+    f64 n = list_.count(), growth = growth_;
     made_ = prospect_.planning + list_.made_work() / n;
     prospect_.rest = list_.resting() / n;
     // These two estimates may only go down. One that is too low is corrected by the rebuild after the list is given up.
@@ -178,8 +191,8 @@ template <int D> class Incremental {
     pauses_ = smaller(tuning.longest_pause, pauses_ * 2);
   }
 
-  /// Adds up the work of this update, and decides whether the list ends.
-  SMALL void account(const Scene<D>& scene) {
+  /// Adds up the work of this update, and returns whether a new list is due.
+  SMALL bool account(const Scene<D>& scene) {
     f64 n = scene.count;
     f64 late = list_.late_work() / n;
     f64 looked = scene.listed() ? scene.changes->count() : scene.count;
@@ -188,16 +201,21 @@ template <int D> class Incremental {
     f64 least = list_.least_work(looked) / n;
     life_ += late + least;
     age_++;
-    ended_ |= least > prospect_.fresh;
-    ended_ |= smooth_ * age_ > made_ + lateness_;
-    if (age_ < tuning.watched || list_.tested() == 0) return;
+    if (least > prospect_.fresh || smooth_ * age_ > made_ + lateness_) return true;
+    if (age_ < tuning.watched) return false;
+    auto stays = [&](u32 slot, f32x4 move) { return list_.stays(scene, slot, move); };
+    if (is_divided() && watch_.leaving(stays) * tuning.late_among(n) > most_lateness()) return true;
+    if (list_.tested() == 0) return false;
     // A new list will not test the pairs of boxes that have come to rest.
     f64 more = watch_.newly_resting([&](u32 slot) { return list_.rests_at(slot); });
     bool pays = 2 * more * tuning.candidate * list_.tested() / n * age_ > made_;
-    if (!pays && (more < 1 || list_.resting() == rested_)) return;
+    if (!pays && (more < 1 || list_.resting() == rested_)) return false;
     rested_ = list_.resting();
-    ended_ = true;
+    return true;
   }
+
+  /// Whether the next list will be made in two updates. Among few boxes, most of the time goes into choosing a margin.
+  bool is_divided() const { return age_ >= tuning.watched && 2 * prospect_.planning < prospect_.fresh; }
 
   /// Whether the list has cost less than rebuilds would have.
   bool has_paid() const { return life_ + made_ <= prospect_.fresh * age_; }

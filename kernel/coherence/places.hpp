@@ -1,10 +1,9 @@
-// The regions of all boxes in grids, which are searched when a box leaves its region.
+// Late boxes: their new regions, in grids that are searched when another box is late, and their bases.
 // Idea: grids whose cells double in width from one to the next. A region is stored once, in the finest grid in which it
 // spans no more than two cells along each axis, in the cell of its lower corner. So a search begins one cell before its
-// range. The first regions of boxes, their bases, are stored in the order of the cells: a row of cells is one run of
-// memory. The later regions of late boxes are in chains, one for each cell.
-// Cost: about 6 ns to insert a base; in a search 1 ns for each region nearby. 8 bytes per box besides its base, 5 for
-// cells.
+// range. The boxes of a cell form a chain.
+// Cost: 10 to 20 ns to insert or remove a box; in a search 1 ns for each cell, 2 for each region nearby. 8 bytes per box,
+// 3 for cells, and the base of each late box.
 // From: F. Schornbaum, "Hierarchical Hash Grids for Coarse Collision Detection", 2009.
 #pragma once
 #include "base/box_tests.hpp"
@@ -12,7 +11,7 @@
 #include "boxes/scene_sample.hpp"
 
 template <int D> class Places {
-  static constexpr u32 boxes_a_cell = 2, most_grids = 13, width = 2 * D, nobody = ~0u;
+  static constexpr u32 boxes_a_cell = 2, most_grids = 13, width = 2 * D, padding = 4;
 
   struct Range {
     u32x4 low, high;  // cells along the axes; 0 in the other lanes
@@ -26,57 +25,44 @@ template <int D> class Places {
   struct Spot {
     u32 grid, cell;
   };
-  /// A base and the slot of its box, or `nobody` once that box has left it.
-  struct Entry {
-    f32 region[width];
-    u32 slot;
-  };
 
   Grid grids_[most_grids] = {};
-  u32 grid_count_ = 0, count_ = 0;  // of bases
-  Buffer<Entry> entries_;  // the bases, and after them one that touches nothing
-  Buffer<u32> starts_;  // per cell: its first entry; after the last cell: the end
+  u32 grid_count_ = 0;
   Buffer<u32> heads_;  // per cell: 1 + the first slot of its chain; 0: the chain is empty
   Buffer<u32> next_;  // per slot: 1 + the next slot of its chain; 0: it is the last
-  Buffer<u32> entry_of_;  // per slot
+  Buffer<u32> base_of_;  // per slot: the number of its base
+  Buffer<f32> bases_;  // the first touches nothing
+  u32 base_count_ = 0;  // 0: there is no room for late boxes
 
  public:
-  /// Stores the regions of `count` boxes as their bases. `low` and `high` bound the lower corners.
-  NOINLINE void fill(const f32* regions, u32 count, const f64* low, const f64* high) {
-    u32 cells = divide(low, high, count);
-    u32* starts = starts_.reserve(cells + 1);
-    __builtin_memset(starts, 0, cells * sizeof(u32));
-    __builtin_memset(heads_.reserve(cells), 0, cells * sizeof(u32));
-    u32* entry_of = entry_of_.reserve(count);
-    next_.reserve(count);
-    for (u32 slot = 0; slot < count; slot++) {
-      Spot spot = spot_of(regions + u64(slot) * width);
-      grids_[spot.grid].used = true;
-      starts[entry_of[slot] = spot.cell]++;
-    }
-    u32 end = 0;
-    for (u32 cell = 0; cell < cells; cell++) starts[cell] = end += starts[cell];
-    starts[cells] = end;
-    Entry* entries = entries_.reserve(count + 1);
-    for (u32 slot = count; slot-- > 0;) {
-      Entry& entry = entries[entry_of[slot] = --starts[entry_of[slot]]];
-      __builtin_memcpy(entry.region, regions + u64(slot) * width, sizeof(entry.region));
-      entry.slot = slot;
-    }
-    for (f32& number : entries[count].region) number = __builtin_nanf("");
-    entries[count].slot = nobody;
-    count_ = count;
-  }
+  /// Forgets all late boxes.
+  void forget() { base_count_ = 0; }
+  bool has_room() const { return base_count_ > 0; }
 
+  /// Makes room for late boxes among so many. `low` and `high` bound the lower corners of most regions.
+  SMALL void clear(u32 boxes, const f64* low, const f64* high) {
+    u32 cells = divide(low, high, boxes);
+    __builtin_memset(heads_.reserve(cells), 0, cells * sizeof(u32));
+    make_room(boxes, 0);
+    for (u32 k = 0; k < width; k++) bases_.reserve(width + padding)[k] = __builtin_nanf("");
+    base_count_ = 1;
+  }
   void make_room(u64 slots, u64 had) {
     next_.grow(slots, had);
-    entry_of_.grow(slots, had);
+    base_of_.grow(slots, had);
   }
 
-  const f32* base(u32 slot) const { return entries_[entry_of_[slot]].region; }
-
-  /// Makes the base of a box touch nothing. The box must not be in the grids.
-  void forget_base(u32 slot) { entry_of_[slot] = count_; }
+  /// The base of a late box.
+  const f32* base(u32 slot) const { return bases_.data() + u64(base_of_[slot]) * width; }
+  /// Retains a region as the base of a late box.
+  void keep_base(const f32* region, u32 slot) {
+    u64 place = u64(base_count_) * width;
+    bases_.grow(place + width + padding, place);
+    __builtin_memcpy(bases_.data() + place, region, width * sizeof(f32));
+    base_of_[slot] = base_count_++;
+  }
+  /// Makes the base of a late box touch nothing.
+  void forget_base(u32 slot) { base_of_[slot] = 0; }
 
   /// Adds a box that is not in the grids, with this region.
   void put(const f32* region, u32 slot) {
@@ -88,17 +74,12 @@ template <int D> class Places {
 
   /// Removes a box, which has this region.
   void remove(const f32* region, u32 slot) {
-    u32& whose = entries_[entry_of_[slot]].slot;
-    if (whose == slot) {
-      whose = nobody;
-      return;
-    }
     u32* link = &heads_[spot_of(region).cell];
     while (*link != slot + 1) link = &next_[*link - 1];
     *link = next_[slot];
   }
 
-  /// Writes the slots of boxes whose regions touch this one; returns how many. `regions` has those of all boxes; `met`
+  /// Writes the slots of the boxes in the grids whose regions touch this one; returns how many. `regions`: by slot; `met`
   /// counts the ones tested.
   NOINLINE u32 near(const f32* region, const f32* regions, u32* out, u64& met) const {
     u32 found = 0;
@@ -111,12 +92,6 @@ template <int D> class Places {
       auto row = [&] {
         at[D - 1] = range.low[D - 1];
         u32 cell = cell_of(grid, at), end = cell + range.high[D - 1] - range.low[D - 1] + 1;
-        const Entry *entry = entries_.data() + starts_[cell], *until = entries_.data() + starts_[end];
-        met += until - entry;
-        for (; entry < until; entry++) {
-          out[found] = entry->slot;
-          found += (entry->slot != nobody) & boxes_touch<D>(region, entry->region);
-        }
         for (; cell < end; cell++) {
           for (u32 k = heads_[cell]; k > 0; k = next_[k - 1]) {
             out[found] = k - 1;
@@ -135,11 +110,11 @@ template <int D> class Places {
   }
 
   SMALL void release() {
-    entries_.release();
-    starts_.release();
     heads_.release();
     next_.release();
-    entry_of_.release();
+    base_of_.release();
+    bases_.release();
+    forget();
   }
 
  private:
@@ -157,7 +132,7 @@ template <int D> class Places {
   }
 
   /// The grid and the cell in which a region is stored.
-  Spot spot_of(const f32* region) const {
+  NOINLINE Spot spot_of(const f32* region) const {
     for (u32 g = 0;; g++) {
       Range range = range_of(grids_[g], region);
       if (any(bits<i32x4>((range.high - range.low) > splat(1u)))) continue;  // the last grid has one cell

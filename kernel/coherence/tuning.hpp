@@ -9,13 +9,14 @@ template <int D> struct Tuning {
   f64 look = 1;                      // tests: to check whether a box is in its region
   f64 candidate = D == 2 ? 2 : 3;    // tests: to test a candidate
   f64 planning = 3000;               // tests: to choose a margin
-  f64 late = D == 2 ? 300 : 400;  // tests: to give a box that has left its region a new one
+  f64 late = D == 2 ? 350 : 500;  // tests: to give a box that has left its region a new one
   f64 far = D == 2 ? 1e9 : 5e4;  // boxes: among so many, that takes twice as long, since caches do not hold them all
   f64 late_margin = 0.5;  // of a box's size: the margin of that new region, or the list's if larger
   f64 burst = 0.5;  // of a rebuild: the most work for late boxes that a plan may expect in one update
   f64 spike = 2;  // of an update's mean work, making the list included: if late boxes take more in one, the list ends
   f64 ahead = 0.85;  // of a plan with a margin alone: one that reaches ahead must promise to cost less
   f64 build = 2;  // of a rebuild: a list that would cost more is not made
+  f64 at_once = 0.25;  // of the strips of a list: those swept in the update in which it begins
   u32 watched = 8;  // updates, after which it is known whether a list pays; the first pause is as long
   u32 longest_pause = 512;  // updates
   f64 smoothing = 0.4;  // weight of an update in the running mean of the work for late boxes

@@ -88,6 +88,7 @@ template <int D> class Watch {
   struct Sample {
     // The minima and the maxima of the box: where it began, and in the last update. Spare lanes have what follows them.
     f32x4 at[2], last[2];
+    f32x4 move;  // in the last update; 0 if it jumped
     f32x4 far;  // the furthest it got from where it began
     f32x4 lead;  // its displacement at the last horizon
     f32x4 led;  // the furthest it has been since then from the path that goes on like that
@@ -147,6 +148,14 @@ template <int D> class Watch {
       found += sample.rests() && !known(sample.slot);
     }
     return still == many_ ? 1 : f64(found) / many_;
+  }
+
+  /// The share of boxes that will not stay where they are if they move on as in the last update. `stays`: whether the
+  /// box of a slot does if it moves by so much.
+  template <class Stays> SMALL f64 leaving(Stays stays) const {
+    u32 found = 0;
+    for (u32 k = 0; k < many_; k++) found += !stays(samples_[k].slot, samples_[k].move);
+    return f64(found) / many_;
   }
 
   /// Follows the samples in this update. `size`: of a box; one that moves further than this in one update has jumped.
@@ -252,7 +261,7 @@ template <int D> class Watch {
       const f32* box = scene.box(sample.slot);
       sample.at[0] = sample.last[0] = load<f32x4>(box);
       sample.at[1] = sample.last[1] = load<f32x4>(box + D);
-      sample.far = sample.lead = sample.led = f32x4{};
+      sample.move = sample.far = sample.lead = sample.led = f32x4{};
       sample.jumps = 0;
     }
     age_ = 0;
@@ -265,7 +274,9 @@ template <int D> class Watch {
       sample.at[0] += move;
       sample.at[1] += high - step(sample.last[1]);
       sample.jumps++;
+      move = f32x4{};
     }
+    sample.move = move;
     sample.last[0] = low;
     sample.last[1] = high;
     f32x4 by_low = on_axes(low - shift(sample.at[0])), by_high = on_axes(high - shift(sample.at[1]));

@@ -74,6 +74,15 @@ template <int D> class SweepList {
     return tests;
   }
 
+  /// Puts the items that were ordered last into that order where they came from.
+  void put_back(const ItemsAt<D>& items, u32 count) const {
+    ItemsAt<D> ordered(ordered_, 0);
+    __builtin_memcpy(items.boxes, ordered.boxes, count * (D - 1) * sizeof(f32x4));
+    if constexpr (D == 2) __builtin_memcpy(items.tags, ordered.tags, count * sizeof(u32));
+  }
+  /// The items that were ordered last.
+  LaneView<D> view() const { return lanes_.view(); }
+
   /// Appends the pairs of the items that were ordered last.
   void find(u32 count, Pairs& pairs) const { sweep<D>(lanes_, end_.data(), count, pairs); }
 

@@ -42,10 +42,10 @@ constexpr bool is_built(Technique name) { return built >> u32(name) & 1; }
 
 /// A technique finds all pairs of a scene, writes its cells as boxes, and releases its memory.
 template <class Kind, int D>
-concept FindsPairs = requires(Kind kind, const Kind same, const Scene<D>& scene, const Settings& settings, Pairs& pairs,
-                              Stats& stats, Buffer<f32>& cells, u32& cell_count) {
+concept FindsPairs = requires(Kind kind, const Scene<D>& scene, const Settings& settings, Pairs& pairs, Stats& stats,
+                              Buffer<f32>& cells, u32& cell_count) {
   kind.update(scene, settings, pairs, stats);
-  same.structure(cells, cell_count, stats);
+  kind.structure(cells, cell_count, stats);
   kind.release();
 };
 

@@ -12,6 +12,7 @@
 #pragma once
 #include "search/settings.hpp"
 #include "search/stats.hpp"
+#include "search/strip_index.hpp"
 #include "search/sweep_list.hpp"
 
 template <int D> class StripSweep {
@@ -52,6 +53,11 @@ template <int D> class StripSweep {
     f64 low[D], high[D];
   };
 
+  /// Some strips of a cut, beginning with number `next`, and their entries; deeper cuts put theirs behind these.
+  struct Strips {
+    u32 next, begin, end, depth;
+  };
+
   /// First and last strip of an item along each binned axis, packed to 4 bytes.
   struct Range {
     u32 packed;
@@ -59,7 +65,7 @@ template <int D> class StripSweep {
     u32 last(int axis) const { return D == 2 ? packed >> 16 : packed >> (16 * axis - 8) & 0xff; }
   };
 
-  static Axes lanes_of(const Cut& cut) {
+  SMALL static Axes lanes_of(const Cut& cut) {
     const Axis& a = cut.along[0];
     const Axis& b = cut.along[1];
     if constexpr (D == 2) return {a, b, a, b};
@@ -80,8 +86,11 @@ template <int D> class StripSweep {
   Buffer<Range> ranges_;  // per item that is being cut
   Buffer<u32> offsets_[deepest + 1];  // per cut: where each strip's entries begin
   Buffer<Region> leaves_;  // the strips in use
+  StripIndex index_;  // of the outermost cut, if that is `searched_`
+  bool searched_ = false;
   AxisOrder<D> order_ = {};
   Cut cut_ = {};  // the outermost one
+  Strips left_ = {};  // of that, what is not yet swept
   u32 boxes_ = 0;
   Stats* stats_ = nullptr;
 
@@ -89,18 +98,50 @@ template <int D> class StripSweep {
   static constexpr bool notes_doubts = true;
 
   SMALL void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
+    fill(scene, stats, false);
+    sweep(1, pairs);
+  }
+
+  /// Puts boxes into strips. Until they are swept, `stats` must stay where it is. `searched`: `near` will be called.
+  SMALL void fill(const Scene<D>& scene, Stats& stats, bool searched) {
     stats_ = &stats;
+    searched_ = searched;
     boxes_ = scene.count;
+    left_ = {};
     if (scene.count < 2) return;
     bool cuts = cut_up(scene);
     SceneItems<D> items{scene, order_};
-    if (cuts && divide(items, scene.count, cut_, everywhere(), 0, 0, pairs)) return;
-    entries_.grow(scene.count, 0);
-    ItemsAt<D> all(entries_, 0);
-    for (u32 k = 0; k < scene.count; k++) all.put(k, items[k]);
-    stats.entries = scene.count;
-    u64 tests = swept_.order(all, scene.count);
-    list(all, scene.count, tests, everywhere(), scene.count, cuts ? deepest : 0, pairs);
+    if (!cuts || !fill(items, scene.count, cut_, 0, left_)) {
+      leave_whole();
+      if (cuts) left_.depth = deepest;
+      entries_.grow(scene.count, 0);
+      ItemsAt<D> all(entries_, 0);
+      for (u32 k = 0; k < scene.count; k++) all.put(k, items[k]);
+      stats.entries = left_.end = offsets_[left_.depth].reserve(1)[0] = scene.count;
+    }
+    if (searched) index_.reserve(cut_.rows(), left_.end);
+  }
+
+  /// Finds the pairs in the strips that were filled, until this share of them is swept.
+  SMALL void sweep(f64 share, Pairs& pairs) { sweep(cut_, everywhere(), left_, u32(share * left_.end), pairs); }
+
+  /// The number of boxes that were swept.
+  u32 count() const { return boxes_; }
+
+  /// Writes the slots of the boxes, as they were swept, that touch this one; returns how many. `met` counts those tested.
+  NOINLINE u32 near(const f32* box, u32* out, u64& met) const {
+    Item<D> item = SceneItems<D>{{box, 1, nullptr}, order_}[0];
+    Range range = range_of(lanes_of(cut_), item);
+    u32 found = 0, first = D == 2 ? 0 : range.first(2), last = D == 2 ? 0 : range.last(2);
+    for (u32 s = range.first(1); s <= range.last(1); s++) {
+      for (u32 t = first; t <= last; t++) {
+        u32 marks = (s > range.first(1) ? u32(continues_1) : 0) | (t > first ? u32(continues_2) : 0);
+        u32 l = s * cut_.across() + t, begin = l ? offsets_[left_.depth][l - 1] : 0;
+        u32 count = offsets_[left_.depth][l] - begin;  // filling has moved offsets to the ends of their strips
+        found += index_.near(l, begin, ItemsAt<D>(entries_, begin), count, item, marks, out + found, met);
+      }
+    }
+    return found;
   }
 
   /// The bounds of the minimum corners of the last update's boxes, and their mean size, along the axes of the world.
@@ -130,6 +171,7 @@ template <int D> class StripSweep {
     ranges_.release();
     for (auto& offsets : offsets_) offsets.release();
     leaves_.release();
+    index_.release();
   }
 
  private:
@@ -203,7 +245,6 @@ template <int D> class StripSweep {
     bool sparse = scene.count * world.size[a] <= again_factor * (world.high[a] - world.low[a]);
     if (sparse && scene.count < one_strip_below) {
       cut_.world = world.in(order_);
-      leave_whole();
       return false;
     }
     cut_ = choose(world.in(order_), scene.count);
@@ -218,11 +259,11 @@ template <int D> class StripSweep {
     }
   }
 
-  /// Puts items into the strips of a cut, after the `base` entries of the cuts further out, and sweeps each strip. Does
-  /// nothing and returns false if the cut would not pay: boxes that overlap nearly all others enter every strip, and
-  /// each further cut would multiply them.
-  template <class Source>
-  bool divide(Source items, u32 size, const Cut& cut, const Region& region, u32 base, u32 depth, Pairs& pairs) {
+  /// Puts items into the strips of a cut, after the `base` entries of the cuts further out. Does nothing and returns
+  /// false if the cut would not pay: boxes that overlap nearly all others enter every strip, and each further cut would
+  /// multiply them.
+  template <class Source> bool fill(Source items, u32 size, const Cut& cut, u32 base, Strips& strips) {
+    u32 depth = strips.depth;
     clear(cut, depth);
     ranges_.reserve(size);
     count(items, size, cut, depth);
@@ -233,7 +274,8 @@ template <int D> class StripSweep {
     move(items, source);
     enter(items, size, cut, depth);
     stats_->entries += f64(total - base);
-    sweep(cut, region, depth, u32(total), base, pairs);
+    strips.begin = base;
+    strips.end = u32(total);
     return true;
   }
 
@@ -317,10 +359,11 @@ template <int D> class StripSweep {
     }
   }
 
-  /// Sweeps the strips of a cut, whose entries are from `begin` to `total`; deeper cuts put theirs after them.
-  SMALL void sweep(const Cut& cut, const Region& region, u32 depth, u32 total, u32 begin, Pairs& pairs) {
-    u32 across = cut.across();
-    for (u32 l = 0; begin < total; l++) {
+  /// Sweeps these strips of a cut, except those whose entries begin at `until` or later.
+  SMALL void sweep(const Cut& cut, const Region& region, Strips& strips, u32 until, Pairs& pairs) {
+    u32 across = cut.across(), depth = strips.depth;
+    for (; strips.begin < until; strips.next++) {
+      u32 l = strips.next, begin = strips.begin;
       u32 end = offsets_[depth][l];  // filling the strip has moved it from the beginning to the end
       if (end == begin) continue;
       Region part = region;
@@ -328,9 +371,17 @@ template <int D> class StripSweep {
       if constexpr (D == 3) narrow(part, 2, cut, l % across);
       ItemsAt<D> items(entries_, begin);
       u64 tests = swept_.order(items, end - begin);
-      list(items, end - begin, tests, part, total, depth + 1, pairs);
-      begin = end;
+      if (searched_ && &strips == &left_) note_order(l, begin, end);
+      list(items, end - begin, tests, part, strips.end, depth + 1, pairs);
+      strips.begin = end;
     }
+  }
+
+  /// Retains the order of the strip that was ordered last.
+  void note_order(u32 strip, u32 begin, u32 end) {
+    swept_.put_back(ItemsAt<D>(entries_, begin), end - begin);
+    LaneView<D> items = swept_.view();
+    index_.add(strip, begin, items.lo[0], items.hi[0], end - begin);
   }
 
   // Items that are cut again are in entries_ themselves, which may move when it grows.
@@ -362,7 +413,8 @@ template <int D> class StripSweep {
       }
       Cut cut = choose(part, count);
       bool again = depth < deepest && tests > again_factor * count && cut.lists() > 1;
-      if (again && divide(items, count, cut, region, base, depth, pairs)) return;
+      Strips strips = {0, 0, 0, depth};
+      if (again && fill(items, count, cut, base, strips)) return sweep(cut, region, strips, strips.end, pairs);
     }
     stats_->tests += f64(tests);
     stats_->cells++;

@@ -5,33 +5,23 @@
 
 #include "base/box_tests.hpp"
 #include "check.hpp"
-#include "random.hpp"
+#include "crowd.hpp"
 
 namespace {
-
-/// Small and large boxes, which get denser along each axis; some are half outside the world.
-template <int D> std::vector<f32> crowd(Random& random, u32 count, bool in_a_row, f64 huge) {
-  std::vector<f32> boxes(count * 2 * D + 4);
-  for (u32 k = 0; k < count; k++) {
-    bool is_huge = random.fraction() < huge;
-    for (u32 a = 0; a < D; a++) {
-      f64 at = random.fraction();
-      boxes[k * 2 * D + a] = in_a_row && a > 0 ? 0 : f32(440 * (1 - at * at) - 20);
-      boxes[k * 2 * D + D + a] = boxes[k * 2 * D + a] + f32((is_huge ? 390 : 3) * random.fraction());
-    }
-    if (is_huge && random.fraction() < 0.1) boxes[k * 2 * D] = -__builtin_inff();
-  }
-  return boxes;
-}
 
 template <int D> void check_near(u32 count, bool in_a_row, f64 huge) {
   Random random(17);
   std::vector<f32> boxes = crowd<D>(random, count, in_a_row, huge), others = crowd<D>(random, count, in_a_row, huge);
   f64 low[3] = {}, high[3] = {400, 400, 400};
-  const std::vector<f32> bases = boxes;
   Places<D> places;
-  places.fill(boxes.data(), count, low, high);
+  places.clear(count, low, high);
+  CHECK(places.has_room());
   std::vector<bool> stands(count, true);
+  const std::vector<f32> bases = boxes;
+  for (u32 slot = 0; slot < count; slot++) {
+    places.keep_base(boxes.data() + slot * 2 * D, slot);
+    places.put(boxes.data() + slot * 2 * D, slot);
+  }
   for (u32 slot = 0; slot < count; slot += 3) {
     places.remove(boxes.data() + slot * 2 * D, slot);
     stands[slot] = slot % 2;
@@ -45,7 +35,6 @@ template <int D> void check_near(u32 count, bool in_a_row, f64 huge) {
       places.remove(boxes.data() + slot * 2 * D, slot);
       go_to(count - slot);
     }
-    CHECK(std::equal(bases.data() + slot * 2 * D, bases.data() + (slot + 1) * 2 * D, places.base(slot)));
   }
   for (u32 k = 0; k < 200; k++) {
     const f32* box = others.data() + k * 2 * D;
@@ -58,6 +47,9 @@ template <int D> void check_near(u32 count, bool in_a_row, f64 huge) {
     }
     std::sort(near.begin(), near.end());
     CHECK(near == touching);
+  }
+  for (u32 slot = 0; slot < count; slot++) {
+    CHECK(std::equal(bases.data() + slot * 2 * D, bases.data() + (slot + 1) * 2 * D, places.base(slot)));
   }
   places.forget_base(0);
   CHECK(!boxes_touch<D>(places.base(0), bases.data()));

@@ -1,6 +1,7 @@
 // What a sample tells of how boxes move, and the margin chosen from it: watch.hpp.
 #include "coherence/watch.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include "check.hpp"
@@ -87,9 +88,30 @@ template <int D> void check_rest() {
   CHECK(world.watch.newly_resting(everybody) == 0);
 }
 
+/// A box is expected to move on as in the last update, unless it has jumped.
+template <int D> void check_leaving() {
+  World<D> world;
+  world.run(3, 0.5);
+  u32 asked = 0, fast = 0;
+  f64 share = world.watch.leaving([&](u32 slot, f32x4 move) {
+    const f64* velocity = world.velocities.data() + slot * D;
+    for (u32 a = 0; a < D; a++) CHECK(std::fabs(move[a] - 0.5 * velocity[a]) < 1e-3);
+    asked++;
+    fast += std::fabs(velocity[0]) > 0.25;
+    return std::fabs(velocity[0]) <= 0.25;
+  });
+  CHECK(asked >= 16);
+  CHECK(share == f64(fast) / asked);
+  for (f64& velocity : world.velocities) velocity = 11;  // longer than a box
+  world.update(1);
+  CHECK(world.watch.leaving([](u32, f32x4 move) { return move[0] == 0; }) == 0);
+}
+
 TEST("the choice of a margin is counted, 2D") { check_planning<2>(); }
 TEST("the choice of a margin is counted, 3D") { check_planning<3>(); }
 TEST("boxes come to rest only if they move no longer, 2D") { check_rest<2>(); }
 TEST("boxes come to rest only if they move no longer, 3D") { check_rest<3>(); }
+TEST("boxes are expected to move on as they have, 2D") { check_leaving<2>(); }
+TEST("boxes are expected to move on as they have, 3D") { check_leaving<3>(); }
 
 }  // namespace
