@@ -6,7 +6,7 @@ const { BroadPhase, createScene } = await import(process.argv[2]);
 
 const count = 100;
 const warmUp = 1000;
-const mostWindows = 10;
+const mostWindows = 30;
 const frames = 1000;
 const nothing = Number(process.argv[3]);
 
