@@ -18,7 +18,7 @@ class Ids {
   Buffer<u32> since_;              // per slot, if they are not in order: its sequence number
   RadixSort sort_;
 
-  u32* page(u32 id) {
+  SMALL u32* page(u32 id) {
     Buffer<u32>& found = pages_[id / page_size];
     if (!found.data()) {
       found.reserve(page_size);
@@ -28,7 +28,7 @@ class Ids {
   }
 
   /// Stores the ids that were implicit so far. Allocates first: if that fails, nothing has changed.
-  void spell_out() {
+  SMALL void spell_out() {
     id_of_.grow(larger(count_, 1u), 0);
     for (u32 id = 0; id < count_; id += page_size) page(id);
     for (u32 id = 0; id < count_; id++) {
@@ -74,7 +74,7 @@ class Ids {
   const Buffer<u32>* pages() const { return pages_; }
   u32 id(u32 slot) const { return !named_ ? slot : id_of_[slot]; }
 
-  u32 slot(u32 id) const {
+  NOINLINE u32 slot(u32 id) const {
     if (!named_) return id < count_ ? id : none;
     const u32* page = pages_[id / page_size].data();
     return page ? page[id % page_size] - 1 : none;
@@ -98,7 +98,7 @@ class Ids {
   }
 
   /// Removes an id. Its slot goes to the id of the last slot, whose contents the caller moves.
-  void erase(u32 id) {
+  SMALL void erase(u32 id) {
     if (!named_ && id != count_ - 1) spell_out();
     if (!clock_ && slot(id) != count_ - 1) number_slots();
     count_--;

@@ -288,7 +288,7 @@ template <int D> class CandidateList {
       return (within & 7) == 7;
     }
   }
-  bool is_expected(const Scene<D>& scene, u32 slot) const {
+  NOINLINE bool is_expected(const Scene<D>& scene, u32 slot) const {
     return is_expected<true>(scene.box(slot), region(slot), tags_[slot], shift_);
   }
 

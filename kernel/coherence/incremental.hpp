@@ -112,7 +112,7 @@ template <int D> class Incremental {
     return watch_.plan(prospect_, tuning, prospect_.fresh);
   }
 
-  void rebuild(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+  SMALL void rebuild(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
     stats = Stats{};
     pairs.stable = 0;
     anew_.update(scene, options, pairs, stats);

@@ -19,7 +19,7 @@ class PairOrder {
   static u64 key(u64 pair) { return pair << 32 | pair >> 32; }
 
   /// Sorts pairs of the slots 0 … slots - 1.
-  NOINLINE void sort(u64* list, u64 count, u32 slots) {
+  SMALL void sort(u64* list, u64 count, u32 slots) {
     if (count <= few) return insert(list, u32(count));
     u32 bits = 32 - u32(__builtin_clz(slots - 1)), digit = shortest;
     while (digit < longest && count >> (digit + 1)) digit++;

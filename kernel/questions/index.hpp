@@ -300,7 +300,7 @@ template <int D> class Index {
   }
 
   /// Fills slots_ with the boxes that are not off.
-  NOINLINE void put_in_order() {
+  SMALL void put_in_order() {
     u32 n = seen_.count, some = 0;
     looks_ = sorted_ = 0;
     make_room(0);

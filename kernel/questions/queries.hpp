@@ -12,7 +12,7 @@
 
 template <int D> class Queries {
   using Block = typename Index<D>::Block;
-  static constexpr u32 lane_bits = 7;
+  static constexpr u32 lane_bits = 7, none = 0xffffffff;
   static constexpr u32x4 lanes = {0, 1, 2, 3};
 
   const Index<D>& index_;
@@ -107,7 +107,7 @@ template <int D> class Queries {
     search<true>(index_.top(), 0, *hits_);
   }
 
-  void aim_area() {
+  SMALL void aim_area() {
     for (int a = 0; a < D; a++) {
       f64 lo = low(a), hi = high(a);
       if (is_circle()) {
@@ -123,7 +123,7 @@ template <int D> class Queries {
     }
   }
 
-  void aim_ahead() {
+  SMALL void aim_ahead() {
     f64 lo[D], hi[D];
     for (int a = 0; a < D; a++) {
       lo[a] = low(a);
@@ -265,9 +265,9 @@ template <int D> class Queries {
     return true;
   }
 
-  /// Writes lower bounds for the squared distances of the point to eight boxes, reduced by the possible rounding error.
-  /// The last three bits are replaced by the lane, so that the results can be sorted as integers. Returns one bit for
-  /// each box that may be within the limit.
+  /// Writes lower bounds for the squared distances of the point to eight boxes, reduced by the possible rounding error,
+  /// or `none` if a box is not within the limit. The last three bits are replaced by the lane, so that the results can
+  /// be compared as integers. Returns one bit for each box that may be within the limit.
   NOINLINE u32 least_distances(const Block& block, u32 (&to)[8]) const {
     f32x4 most = splat(most_rank_);
     u32 close = 0;
@@ -280,8 +280,9 @@ template <int D> class Queries {
       }
       u32x4 least = bits<u32x4>(min(sum * splat(0.999999f), splat(1e38f))) & ~lane_bits;
       i32x4 is_box = load<f32x4>(block.lo[0] + half) == load<f32x4>(block.lo[0] + half);
-      close |= bitmask(is_box & (bits<f32x4>(least) <= most)) << half;
-      store(to + half, least | (lanes + half));
+      i32x4 here = is_box & (bits<f32x4>(least) <= most);
+      close |= bitmask(here) << half;
+      store(to + half, least | (lanes + half) | ~bits<u32x4>(here));
     }
     return close;
   }
@@ -289,14 +290,16 @@ template <int D> class Queries {
   /// The same for the times at which the moving box meets eight boxes, as shares of its path.
   NOINLINE u32 least_times(const Block& block, u32 (&to)[8]) const {
     if (!is_tame_) {
-      for (u32 lane = 0; lane < 8; lane++) to[lane] = lane;
-      return touched(block);
+      u32 close = touched(block);
+      for (u32 lane = 0; lane < 8; lane++) to[lane] = close >> lane & 1 ? lane : none;
+      return close;
     }
     u32 close = 0;
     ROLLED for (u32 half = 0; half < 8; half += 4) {
       f32x4 times;
-      close |= bitmask(aim_.reaches(block, half, times)) << half;
-      store(to + half, (bits<u32x4>(max(f32x4{}, times)) & ~lane_bits) | (lanes + half));
+      i32x4 here = aim_.reaches(block, half, times);
+      close |= bitmask(here) << half;
+      store(to + half, (bits<u32x4>(max(f32x4{}, times)) & ~lane_bits) | (lanes + half) | ~bits<u32x4>(here));
     }
     return close;
   }
@@ -305,21 +308,26 @@ template <int D> class Queries {
   template <bool moving> void search(u32 level, u32 number, Hits& hits) {
     const Block& block = index_.block(level, number);
     looks_++;
-    u32 least[8], order[8], n = 0;
+    u32 least[8];
     if (level == 0) {
       if (moving) offer_ahead(number, least_times(block, least), hits);
       else offer_near(number, hits);
       return set_most<moving>(hits.limit);
     }
-    u32 left = moving ? least_times(block, least) : least_distances(block, least);
-    for (; left; left &= left - 1) {
-      u32 at = n++, rank = least[__builtin_ctz(left)];
-      for (; at > 0 && rank < order[at - 1]; at--) order[at] = order[at - 1];
-      order[at] = rank;
+    if (moving) least_times(block, least);
+    else least_distances(block, least);
+    // Most blocks are left after one or two of the eight, so these are not sorted: that takes unpredictable branches.
+    for (u32 next; (next = smallest(least)) <= (bits<u32>(most_rank_) | lane_bits);) {
+      u32 lane = next & lane_bits;
+      least[lane] = none;
+      search<moving>(level - 1, number * 8 + lane, hits);
     }
-    for (u32 k = 0; k < n && order[k] <= (bits<u32>(most_rank_) | lane_bits); k++) {
-      search<moving>(level - 1, number * 8 + (order[k] & lane_bits), hits);
-    }
+  }
+
+  static u32 smallest(const u32 (&of)[8]) {
+    u32x4 least = min(load<u32x4>(of), load<u32x4>(of + 4));
+    least = min(least, __builtin_shufflevector(least, least, 2, 3, 0, 1));
+    return min(least, __builtin_shufflevector(least, least, 1, 0, 3, 2))[0];
   }
 
   /// Sets the limit, in the unit of the lower bounds, a time or a squared distance; never rounded below it.

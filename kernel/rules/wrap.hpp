@@ -122,7 +122,7 @@ class Wrap {
       for (u32 a = 0; a < dimensions; a++) {
         f64 lo = number(k, a), hi = number(k, dimensions + a);
         f32 low = doubles_ ? round_down(lo) : f32(lo), high = doubles_ ? round_up(hi) : f32(hi);
-        if (!(lo >= 0 && hi < world[a])) across |= u32(place(span(k, a), world[a], low, high)) << a;
+        if (!(lo >= 0 && hi < world[a])) across |= u32(place(Span::of(lo, hi, world[a]), world[a], low, high)) << a;
         plain &= f64(low) == lo && f64(high) == hi;
         box[a] = low;
         box[dimensions + a] = high;
@@ -191,7 +191,9 @@ class Wrap {
     return doubles_ ? doubles_[at] : f64(given_[at]);
   }
 
-  Span span(u32 k, u32 axis) const { return Span::of(number(k, axis), number(k, dimensions_ + axis), world_[axis]); }
+  SMALL Span span(u32 k, u32 axis) const {
+    return Span::of(number(k, axis), number(k, dimensions_ + axis), world_[axis]);
+  }
 
   /// A bound for the rounding errors.
   static f64 slack(f64 world) { return world * 0x1p-50; }

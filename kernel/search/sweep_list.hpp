@@ -132,7 +132,7 @@ template <int D> class SweepList {
   }
 
   /// The same by a full sort: for strips where no single cell size fits.
-  u64 order_by_sorting(const ItemsAt<D>& items, u32 count) {
+  SMALL u64 order_by_sorting(const ItemsAt<D>& items, u32 count) {
     sort_.begin(count);
     for (u32 k = 0; k < count; k++) sort_.put(k, items[k].lo(0));
     sort_.sort(count);
@@ -163,7 +163,7 @@ template <int D> class SweepList {
   }
 
   /// Cells along the sweep axis, as many as there are items, over the range of those that are finite.
-  static Axis axis_of(const ItemsAt<D>& items, u32 count) {
+  NOINLINE static Axis axis_of(const ItemsAt<D>& items, u32 count) {
     f32x4 least = items[0].first(), most = least;
     for (u32 k = 1; k < count; k++) {
       f32x4 x = items[k].first();
