@@ -115,3 +115,13 @@ inline f32 smaller(f32 a, f32 b) { return min(splat(b), splat(a))[0]; }
 inline f32 larger(f32 a, f32 b) { return max(splat(b), splat(a))[0]; }
 inline f64 smaller(f64 a, f64 b) { return min(splat(b), splat(a))[0]; }
 inline f64 larger(f64 a, f64 b) { return max(splat(b), splat(a))[0]; }
+
+/// The largest of four numbers, and the smallest.
+inline f32 largest(f32x4 of) {
+  of = max(of, __builtin_shufflevector(of, of, 2, 3, 0, 1));
+  return max(of, __builtin_shufflevector(of, of, 1, 0, 3, 2))[0];
+}
+inline u32 smallest(u32x4 of) {
+  of = min(of, __builtin_shufflevector(of, of, 2, 3, 0, 1));
+  return min(of, __builtin_shufflevector(of, of, 1, 0, 3, 2))[0];
+}

@@ -160,6 +160,7 @@ template <int D> class CandidateList {
   /// then a new list is due. `size`: the size of boxes.
   SMALL bool follow(const Scene<D>& scene, const Shift& common, f64 most, f32 size) {
     u32 n = scene.count, had = count_, both = smaller(n, had);
+    // A search may find as many slots as there were boxes when the list was made.
     u32* list = late_.reserve(u64(n) + larger(n, anew_.count()) + 4);
     Shift shift = common_.after(common.back());
     bool shifts = shift.differs(shift_);

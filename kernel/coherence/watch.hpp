@@ -94,7 +94,7 @@ template <int D> class Watch {
     f32x4 led;  // the furthest it has been since then from the path that goes on like that
     u32 slot, jumps;
 
-    bool rests() const { return jumps == 0 && most_of(far) == 0; }
+    bool rests() const { return jumps == 0 && largest(far) == 0; }
   };
   /// How far the samples got within 1, 2, 4 … updates.
   struct Horizon {
@@ -225,10 +225,10 @@ template <int D> class Watch {
     if (before) __builtin_memset(before->far[1], 0, sizeof(before->far[1]));
     for (u32 k = 0; k < many_; k++) {
       Sample& sample = samples_[k];
-      now.far[0][bucket_of(most_of(sample.far), now.size)]++;
+      now.far[0][bucket_of(largest(sample.far), now.size)]++;
       now.still += sample.rests();
       now.jumps += sample.jumps;
-      if (before) before->far[1][bucket_of(most_of(sample.led), before->size)]++;
+      if (before) before->far[1][bucket_of(largest(sample.led), before->size)]++;
       const f32* box = scene.box(sample.slot);
       sample.lead = bounded(on_axes(load<f32x4>(box) - since(sample.at[0])), farthest * size);
       sample.led = f32x4{};
@@ -236,8 +236,6 @@ template <int D> class Watch {
     }
     known_ = larger(known_, h + 1);
   }
-
-  static f32 most_of(f32x4 far) { return larger(larger(far[0], far[1]), larger(far[2], far[3])); }
 
   /// Sets the lanes that are not an axis to 0.
   static f32x4 on_axes(f32x4 v) { return bits<f32x4>(bits<u32x4>(v) & u32x4{~0u, ~0u, D == 2 ? 0 : ~0u, 0}); }

@@ -308,27 +308,23 @@ template <int D> class Queries {
   template <bool moving> void search(u32 level, u32 number, Hits& hits) {
     const Block& block = index_.block(level, number);
     looks_++;
-    u32 least[8];
-    if (level == 0) {
-      if (moving) offer_ahead(number, least_times(block, least), hits);
-      else offer_near(number, hits);
+    if (!moving && level == 0) {
+      offer_near(number, hits);
       return set_most<moving>(hits.limit);
     }
+    u32 least[8];
     if (moving) least_times(block, least);
     else least_distances(block, least);
     // Most blocks are left after one or two of the eight, so these are not sorted: that takes unpredictable branches.
-    for (u32 next; (next = smallest(least)) <= (bits<u32>(most_rank_) | lane_bits);) {
+    for (u32 next; (next = smallest_of(least)) <= (bits<u32>(most_rank_) | lane_bits);) {
       u32 lane = next & lane_bits;
       least[lane] = none;
-      search<moving>(level - 1, number * 8 + lane, hits);
+      if (moving && level == 0) offer_ahead(number * 8 + lane, hits);
+      else search<moving>(level - 1, number * 8 + lane, hits);
     }
   }
 
-  static u32 smallest(const u32 (&of)[8]) {
-    u32x4 least = min(load<u32x4>(of), load<u32x4>(of + 4));
-    least = min(least, __builtin_shufflevector(least, least, 2, 3, 0, 1));
-    return min(least, __builtin_shufflevector(least, least, 1, 0, 3, 2))[0];
-  }
+  static u32 smallest_of(const u32 (&ranks)[8]) { return smallest(min(load<u32x4>(ranks), load<u32x4>(ranks + 4))); }
 
   /// Sets the limit, in the unit of the lower bounds, a time or a squared distance; never rounded below it.
   template <bool moving> void set_most(f64 limit) {
@@ -425,16 +421,15 @@ template <int D> class Queries {
     return others.first;
   }
 
-  /// Offers boxes by how far the moving box moves until it meets them.
-  SMALL void offer_ahead(u32 number, u32 left, Hits& hits) const {
-    for (; left; left &= left - 1) {
-      u32 place = number * 8 + u32(__builtin_ctz(left));
-      if (!wanted(place)) continue;
-      f64 box[2 * D];
-      index_.box(place, box);
-      Hit hit;
-      if (world_ ? meets_around(box, index_.id(place), hit, hits.limit) : asked_.hits(box, index_.id(place), hit))
-        hits.offer(hit);
-    }
+  /// Offers a box by how far the moving box moves until it meets it.
+  SMALL void offer_ahead(u32 place, Hits& hits) {
+    if (!wanted(place)) return;
+    f64 box[2 * D];
+    index_.box(place, box);
+    Hit hit;
+    if (world_ ? !meets_around(box, index_.id(place), hit, hits.limit) : !asked_.hits(box, index_.id(place), hit))
+      return;
+    hits.offer(hit);
+    set_most<true>(hits.limit);
   }
 };

@@ -21,10 +21,6 @@ class StripIndex {
   // By block. Strips have some more than they need, which are never counted.
   Buffer<f32> ends_, begins_;
 
-  static f32 largest(f32x4 of) {
-    of = max(of, __builtin_shufflevector(of, of, 2, 3, 0, 1));
-    return max(of, __builtin_shufflevector(of, of, 1, 0, 3, 2))[0];
-  }
   static u64 first_block(u32 strip, u32 begin) { return begin / block + u64(strip) * compared; }
 
  public:
