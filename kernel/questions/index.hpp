@@ -372,8 +372,8 @@ template <int D> class Index {
 
   /// Room for all places; the contents of some are kept.
   void make_room(u32 keep) {
-    slots_.grow(larger(room_, keep), keep);
+    slots_.grow(larger(room_, keep) + 8, keep);  // queries read those of a whole block
     places_.grow(larger(room_, keep), known_);
-    if (seen_.named) placed_ids_.reserve(room_);
+    if (seen_.named) placed_ids_.reserve(room_ + 8);
   }
 };

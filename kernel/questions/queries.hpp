@@ -232,7 +232,17 @@ template <int D> class Queries {
     if (level == 0) {
       if (from_ > number * 8) left &= 0xff << (from_ - number * 8);
       answers.grow(u64(found_) + 8, found_);
-      for (left = touching(number, left); left; left &= left - 1) {
+      left = touching(number, left);
+      if (all_wanted_ &&
+          most_ - found_ >= 8) {  // without a branch, since how many of the eight are wanted is unpredictable
+        for (u32 half = 0; half < 8; half += 4, left >>= 4) {
+          u8x16 names = load<u8x16>(names_ + number * 8 + half);
+          store(answers.data() + found_, swizzle(names, load<u8x16>(detail::swizzles.of[left & 15])));
+          found_ += detail::bits_set[left & 15];
+        }
+        return true;
+      }
+      for (; left; left &= left - 1) {
         u32 place = number * 8 + u32(__builtin_ctz(left));
         if (!wanted(place)) continue;
         if (found_ == most_) {
