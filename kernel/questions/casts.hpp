@@ -56,10 +56,10 @@ template <int D> class Casts : public Together<D, Casts<D>, CastAim<D>> {
 
   NOINLINE void finish(const u32* entries, u32 count) {
     for (u32 k = 0; k < count; k++) {
-      u32 number = this->number(entries[k]), asks = this->asker(entries[k]), places[12];
-      u32 many = this->write(this->index_->block(0, number), this->aims_[asks], number * 8, places);
-      for (u32 n = 0; n < many; n++) offer(asks, places[n]);
-      tests_ += many;
+      u32 number = this->number(entries[k]), asks = this->asker(entries[k]);
+      Ranks ranks;
+      this->aims_[asks].rank(this->index_->block(0, number), ranks);
+      for (u32 lane; (lane = ranks.take(this->aims_[asks].most)) < 8; tests_++) offer(asks, number * 8 + lane);
     }
   }
 

@@ -12,8 +12,6 @@
 
 template <int D> class Queries {
   using Block = typename Index<D>::Block;
-  static constexpr u32 lane_bits = 7, none = 0xffffffff;
-  static constexpr u32x4 lanes = {0, 1, 2, 3};
 
   const Index<D>& index_;
   const Question<D>& asked_;
@@ -275,12 +273,9 @@ template <int D> class Queries {
     return true;
   }
 
-  /// Writes lower bounds for the squared distances of the point to eight boxes, reduced by the possible rounding error,
-  /// or `none` if a box is not within the limit. The last three bits are replaced by the lane, so that the results can
-  /// be compared as integers. Returns one bit for each box that may be within the limit.
-  NOINLINE u32 least_distances(const Block& block, u32 (&to)[8]) const {
+  /// Ranks eight boxes by lower bounds for their squared distances from the point, reduced by the possible rounding error.
+  NOINLINE void rank_by_distance(const Block& block, Ranks& to) const {
     f32x4 most = splat(most_rank_);
-    u32 close = 0;
     ROLLED for (u32 half = 0; half < 8; half += 4) {
       f32x4 sum = {};
       for (int a = 0; a < D; a++) {
@@ -288,30 +283,17 @@ template <int D> class Queries {
         away = max(away, f32x4{});
         sum += away * away;
       }
-      u32x4 least = bits<u32x4>(min(sum * splat(0.999999f), splat(1e38f))) & ~lane_bits;
+      f32x4 least = min(sum * splat(0.999999f), splat(1e38f));
       i32x4 is_box = load<f32x4>(block.lo[0] + half) == load<f32x4>(block.lo[0] + half);
-      i32x4 here = is_box & (bits<f32x4>(least) <= most);
-      close |= bitmask(here) << half;
-      store(to + half, least | (lanes + half) | ~bits<u32x4>(here));
+      to.set(half, least, is_box & (least <= most));
     }
-    return close;
   }
 
-  /// The same for the times at which the moving box meets eight boxes, as shares of its path.
-  NOINLINE u32 least_times(const Block& block, u32 (&to)[8]) const {
-    if (!is_tame_) {
-      u32 close = touched(block);
-      for (u32 lane = 0; lane < 8; lane++) to[lane] = close >> lane & 1 ? lane : none;
-      return close;
-    }
-    u32 close = 0;
-    ROLLED for (u32 half = 0; half < 8; half += 4) {
-      f32x4 times;
-      i32x4 here = aim_.reaches(block, half, times);
-      close |= bitmask(here) << half;
-      store(to + half, (bits<u32x4>(max(f32x4{}, times)) & ~lane_bits) | (lanes + half) | ~bits<u32x4>(here));
-    }
-    return close;
+  /// Ranks eight boxes by the times at which the moving box may meet them, as shares of its path.
+  void rank_by_time(const Block& block, Ranks& to) const {
+    if (is_tame_) return aim_.rank(block, to);
+    u32 close = touched(block);
+    for (u32 lane = 0; lane < 8; lane++) to.of[lane] = close >> lane & 1 ? lane : Ranks::none;
   }
 
   /// Offers the boxes of a block to `hits`, in ascending order of their lower bounds.
@@ -322,19 +304,14 @@ template <int D> class Queries {
       offer_near(number, hits);
       return set_most<moving>(hits.limit);
     }
-    u32 least[8];
-    if (moving) least_times(block, least);
-    else least_distances(block, least);
-    // Most blocks are left after one or two of the eight, so these are not sorted: that takes unpredictable branches.
-    for (u32 next; (next = smallest_of(least)) <= (bits<u32>(most_rank_) | lane_bits);) {
-      u32 lane = next & lane_bits;
-      least[lane] = none;
+    Ranks ranks;
+    if (moving) rank_by_time(block, ranks);
+    else rank_by_distance(block, ranks);
+    for (u32 lane; (lane = ranks.take(most_rank_)) < 8;) {
       if (moving && level == 0) offer_ahead(number * 8 + lane, hits);
       else search<moving>(level - 1, number * 8 + lane, hits);
     }
   }
-
-  static u32 smallest_of(const u32 (&ranks)[8]) { return smallest(min(load<u32x4>(ranks), load<u32x4>(ranks + 4))); }
 
   /// Sets the limit, in the unit of the lower bounds, a time or a squared distance; never rounded below it.
   template <bool moving> void set_most(f64 limit) {
@@ -395,9 +372,10 @@ template <int D> class Queries {
   }
 
   SMALL void offer_near_around(u32 number, Hits& hits) const {
-    u32 least[8];
-    for (u32 left = least_distances(index_.block(0, number), least); left; left &= left - 1) {
-      u32 place = number * 8 + u32(__builtin_ctz(left));
+    Ranks ranks;
+    rank_by_distance(index_.block(0, number), ranks);
+    for (u32 lane; (lane = ranks.take(most_rank_)) < 8;) {
+      u32 place = number * 8 + lane;
       f64 box[2 * D], away[D];
       index_.box(place, box);
       if (wanted(place) && copies_.away(box, away)) hits.offer({length_of(away), index_.id(place), 0});

@@ -60,7 +60,7 @@ template <int D, class Self, class Aim> class Together {
   NOINLINE static u32 write(const Block& block, const Aim& aim, u32 first, u32* to) {
     u32 n = 0;
     u32x4 children = splat(first) + u32x4{0, 1, 2, 3};
-    ROLLED for (u32 half = 0; half < 8; half += 4) {
+    for (u32 half = 0; half < 8; half += 4) {
       u32 mask = bitmask(aim.reaches(block, half));
       store(to + n, swizzle(bits<u8x16>(children), load<u8x16>(detail::swizzles.of[mask])));
       n += detail::bits_set[mask];
