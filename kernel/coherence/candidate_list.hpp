@@ -70,11 +70,9 @@ template <int D> class CandidateList {
 
   /// The work of this update for late boxes, and of any update without them. `looked`: boxes that it checks.
   f64 late_work() const { return late_count_ * tuning.late_among(count_) + met_ + extra_.count * tuning.candidate; }
-  f64 least_work(f64 looked) const { return candidates_.count * tuning.candidate + looked * tuning.look; }
+  f64 least_work(f64 looked) const { return candidates_.count * tuning.candidate + looked; }
   /// The work of making the list.
-  f64 made_work() const {
-    return tuning.entry * built_.entries + built_.tests + built_.candidates + 2 * tuning.look * count_;
-  }
+  f64 made_work() const { return tuning.entry * built_.entries + built_.tests + built_.candidates + 2.0 * count_; }
 
   /// Sets whether pairs in doubt are recorded. If that is new, settled pairs may be in doubt, so the list is dropped.
   void watch(bool watched) {

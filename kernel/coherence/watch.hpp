@@ -50,8 +50,8 @@ template <int D> struct Prospect {
     return D == 2 ? root : root * root;
   }
   /// The work of making a list: a rebuild with larger boxes, which finds more, and twice the check of all boxes.
-  f64 build(f64 growth, const Tuning<D>& tuning) const {
-    return fresh + tests * (more_tests(growth) - 1) + pairs * (widening(growth) - 1) + 2 * tuning.look;
+  f64 build(f64 growth) const {
+    return fresh + tests * (more_tests(growth) - 1) + pairs * (widening(growth) - 1) + 2;
   }
 };
 
@@ -363,18 +363,18 @@ template <int D> class Watch {
       beyond += here;
       sum += here * edge(m);
     }
-    f64 looked = tuning.look * prospect.looked, jumps = horizon.jumps * share;
-    f64 least = looked + tuning.candidate * prospect.candidates(1) +
-                (prospect.planning + prospect.build(1, tuning)) / updates;
+    f64 jumps = horizon.jumps * share;
+    f64 least = prospect.looked + tuning.candidate * prospect.candidates(1) +
+                (prospect.planning + prospect.build(1)) / updates;
     Growth<D> all = led ? Growth<D>{} : plain;
     for (u32 m = 0; m < buckets - 2; m++) {
       f64 limit = smaller(most, best.work * (led && !best.lead ? tuning.ahead : 1));
       f64 lateness = (jumps + events[m]) * prospect.late / updates;
       if (bursts[m] * prospect.late > tuning.burst * prospect.fresh || least + lateness >= limit) continue;
       if (all.of[0] == 0) all = space(prospect, horizon.lead);
-      f64 margin = horizon.size * edge(m), growth = all(margin) / plain(0), build = prospect.build(growth, tuning);
+      f64 margin = horizon.size * edge(m), growth = all(margin) / plain(0), build = prospect.build(growth);
       if (build > tuning.build * prospect.fresh) return;  // as for all larger ones
-      f64 work = looked + tuning.candidate * prospect.candidates(growth) + lateness;
+      f64 work = prospect.looked + tuning.candidate * prospect.candidates(growth) + lateness;
       work += (prospect.planning + build) / updates;
       if (work < limit) best = {f32(margin), growth, led << h, work};
       if (events[m] == 0) return;  // larger ones only cost more

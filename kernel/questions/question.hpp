@@ -90,9 +90,10 @@ template <int D> class Wanted {
   SMALL bool meets(const Rule& its) const { return (own_ & its.mask) && (its.layer & mask_); }
 };
 
-/// The `most` smallest hits after a given one: few are kept in order, many in a heap with the largest on top.
+/// The `most` smallest hits after a given one: few are kept in order, many in a heap with the largest on top. Each level of
+/// a heap takes an unpredictable branch, so moving half of a few hundred hits is faster.
 class Hits {
-  static constexpr u32 few = 24;
+  static constexpr u32 most_in_order = 256;
 
   Buffer<Hit> list_;
   u32 count_ = 0, most_ = 0;
@@ -133,7 +134,7 @@ class Hits {
 
   NOINLINE void offer(Hit hit) {
     if (!(hit.rank <= limit) || (after_ && !(last_ < hit))) return;
-    bool ordered = most_ <= few;
+    bool ordered = most_ <= most_in_order;
     if (count_ < most_) {
       list_.grow(u64(count_) + 1, count_);
       u32 at = count_++;
@@ -149,7 +150,7 @@ class Hits {
 
   /// Sorts the hits, smallest first; returns how many.
   SMALL u32 finish() {
-    for (u32 n = most_ <= few ? 0 : count_; n-- > 1;) {
+    for (u32 n = most_ <= most_in_order ? 0 : count_; n-- > 1;) {
       Hit least = list_[n];
       list_[n] = list_[0];
       sift_down(0, n, least);
