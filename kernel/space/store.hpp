@@ -231,7 +231,7 @@ template <int D> class Store {
   }
 
   /// The number of boxes there is room for in all of these arrays.
-  SMALL u32 room() const {
+  u32 room() const {
     u64 all = smaller(smaller(u64(max_slots), numbers.room()), u64(numbers.written.changes.room()));
     return u32(larger(own.room(all), u64(ids.count())));
   }
@@ -250,7 +250,7 @@ template <int D> class Store {
   }
 
   /// The slot of an id, which gets one if it has none.
-  SMALL u32 add(u32 id) {
+  NOINLINE u32 add(u32 id) {
     u32 slot = ids.slot(id);
     if (slot != Ids::none) return slot;
     if (ids.count() >= room()) make_room(u64(ids.count()) + 1, ids.count());
