@@ -66,11 +66,15 @@ alignas(16) inline constexpr Swizzles swizzles;
 alignas(16) inline constexpr u8 bits_set[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 }  // namespace detail
 
+/// Those of four numbers whose bit is set in `mask`, in the first lanes.
+inline u32x4 packed(u32x4 numbers, u32 mask) {
+  return bits<u32x4>(swizzle(bits<u8x16>(numbers), load<u8x16>(detail::swizzles.of[mask])));
+}
+
 /// Appends the pairs of four slots with four others, lane by lane, if the lane's bit is set in `mask`.
 inline u64* append_each(u64* out, u32x4 some, u32x4 others, u32 mask) {
-  u8x16 front = load<u8x16>(detail::swizzles.of[mask]);
-  u32x4 a = bits<u32x4>(swizzle(bits<u8x16>(min(some, others)), front));
-  u32x4 b = bits<u32x4>(swizzle(bits<u8x16>(max(some, others)), front));
+  u32x4 a = packed(min(some, others), mask);
+  u32x4 b = packed(max(some, others), mask);
   store(out, __builtin_shufflevector(a, b, 0, 4, 1, 5));
   store(out + 2, __builtin_shufflevector(a, b, 2, 6, 3, 7));
   return out + detail::bits_set[mask];
@@ -78,9 +82,9 @@ inline u64* append_each(u64* out, u32x4 some, u32x4 others, u32 mask) {
 
 /// Appends the pairs of slot `mine` with those of the four `others` whose bit is set in `mask`.
 inline u64* append(u64* out, u32x4 mine, u32x4 others, u32 mask) {
-  u32x4 packed = bits<u32x4>(swizzle(bits<u8x16>(others), load<u8x16>(detail::swizzles.of[mask])));
-  u32x4 a = min(mine, packed);
-  u32x4 b = max(mine, packed);
+  u32x4 its = packed(others, mask);
+  u32x4 a = min(mine, its);
+  u32x4 b = max(mine, its);
   store(out, __builtin_shufflevector(a, b, 0, 4, 1, 5));
   store(out + 2, __builtin_shufflevector(a, b, 2, 6, 3, 7));
   return out + detail::bits_set[mask];

@@ -231,11 +231,10 @@ template <int D> class Queries {
       if (from_ > number * 8) left &= 0xff << (from_ - number * 8);
       answers.grow(u64(found_) + 8, found_);
       left = touching(number, left);
-      if (all_wanted_ &&
-          most_ - found_ >= 8) {  // without a branch, since how many of the eight are wanted is unpredictable
+      if (all_wanted_ && most_ - found_ >= 8) {
+        // No branch for each box: which of them touch is unpredictable.
         for (u32 half = 0; half < 8; half += 4, left >>= 4) {
-          u8x16 names = load<u8x16>(names_ + number * 8 + half);
-          store(answers.data() + found_, swizzle(names, load<u8x16>(detail::swizzles.of[left & 15])));
+          store(answers.data() + found_, packed(load<u32x4>(names_ + number * 8 + half), left & 15));
           found_ += detail::bits_set[left & 15];
         }
         return true;

@@ -62,7 +62,7 @@ template <int D, class Self, class Aim> class Together {
     u32x4 children = splat(first) + u32x4{0, 1, 2, 3};
     for (u32 half = 0; half < 8; half += 4) {
       u32 mask = bitmask(aim.reaches(block, half));
-      store(to + n, swizzle(bits<u8x16>(children), load<u8x16>(detail::swizzles.of[mask])));
+      store(to + n, packed(children, mask));
       n += detail::bits_set[mask];
       children += splat(4u);
     }
