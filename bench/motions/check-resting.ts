@@ -100,4 +100,34 @@ const leaping: Motion = (bodies) => {
   };
 };
 
-export const checkResting = { patrols, selection, blasts, tiles, leaping } satisfies Record<string, Motion>;
+/** Sand: all fall at one speed, each until it reaches what lies in its column; now and then one is lifted up again. */
+const sand: Motion = (bodies) => {
+  const { count, dimensions, random, world, at, sides } = bodies;
+  const heights = new Map<number, number>();
+  const lies = new Uint8Array(count);
+  const column = (id: number) => Math.floor(at[id * dimensions] / sides[id]);
+  for (let id = 0; id < count; id++) {
+    at[id * dimensions] = column(id) * sides[id];
+    at[id * dimensions + 1] += 0.3 * world;
+  }
+  return () => {
+    for (let id = 0; id < count; id++) {
+      const k = id * dimensions + 1;
+      const height = heights.get(column(id)) ?? 0;
+      if (lies[id]) {
+        if (random() > 0.0005) continue;
+        lies[id] = 0;
+        heights.set(column(id), height - sides[id]);
+        at[k] = 1.3 * world;
+      } else if (at[k] - 2 > height) {
+        at[k] -= 2;
+      } else {
+        at[k] = height;
+        lies[id] = 1;
+        heights.set(column(id), height + sides[id]);
+      }
+    }
+  };
+};
+
+export const checkResting = { patrols, selection, blasts, tiles, leaping, sand } satisfies Record<string, Motion>;

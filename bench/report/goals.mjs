@@ -16,6 +16,7 @@ const limits = {
   circles: 0.5,
   groups: 0.5,
   units: 0.5,
+  sand: 0.5,
   patrols: 0.25,
   tiles: 0.25,
   leaping: 0.25,

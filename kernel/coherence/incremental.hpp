@@ -2,7 +2,7 @@
 //
 // Idea: candidate_list.hpp has the list; this file decides when one is made, with which margin, and when it ends.
 //   - The margin comes from measured displacements, not predictions: see watch.hpp. If no margin is expected to pay,
-//     strip sweep runs, and a list is tried again after 8 to 512 updates.
+//     strip sweep runs, and a list is tried again after 8 to 512 updates, from new measurements.
 //   - A list ends when late boxes cost more than a new list would, on average, or much more in one update.
 //     Bounded motion never ends one.
 //   - A new list costs 1.5 rebuilds or more. If the old one has lived long, that is divided between two updates: the

@@ -122,10 +122,10 @@ template <int D> class Watch {
   u32 known() const { return known_ ? 1u << (known_ - 1) : 0; }
   /// Whether new samples were taken in this update.
   bool is_new() const { return many_ > 0 && age_ == 0; }
-  /// Makes the next `look` take new samples.
-  void forget() { many_ = 0; }
+  /// Forgets all measurements; the next `look` takes new samples.
+  void forget() { many_ = known_ = 0; }
   SMALL void release() {
-    many_ = known_ = 0;
+    forget();
     samples_.release();
     horizons_.release();
   }
