@@ -45,13 +45,13 @@ template <int D> struct AxisOrder {
   static AxisOrder make(int sweep) {
     AxisOrder order;
     order.axis[0] = sweep;
-    for (int k = 1, a = 0; k < D; a++) {
-      if (a != sweep) order.axis[k++] = a;
-    }
-    for (int lane = 0; lane < 4; lane++) {
-      int from = D == 2 ? order.axis[lane & 1] + (lane & 2) : lane < 3 ? order.axis[lane % D] : -1;
-      for (int byte = 0; byte < 4; byte++) order.pick[lane * 4 + byte] = u8(from < 0 ? 0x80 : from * 4 + byte);
-    }
+    order.axis[1] = sweep == 0;
+    if constexpr (D == 3) order.axis[2] = 2 - (sweep == 2);
+    auto bytes_of = [](int number) { return 0x03020100u + 0x04040404u * u32(number); };
+    u32x4 pick = {bytes_of(order.axis[0]), bytes_of(order.axis[1])};
+    if constexpr (D == 2) pick = u32x4{pick[0], pick[1], bytes_of(2 + order.axis[0]), bytes_of(2 + order.axis[1])};
+    else pick = u32x4{pick[0], pick[1], bytes_of(order.axis[2]), 0x80808080u};
+    order.pick = bits<u8x16>(pick);
     return order;
   }
 };
@@ -220,11 +220,20 @@ template <int D> class Lanes {
       Item<D> four[4] = {items[k], items[k + 1], items[k + 2], items[k + 3]};
       put4(k, four);
     }
-    for (; k < n + spare_lanes; k += 4) {
+    if (k < n) {
       Item<D> four[4];
-      ROLLED  // runs once or twice per list
+      ROLLED  // runs once per list
           for (u32 lane = 0; lane < 4; lane++) four[lane] = k + lane < n ? items[k + lane] : nothing();
       put4(k, four);
+      k += 4;
+    }
+    f32x4 none = splat(__builtin_nanf(""));
+    for (; k < n + spare_lanes; k += 4) {
+      for (int axis = 0; axis < D; axis++) {
+        store(lo(axis) + k, none);
+        store(hi(axis) + k, none);
+      }
+      store(tag() + k, u32x4{});
     }
   }
 

@@ -50,9 +50,7 @@ template <int D> struct Prospect {
     return D == 2 ? root : root * root;
   }
   /// The work of making a list: a rebuild with larger boxes, which finds more, and twice the check of all boxes.
-  f64 build(f64 growth) const {
-    return fresh + tests * (more_tests(growth) - 1) + pairs * (widening(growth) - 1) + 2;
-  }
+  f64 build(f64 growth) const { return fresh + tests * (more_tests(growth) - 1) + pairs * (widening(growth) - 1) + 2; }
 };
 
 struct Plan {

@@ -14,7 +14,7 @@
 inline constexpr Technique by_default = Technique::automatic;
 
 /// Up to this many boxes, all are tested against all: docs/decisions/0008-small-counts.md has the figures.
-inline constexpr u32 handful = 24;
+inline constexpr u32 handful = 32;
 
 static_assert(!is_built(Technique::automatic) || (is_built(Technique::brute_force) &&
                                                   is_built(Technique::strip_sweep) && is_built(Technique::incremental)),
