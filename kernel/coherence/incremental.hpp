@@ -119,7 +119,7 @@ template <int D> class Incremental {
     f64 n = larger(1u, scene.count);
     prospect_.fresh = (tuning.entry * stats.entries + stats.tests) / n;
     prospect_.tests = stats.tests / n;
-    prospect_.pairs = larger(pairs.count / n, tuning.least_pairs);
+    prospect_.pairs = pairs.count / n;
     if (scene.count >= Watch<D>::least_watched) learn_sizes(scene.count);
   }
 
@@ -162,7 +162,7 @@ template <int D> class Incremental {
     prospect_.tests = smaller(prospect_.tests, built.tests / n / prospect_.more_tests(growth));
     prospect_.fresh = smaller(prospect_.fresh, tuning.entry * built.entries / n + prospect_.tests);
     f64 settled = built.candidates - list_.tested();
-    prospect_.pairs = larger((settled + list_.tested() / growth) / n, tuning.least_pairs);
+    prospect_.pairs = (settled + list_.tested() / growth) / n;
   }
 
   /// Learns the mean size of boxes along the axis where it is smallest, which is at least a share of their spacing.
@@ -188,7 +188,7 @@ template <int D> class Incremental {
     forget();
     watch_.forget();
     pause_ = pauses_;
-    pauses_ = smaller(tuning.longest_pause, pauses_ * 2);
+    pauses_ = smaller(Watch<D>::longest * tuning.watched, pauses_ * 2);
   }
 
   /// Adds up the work of this update, and returns whether a new list is due.

@@ -18,9 +18,7 @@ template <int D> struct Tuning {
   f64 build = 2;  // of a rebuild: a list that would cost more is not made
   f64 at_once = 0.25;  // of the strips of a list: those swept in the update in which it begins
   u32 watched = 8;  // updates, after which it is known whether a list pays; the first pause is as long
-  u32 longest_pause = 512;  // updates
   f64 smoothing = 0.4;  // weight of an update in the running mean of the work for late boxes
-  f64 least_pairs = 0.02;  // pairs per box: fewer count as this many, so that nothing is divided by 0
   f64 apart = 8;  // boxes count as no smaller than their spacing divided by this
 
   /// The work for a late box among n: at most three times `late`.
