@@ -38,6 +38,7 @@ export async function run({ kinds, everything, json, selection }) {
       if (performance.now() > end) {
         record.cut = `Out of time before ${kind}: ${row.name}, ${row.count}.`;
         console.log(record.cut);
+        if (output) save(output, record);
         break;
       }
       record.rows.push(await played(play, row));

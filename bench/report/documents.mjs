@@ -98,10 +98,21 @@ const headlineScenes = [
   'rain 15505',
 ];
 
+/** What scenes whose names begin like this are. */
+const sceneWords = {
+  uniform: 'all move',
+  mixed: 'sizes from 2 to 2,000',
+  static: '5 % move',
+  rain: 'a recorded Box2D game',
+};
+
 export function headlineOf(record) {
   const scenes = ofKind(record, 'scenes').filter(
     ({ name, count, numbers }) => numbers === 'float32' && headlineScenes.includes(`${name} ${count}`),
   );
+  const legend = Object.entries(sceneWords)
+    .filter(([word]) => scenes.some(({ name }) => name.startsWith(word)))
+    .map(([word, text]) => `\`${word}\`: ${text}`);
   const order = ({ name, count }) => headlineScenes.indexOf(`${name} ${count}`);
   const cells = scenes
     .sort((a, b) => order(a) - order(b))
@@ -117,7 +128,7 @@ export function headlineOf(record) {
     originOf(record),
     'A whole frame of a game: its things are objects, their boxes are given, all pairs found, and both things of each pair read.',
     worthTable(record, headlineThings),
-    'The kernel alone, with boxes written in place as float32. `uniform`: all move; `mixed`: sizes from 2 to 2,000; `static`: 5 % move; `rain`: a recorded Box2D game.',
+    `The kernel alone, with boxes written in place as float32. ${legend.join('; ')}.`,
     markdownTable(['scene', 'boxes', 'pairs', '`auto`', 'the fastest npm package', 'ratio'], cells),
   );
 }
