@@ -29,6 +29,8 @@ export interface Contender {
   timed?: number;
   total?: Figures;
   update?: Figures;
+  /** The median of its updates divided by those of the first contender in the same frames. */
+  share?: number;
   wrong?: Difference;
   error?: string;
   slow?: number;

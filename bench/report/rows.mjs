@@ -20,11 +20,16 @@ export const fastest = (row, which) =>
 /** How much longer `auto` may take than the best technique: a share of it, and milliseconds for the call itself. */
 const allowed = { share: 0.1, ms: 0.02 };
 
-/** The best technique that could have been used instead of `auto`, and the ratio of `auto` to it. */
+/**
+ * The best technique that could have been used instead of `auto`, and the ratio of `auto` to it in the same frames. `auto`
+ * is the first contender, so the shares of all others are of its time.
+ */
 export function autoAgainstBest(row) {
   const auto = named(row, 'auto');
-  const best = fastest(row, ({ peer, name }) => peer === 'broadphase' && name !== 'auto');
+  const [best] = timed(row)
+    .filter(({ peer, name, wrong, share }) => peer === 'broadphase' && name !== 'auto' && !wrong && share)
+    .sort((a, b) => a.share - b.share);
   if (!auto || !best) return undefined;
-  const [ours, theirs] = [auto.update.median, best.update.median];
-  return { best: best.name, ratio: ours / theirs, within: ours <= theirs * (1 + allowed.share) + allowed.ms };
+  const [ours, theirs] = [auto.update.median, auto.update.median * best.share];
+  return { best: best.name, ratio: 1 / best.share, within: ours <= theirs * (1 + allowed.share) + allowed.ms };
 }
