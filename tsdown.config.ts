@@ -32,7 +32,9 @@ const beside = (library: string): UserConfig => {
 const folderOfScripts: UserConfig['plugins'] = {
   name: 'folder-of-scripts',
   generateBundle() {
-    const files = { 'package.json': '{ "type": "commonjs" }\n', 'broadphase.d.ts': "export * from '../index.js';\n" };
+    // `require` does not run index.js, but has the same types.
+    const types = "// @ts-ignore TS1479: only the types are imported\nexport * from '../index.js';\n";
+    const files = { 'package.json': '{ "type": "commonjs" }\n', 'broadphase.d.ts': types };
     for (const [fileName, source] of Object.entries(files)) this.emitFile({ type: 'asset', fileName, source });
   },
 };

@@ -80,7 +80,7 @@ const matrix = {
     async try(at) {
       const tsc = (...options) => at.run('tsc', '--ignoreConfig', '--strict', '--target', 'es2022', ...options);
       await tsc('--noEmit', '--module', 'esnext', '--moduleResolution', 'bundler', 'main.mts');
-      await tsc('--noEmit', '--module', 'node16', 'main.mts');
+      await tsc('--noEmit', '--module', 'node16', '--exactOptionalPropertyTypes', 'main.mts', 'one.cts');
       await tsc('--module', 'nodenext', 'main.mts', 'main.cts');
       equal(await at.run('node', 'main.mjs'), 'index 7,9; 1 pair; 1 frame; 0,1 guess');
       equal(await at.run('node', 'main.cjs'), 'index 7,9; true');

@@ -17,20 +17,20 @@ import { checkTechnique, isBuilt, type TechniqueName } from './techniques.ts';
 /** Options of {@link BroadPhase}, all optional. */
 export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends TechniqueName = LeanTechnique> {
   /** 2 or 3. Default 2; in `broadphase/3d` 3. */
-  dimensions?: D;
+  dimensions?: D | undefined;
   /** One of {@link BroadPhase.techniques}. Default `'auto'`. */
-  technique?: Technique;
+  technique?: Technique | undefined;
   /**
    * For `spatial-grid`, `retained-grid` and `home-cell-grid`, in `broadphase/all`: the side of a cell, or one number
    * per axis, above 0. `auto` uses no grid, and ignores it. A size so small that boxes would be in very many cells is
    * doubled until they are not. Default: chosen from the boxes.
    */
-  cellSize?: number | readonly number[];
+  cellSize?: number | readonly number[] | undefined;
   /**
    * For `spatial-grid` and `retained-grid`, in `broadphase/all`: the part of the world that is divided into cells,
    * minima then maxima. Boxes outside are still found.
    */
-  bounds?: readonly number[];
+  bounds?: readonly number[] | undefined;
   /**
    * The size of a world that wraps around, along each axis: what leaves it on one side enters on the other, as in
    * Asteroids. Boxes may be given anywhere; two are a pair if they overlap after both are shifted by whole worlds. A
@@ -38,21 +38,21 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
    * of each box in every repetition of the world, and return each box once: see the guide to queries. Numbers above 0,
    * up to 1e300. Default: the world is unbounded.
    */
-  wrap?: readonly number[];
+  wrap?: readonly number[] | undefined;
   /**
    * Whether boxes that only touch overlap: in pairs, events, and, unless they say otherwise, queries about places.
    * Default true. If false, a box of zero size overlaps only the boxes it is inside of.
    */
-  touching?: boolean;
+  touching?: boolean | undefined;
   /** Whether every update determines which pairs began and ended, for `began` and `ended`. Default false. */
-  events?: boolean;
+  events?: boolean | undefined;
   /**
    * For `aabb-tree`, in `broadphase/all`: how far a box may move before the tree changes, above 0. Default: chosen from
    * the observed motion.
    */
-  margin?: number;
+  margin?: number | undefined;
   /** A hint: how many boxes there will be, 0 … 2^24. Avoids growing while they are added. */
-  capacity?: number;
+  capacity?: number | undefined;
 }
 
 /** The names of all options. */

@@ -192,7 +192,7 @@ export function nearest(
 }
 
 /** Writes a ray, with its limit, to the io array; returns the options, which follow the numbers. */
-function ray<Options extends { maxDistance?: number }>(
+function ray<Options extends { maxDistance?: number | undefined }>(
   instance: KernelInstance,
   where: string,
   known: readonly string[],

@@ -4,51 +4,51 @@ import { badId, badNumber, badValue, checkBits, isId, isSize } from './errors.ts
 /** Options of every query, each of which adds an `out` or a `visit` of its own. */
 export interface QueryOptions {
   /** Only boxes with a layer in it: 32 bits, as for `setFilter`. Default: all boxes. */
-  mask?: number;
+  mask?: number | undefined;
   /** A box to leave out, usually the one that asks, or a few: each is compared with each answer. */
-  ignore?: number | readonly number[];
+  ignore?: number | readonly number[] | undefined;
 }
 
 /** Options of queries about places. */
 export interface AreaOptions {
   /** Whether boxes that only touch count as answers. Default: the space's option, which is true by default. */
-  touching?: boolean;
+  touching?: boolean | undefined;
 }
 
 /** Options of queries that return ids. */
 export interface IdsOptions extends QueryOptions, AreaOptions {
   /** Filled and returned, instead of a new array. If you reuse it and the options, queries make no garbage. */
-  out?: number[];
+  out?: number[] | undefined;
   /** Called for each answer instead of collecting them; `false` ends the search. The answer is then empty. */
-  visit?: (id: number) => unknown;
+  visit?: ((id: number) => unknown) | undefined;
 }
 
 /** Options of {@link BroadPhase.queryBox}. */
 export interface BoxOptions extends IdsOptions {
   /** Whether boxes must be wholly inside; they may touch the sides, unless `touching` is false. Default false. */
-  within?: boolean;
+  within?: boolean | undefined;
 }
 
 /** Options of {@link BroadPhase.queryPlanes}. */
 export interface PlanesOptions extends QueryOptions, AreaOptions {
   /** Filled and returned, instead of a new array. */
-  out?: number[];
+  out?: number[] | undefined;
   /**
    * Called for each answer instead of collecting them, with whether the box is wholly inside; `false` ends the search.
    */
-  visit?: (id: number, inside: boolean) => unknown;
+  visit?: ((id: number, inside: boolean) => unknown) | undefined;
 }
 
 /** Options of {@link BroadPhase.nearest}. */
 export interface NearestOptions extends QueryOptions {
   /** The largest distance, at least 0. Default: no limit. */
-  maxDistance?: number;
+  maxDistance?: number | undefined;
   /** Filled and returned, instead of a new array. */
-  out?: number[];
+  out?: number[] | undefined;
   /** Filled with the distance of each answer, in the same order. */
-  distances?: number[];
+  distances?: number[] | undefined;
   /** Called for each answer, the nearest first, instead of collecting them; `false` ends the search. */
-  visit?: (id: number, distance: number) => unknown;
+  visit?: ((id: number, distance: number) => unknown) | undefined;
 }
 
 /** What a ray hits. */
@@ -64,27 +64,27 @@ export interface RayHit {
 /** Options of {@link BroadPhase.rayCast}. */
 export interface RayOptions extends QueryOptions {
   /** How far the ray reaches, at least 0. Default: no limit. */
-  maxDistance?: number;
+  maxDistance?: number | undefined;
   /**
    * Whether a hit counts: called for each hit, from the first on, until it returns true. The hit is the object that
    * will be returned.
    */
-  accept?: (id: number, hit: Readonly<RayHit>) => boolean;
+  accept?: ((id: number, hit: Readonly<RayHit>) => boolean) | undefined;
   /** Filled and returned, instead of a new object. */
-  out?: RayHit;
+  out?: RayHit | undefined;
 }
 
 /** Options of {@link BroadPhase.rayCastAll}. */
 export interface RayAllOptions extends QueryOptions {
   /** How far the ray reaches, at least 0. Default: no limit. */
-  maxDistance?: number;
+  maxDistance?: number | undefined;
   /** Filled and returned instead of a new array; the objects in it are reused. */
-  out?: RayHit[];
+  out?: RayHit[] | undefined;
   /**
    * Called for each answer, from the first on, instead of collecting them; `false` ends the search. The hit is the same
    * object each time.
    */
-  visit?: (id: number, distance: number, hit: Readonly<RayHit>) => unknown;
+  visit?: ((id: number, distance: number, hit: Readonly<RayHit>) => unknown) | undefined;
 }
 
 /** What a moving box hits. */
@@ -106,14 +106,14 @@ export interface SweepOptions extends QueryOptions {
    * Whether a hit counts: called for each hit, by time, until it returns true. The hit is the object that will be
    * returned.
    */
-  accept?: (id: number, hit: Readonly<SweepHit>) => boolean;
+  accept?: ((id: number, hit: Readonly<SweepHit>) => boolean) | undefined;
   /** Filled and returned, instead of a new object. */
-  out?: SweepHit;
+  out?: SweepHit | undefined;
   /**
    * Called for each box on the path, by time, instead of returning the first; `false` ends the search. The hit is the
    * same object each time.
    */
-  visit?: (id: number, time: number, hit: Readonly<SweepHit>) => unknown;
+  visit?: ((id: number, time: number, hit: Readonly<SweepHit>) => unknown) | undefined;
 }
 
 /** Answers to many queries. */
@@ -153,11 +153,11 @@ export interface ManySweepHits extends ManyIds {
 /** Options of many queries. */
 export interface ManyOptions<Answer = ManyIds> {
   /** Only boxes with a layer in it: 32 bits, as for `setFilter`. Default: all boxes. */
-  mask?: number;
+  mask?: number | undefined;
   /** For each query a box to leave out of its answers, usually the one that asks; any id, in use or not. */
-  ignoreEach?: Uint32Array | readonly number[];
+  ignoreEach?: Uint32Array | readonly number[] | undefined;
   /** The result of an earlier call, which is filled and returned; arrays that are too short are replaced. */
-  out?: Answer;
+  out?: Answer | undefined;
 }
 
 /** Options of many queries about places. */
@@ -166,13 +166,13 @@ export interface ManyAreaOptions extends ManyOptions, AreaOptions {}
 /** Options of {@link BroadPhase.queryBoxes}. */
 export interface ManyBoxOptions extends ManyAreaOptions {
   /** Whether boxes must be wholly inside; they may touch the sides, unless `touching` is false. Default false. */
-  within?: boolean;
+  within?: boolean | undefined;
 }
 
 /** Options of many queries with a maximum distance. */
 export interface ManyFarOptions<Answer> extends ManyOptions<Answer> {
   /** The largest distance of each, at least 0. Default: no limit. */
-  maxDistance?: number;
+  maxDistance?: number | undefined;
 }
 
 /** The mask for all boxes. */

@@ -20,19 +20,19 @@ export interface Colors {
 /** Options of {@link drawSpace}, all optional. */
 export interface DrawOptions {
   /** Whether boxes are drawn. Default true. */
-  boxes?: boolean;
+  boxes?: boolean | undefined;
   /** Whether boxes in a pair get a colour, and a line to their partner. Default true. */
-  pairs?: boolean;
+  pairs?: boolean | undefined;
   /** Whether the cells, strips or nodes of the technique are drawn. Default false. */
-  cells?: boolean;
+  cells?: boolean | undefined;
   /** Whether the fullest cells are filled, the fuller the stronger. Default false. */
-  hot?: boolean;
+  hot?: boolean | undefined;
   /** Rays to cast and draw: for each its origin, its direction, and optionally the maximum distance, 4 or 5 numbers. */
-  rays?: readonly (readonly number[])[];
+  rays?: readonly (readonly number[])[] | undefined;
   /** Some other colours. */
-  colors?: Partial<Colors>;
+  colors?: Partial<Colors> | undefined;
   /** The width of lines, in pixels of the canvas. Default 1. */
-  lineWidth?: number;
+  lineWidth?: number | undefined;
 }
 
 const colorsLeftOut: Colors = {

@@ -18,11 +18,11 @@ export type SceneName = KindName | GameName;
 
 export interface SceneOptions {
   /** Same seed, same scene (1). */
-  seed?: number;
+  seed?: number | undefined;
   /** The furthest a box moves in one frame, in units of the world (2). */
-  speed?: number;
+  speed?: number | undefined;
   /** What positions are held in: 'float32', or 'double', as games hold them ('float32'). */
-  numbers?: 'float32' | 'double';
+  numbers?: 'float32' | 'double' | undefined;
 }
 
 /** Boxes of every kind, in 2D and in 3D. */

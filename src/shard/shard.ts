@@ -12,9 +12,9 @@ import type { Zones } from './zones.ts';
 /** Options of {@link Shard}. */
 export interface ShardOptions {
   /** Called for each box that enters the space, before it counts: the place for `setFilter` and the like. */
-  entered?: (id: number) => void;
+  entered?: ((id: number) => void) | undefined;
   /** The result of {@link Shard.state}: the shard continues from there. */
-  state?: Delta;
+  state?: Delta | undefined;
 }
 
 /** A box that the zone sees. */

@@ -15,11 +15,11 @@ export interface ZonesOptions {
   /** Where the world is cut. n borders along an axis make n + 1 zones; the outer ones are unbounded. */
   borders: Borders;
   /** 2 or 3. Default 2. */
-  dimensions?: 2 | 3;
+  dimensions?: 2 | 3 | undefined;
   /** How far a box may move, along each axis, from one exchange to the next update but one. Default 0. */
-  margin?: number;
+  margin?: number | undefined;
   /** The size of a world that wraps around, as for `BroadPhase`. Borders are then between 0 and this size. */
-  wrap?: readonly number[];
+  wrap?: readonly number[] | undefined;
 }
 
 /** The rounding error of a lower corner in a world that wraps around, relative to the world. */

@@ -7,11 +7,11 @@ import { type Summary, summarize } from './statistics.ts';
 /** Options of {@link compare}, including those of the spaces to compare. */
 export interface CompareOptions extends Omit<ReplayOptions, 'technique'> {
   /** Which techniques. Default: all of {@link BroadPhase.techniques}. */
-  techniques?: readonly TechniqueName[];
+  techniques?: readonly TechniqueName[] | undefined;
   /** How often the frames are run; each frame counts with its fastest time. Default 3. */
-  passes?: number;
+  passes?: number | undefined;
   /** Called after each frame of each pass. */
-  progress?: (done: number, total: number) => void;
+  progress?: ((done: number, total: number) => void) | undefined;
 }
 
 /** How one technique did. */

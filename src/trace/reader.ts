@@ -21,7 +21,7 @@ export interface OpenOptions {
    * For the trace of a run that crashed: reads the intact frames up to where the file is truncated or damaged, instead
    * of throwing. {@link Trace.fault} then says what is wrong.
    */
-  salvage?: boolean;
+  salvage?: boolean | undefined;
 }
 
 /**

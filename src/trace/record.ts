@@ -23,7 +23,7 @@ export interface NodeSink {
 /** Options of {@link record}. */
 export interface RecordOptions {
   /** Where the bytes go, frame by frame: a WritableStream or a Node stream. Default: they are kept in memory. */
-  to?: WritableStream<Uint8Array> | NodeSink;
+  to?: WritableStream<Uint8Array> | NodeSink | undefined;
 }
 
 /**

@@ -17,9 +17,9 @@ export interface Survey {
   /** Whether any box is static or has a filter. */
   rules: boolean;
   /** The size of the world along each axis, if it wraps around. */
-  wrap?: readonly number[];
+  wrap?: readonly number[] | undefined;
   /** False if boxes that only touch are not pairs. */
-  touching?: boolean;
+  touching?: boolean | undefined;
   /** Whether any number does not fit float32. */
   doubles: boolean;
   /** How many boxes a frame has. */

@@ -14,13 +14,13 @@ import { longestSides } from './survey.ts';
 /** Options of {@link tune}. */
 export interface TuneOptions {
   /** Which techniques are tried. Default: all of {@link BroadPhase.techniques}. `auto` is always measured too. */
-  techniques?: readonly TechniqueName[];
+  techniques?: readonly TechniqueName[] | undefined;
   /** For how many seconds the finalists run against each other. Default 8. */
-  seconds?: number;
+  seconds?: number | undefined;
   /** Tries every technique with every value of each parameter on all frames: slow; serves to check the search. */
-  exhaustive?: boolean;
+  exhaustive?: boolean | undefined;
   /** Called now and then with what is being done, and the progress. */
-  progress?: (what: string, done: number, total: number) => void;
+  progress?: ((what: string, done: number, total: number) => void) | undefined;
 }
 
 /** Options for `new BroadPhase`. */
