@@ -5,6 +5,7 @@ import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { figuresPage, headlineOf, putFigures, worthOf } from '../report/documents.mjs';
 import { headOf, textOf } from '../report/text.mjs';
+import { whole } from '../report/words.mjs';
 import { machine, machineName } from './machine.mjs';
 import { race } from './race.mjs';
 
@@ -36,7 +37,7 @@ export async function run({ kinds, everything, json, selection }) {
     console.log(`\n${title}: ${chosen.length} rows\n${headOf(kind)}`);
     for (const row of chosen) {
       if (performance.now() > end) {
-        record.cut = `Out of time before ${kind}: ${row.name}, ${row.count}.`;
+        record.cut = `The run ended before this row: ${kind}, ${row.name}, ${whole(row.count)} boxes.`;
         console.log(record.cut);
         if (output) save(output, record);
         break;

@@ -1,6 +1,6 @@
 // Documents made from a record of results: docs/figures.md, and the tables of README.md and of docs/guides/worth-it.md.
 import { goals } from './goals.mjs';
-import { fastest, isPackage, named, ofKind } from './rows.mjs';
+import { fastest, isPackage, named, none, ofKind } from './rows.mjs';
 import {
   coldTable,
   motionsTable,
@@ -121,7 +121,7 @@ export function headlineOf(record) {
       const against =
         peer && auto
           ? [`${short(peer.total.median)} ${peer.name}`, times(peer.total.median / auto.total.median)]
-          : ['', ''];
+          : [none(row), ''];
       return [row.name, whole(row.count), whole(row.pairs.mean), auto ? short(auto.total.median) : '', ...against];
     });
   return joined(

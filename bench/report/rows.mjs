@@ -17,6 +17,9 @@ export const fastest = (row, which) =>
     .filter((each) => which(each) && !each.wrong)
     .sort((a, b) => a.total.median - b.total.median)[0];
 
+/** Why no package has a figure. */
+export const none = ({ contenders }) => (contenders.some(isPackage) ? 'none within the limit' : 'not tried');
+
 /** How much longer `auto` may take than the best technique: a share of it, and milliseconds for the call itself. */
 const allowed = { share: 0.1, ms: 0.02 };
 

@@ -1,6 +1,6 @@
 // A table for each kind of rows.
 import { motionCells, motionTitles } from './motions.mjs';
-import { autoAgainstBest, fastest, isPackage, named, ofKind, timed } from './rows.mjs';
+import { autoAgainstBest, fastest, isPackage, named, none, ofKind, timed } from './rows.mjs';
 import { markdownTable, short, times, whole } from './words.mjs';
 
 const cell = (found) => (found ? short(found.total.median) : '');
@@ -77,7 +77,7 @@ export function scenesTable(record) {
       pairsOf(row),
       cell(auto),
       inDoubles ? `${cell(inDoubles)}; update alone ${times(inDoubles.update.median / auto.update.median)}` : '',
-      peer ? withName(peer) : row.contenders.some(isPackage) ? 'none within the limit' : 'not tried',
+      peer ? withName(peer) : none(row),
       peer && auto ? times(peer.total.median / auto.total.median) : '',
       `${row.frames}${peer && peer.timed < row.frames ? `; package ${peer.timed} of them` : ''}`,
     ];

@@ -53,7 +53,11 @@ export async function openSource(db: Connection, path: string, columns: string[]
   const wanted = columns ?? corners[dimensions];
   for (const name of wanted) {
     if (find(name) === undefined) {
-      throw new DataError(`${path}: no column ${name}, expected it among ${names.join(', ')}; --columns names others`);
+      const isOneLine = names.length === 1 && /[,;\t|]/.test(names[0]!);
+      const why = isOneLine
+        ? 'its rows differ in their number of columns, or its separator is unknown'
+        : `no column ${name}, expected it among ${names.join(', ')}; --columns names others`;
+      throw new DataError(`${path}: ${why}`);
     }
   }
   const table = (pick: (column: string) => string) => {
