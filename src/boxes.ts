@@ -23,6 +23,7 @@ export function setAll(instance: KernelInstance, boxes: Boxes, count: number | u
   try {
     const { kernel } = instance;
     const at = (single ? kernel.stage(count) : kernel.stage_exact(count)) >>> 0;
+    if (boxes.length < length) checkNumberArray(where, boxes); // it was this space's memory, which has grown
     const view = instance.stagedView(at, count * width, single);
     if (length === view.length) view.set(boxes);
     else

@@ -103,7 +103,7 @@ export function askMany(
   const { parts } = question;
   let { kind } = question;
   if (kind === asks.box) {
-    const within = options?.within ?? false;
+    const within = options?.within === undefined ? false : options.within;
     if (typeof within !== 'boolean') badValue(`${where}: within`, within, 'true or false', true);
     if (within) kind = asks.within;
   }
@@ -129,6 +129,7 @@ export function askMany(
   if (out !== undefined) checkAnswer(where, out, parts);
   try {
     const at = instance.kernel.stage_questions(length + count) >>> 3;
+    if (numbers.length < length) checkNumberArray(where, numbers); // it was this space's memory, which has grown
     const doubles = instance.doubleView();
     doubles.set(numbers, at);
     if (ignoreEach === undefined) doubles.fill(nobody, at + length, at + length + count);

@@ -1,7 +1,7 @@
 // Errors for bad input: they name the call, the value, and what was expected. One function per kind of input. Each
 // throws, and is called before anything has changed.
 
-import { isFloat32Array, isFloat64Array } from './values.ts';
+import { isAttached, isFloat32Array, isFloat64Array } from './values.ts';
 
 /** Ids are integers from 0 to this. */
 export const maxId = 2 ** 24 - 1;
@@ -130,8 +130,11 @@ export function checkBoxCount(what: string, count: unknown): void {
 
 /** Numbers come in one of three kinds of array. */
 export function checkNumberArray(where: string, numbers: unknown): void {
-  if (isFloat32Array(numbers) || isFloat64Array(numbers) || Array.isArray(numbers)) return;
-  badValue(where, numbers, 'a Float32Array, a Float64Array or an array of numbers', true);
+  if (isFloat32Array(numbers) || isFloat64Array(numbers)) {
+    if (numbers.length > 0 || isAttached(numbers)) return;
+    throw new TypeError(`${where}: got a detached array: its memory was transferred, or has grown`);
+  }
+  if (!Array.isArray(numbers)) badValue(where, numbers, 'a Float32Array, a Float64Array or an array of numbers', true);
 }
 
 /** Whether the arguments are a good id and a good box. */

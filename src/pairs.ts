@@ -8,7 +8,7 @@ export function update(instance: KernelInstance, stats: Stats): void {
   if (instance.exposed?.byteOffset === 0) {
     // The offset is 0 only for detached views.
     throw new Error(
-      'update: the array of boxes() was detached when memory grew, so what was written to it since is lost: ' +
+      'update: the array of boxes() was detached when memory grew, and anything written to it since is lost: ' +
         'call boxes(count) again before you write',
     );
   }

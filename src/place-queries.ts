@@ -37,7 +37,8 @@ export function queryBox(
 ): number[] {
   const io = instance.io();
   if (instance.width === 4) {
-    if (!(isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d) || f !== undefined) {
+    const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d;
+    if (!good || f !== undefined || options !== undefined) {
       badQuery('queryBox', [a, b, c, d, e, f, options], corners[2], number);
     }
     options = e as BoxOptions | undefined;
@@ -53,7 +54,7 @@ export function queryBox(
   io[1] = b;
   io[2] = c;
   io[3] = d;
-  const wholly = options?.within ?? false;
+  const wholly = options?.within === undefined ? false : options.within;
   if (typeof wholly !== 'boolean') badValue('queryBox: within', wholly, 'true or false', true);
   io[radiusAt] = wholly ? within : noCircle;
   return area(instance, 'queryBox', options, boxOptions);

@@ -106,7 +106,7 @@ export function sweep(
   const io = instance.io();
   if (instance.width === 4) {
     const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d;
-    if (!(good && isPlace(e) && isPlace(f)) || h !== undefined) {
+    if (!(good && isPlace(e) && isPlace(f)) || h !== undefined || i !== undefined || options !== undefined) {
       badQuery('sweep', [a, b, c, d, e, f, g, h, i, options], sweep2, number);
     }
     options = g as SweepOptions | undefined;
@@ -207,7 +207,7 @@ function ray<Options extends { maxDistance?: number | undefined }>(
   const io = instance.io();
   const good = isPlace(a) && isPlace(b) && isPlace(c) && isPlace(d);
   if (instance.width === 4) {
-    if (!good || f !== undefined) badQuery(where, [a, b, c, d, e, f, options], ray2, finite);
+    if (!good || f !== undefined || options !== undefined) badQuery(where, [a, b, c, d, e, f, options], ray2, finite);
     io[2] = a;
     io[3] = b;
     io[4] = c;

@@ -11,7 +11,7 @@ export function validate(instance: KernelInstance): void {
 export function structure(instance: KernelInstance): Float32Array {
   try {
     const { kernel } = instance;
-    const at = kernel.structure();
+    const at = kernel.structure() >>> 0; // WebAssembly addresses are signed in JavaScript
     return new Float32Array(kernel.memory.buffer, at, kernel.structure_count() * instance.width);
   } catch (error) {
     instance.recover(error, 'structure');

@@ -10,6 +10,15 @@ export const isTypedArray = (value: unknown, name: string): boolean => typedArra
 export const isFloat32Array = (value: unknown): value is Float32Array => isTypedArray(value, 'Float32Array');
 export const isFloat64Array = (value: unknown): value is Float64Array => isTypedArray(value, 'Float64Array');
 
+/** Whether the memory of an array is still there. */
+export function isAttached(numbers: ArrayBufferView): boolean {
+  try {
+    return new Uint8Array(numbers.buffer).length >= 0;
+  } catch {
+    return false;
+  }
+}
+
 export const isModule = (value: unknown): value is WebAssembly.Module => tagOf(value) === 'WebAssembly.Module';
 
 /** Any view of bytes, or all of a buffer, as bytes. Undefined for anything else. */

@@ -30,13 +30,14 @@ template <int D> class MapChoice {
   void count(u32 collapsed) { collapsed_ = collapsed; }
 
   /// Tries another map, every few updates, or at once if many boxes have collapsed. True if the map was replaced, and
-  /// all boxes have to be rounded again. `ordered`: the choice must depend on the present boxes alone.
-  SMALL bool look(const f32* boxes, const f64* exact, u32 n, bool ordered) {
+  /// all boxes have to be rounded again. `ordered`: the choice must depend on the present boxes alone; `plain`: then it
+  /// must be the plain one.
+  SMALL bool look(const f32* boxes, const f64* exact, u32 n, bool ordered, bool plain) {
     u32 collapsed = collapsed_;
     collapsed_ = 0;
     if (ordered) {
       GapMap<D> other;
-      if (n >= worth_a_look) other.choose(exact, n, nullptr, 0);
+      if (n >= worth_a_look && !plain) other.choose(exact, n, nullptr, 0);
       if (other == map_) return false;
       map_ = other;
       return true;

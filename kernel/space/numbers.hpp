@@ -112,9 +112,9 @@ template <int D> class Numbers {
   /// Replaces the boxes by the staged ones, which will be written in place.
   void swap_staged() { boxes_.swap(staged_); }
 
-  /// Rounds each number to the nearest float32, for good.
-  SMALL void round_in_place(u32 count) {
-    for (u32 k = 0; k < count * width; k++) boxes_[k] = f32(exact_[k]);
+  /// Writes each number, rounded to the nearest float32. Those that are searched are mapped while there are doubles.
+  SMALL void write_floats(u32 count, f32* to) const {
+    for (u32 k = 0; k < count * width; k++) to[k] = rounding_ ? f32(exact_[k]) : boxes_[k];
   }
 
   /// Starts to store the doubles of `n` boxes too.
@@ -132,9 +132,19 @@ template <int D> class Numbers {
     choice_.reset();
   }
 
+  /// Rounds all boxes as while they may be written in place, since they could be in the space that was saved.
+  SMALL void write_in_place(u32 n) {
+    written.begin();
+    choice_.reset();
+    if (rounding_) round_all(n);
+  }
+
   /// Tries another map, and rounds the boxes again if it is better.
   SMALL void look_for_map(u32 n, bool ordered) {
-    if (rounding_ && !written.in_place() && choice_.look(boxes_.data(), exact_.data(), n, ordered)) round_all(n);
+    if (!rounding_ || written.in_place()) return;
+    // A snapshot does not tell that boxes which are all exact in float32 were not before.
+    bool plain = ordered && are_floats(exact_.data(), n, width);
+    if (choice_.look(boxes_.data(), exact_.data(), n, ordered, plain)) round_all(n);
   }
 
   /// Updates the stored doubles by what was written in place, which has no bad boxes.

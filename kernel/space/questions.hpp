@@ -129,12 +129,12 @@ template <int D> class Questions {
     if (!store_.seen.ask()) store_.seen.see(store_.standing());
   }
 
-  /// Whether there are any boxes; if so, builds the index.
+  /// Whether there are any boxes that are not off; if there are any at all, builds the index.
   SMALL bool can_answer() {
     look();
     if (index().count() == 0) return false;
     index().build();
-    return true;
+    return index().places() > 0;
   }
 
   void wrap() {

@@ -10,22 +10,6 @@
 #include "pairs/events.hpp"
 #include "rules/filters.hpp"
 
-/// Little endian, as WebAssembly is.
-struct SnapshotHeader {
-  u32 magic;
-  u8 version;  // 2 if there are parts that version 1 does not have
-  u8 dimensions : 4;
-  u8 reaches : 4;  // 1: reaches are included
-  u8 parts;  // SnapshotPart
-  u8 technique;  // its number, or `automatic`
-  u64 checksum;  // of all bytes, with this field 0
-  u32 count;  // boxes
-  u32 pairs;
-
-  static constexpr u32 right_magic = 0x53504270;  // "pBPS"
-  static constexpr u8 newest = 2, automatic = 255;
-};
-
 enum SnapshotPart : u8 {
   has_ids = 1,
   has_doubles = 2,
@@ -35,6 +19,27 @@ enum SnapshotPart : u8 {
   has_pairs = 32,
   has_order = 64,
   has_groups = 128
+};
+
+/// Little endian, as WebAssembly is.
+struct SnapshotHeader {
+  u32 magic;
+  u8 version;  // 2 if `is_new`
+  u8 dimensions : 4;
+  u8 reaches : 1;  // reaches are included
+  u8 in_place : 1;  // boxes may be written in place, which decides how doubles are rounded
+  u8 spare : 2;
+  u8 parts;  // SnapshotPart
+  u8 technique;  // its number, or `automatic`
+  u64 checksum;  // of all bytes, with this field 0
+  u32 count;  // boxes
+  u32 pairs;
+
+  /// Whether there is something that version 1 does not have.
+  bool is_new() const { return parts >= has_groups || reaches || in_place; }
+
+  static constexpr u32 right_magic = 0x53504270;  // "pBPS"
+  static constexpr u8 newest = 2, automatic = 255;
 };
 
 /// Why bytes are refused: src/snapshot.ts has a message for each of these names.
@@ -91,7 +96,7 @@ class Snapshot {
   u32 box_bytes() const { return ids_ - boxes_; }
 
   /// Writes everything except the boxes, and makes room for them. `events`: null if they are off.
-  SMALL void write(u32 dimensions, u8 technique, bool doubles, const Ids& ids, const Filters& filters,
+  SMALL void write(u32 dimensions, u8 technique, bool doubles, bool in_place, const Ids& ids, const Filters& filters,
                    const u32* groups, const f64* reaches, const Events* events) {
     u32 n = ids.count();
     const Rule* rules = filters.active() ? filters.rules() : nullptr;
@@ -107,8 +112,9 @@ class Snapshot {
     }
     u8 reach = 0;
     for (u32 s = 0; reaches && s < n; s++) reach |= reaches[s] > 0;
-    u8 version = reach || parts & has_groups ? 2 : 1;
-    head_ = {SnapshotHeader::right_magic, version, u8(dimensions & 15), reach, u8(parts), technique, 0, n, 0};
+    head_ = {
+        SnapshotHeader::right_magic, 1, u8(dimensions & 15), u8(reach & 1), in_place, 0, u8(parts), technique, 0, n, 0};
+    if (head_.is_new()) head_.version = 2;
     if (events) head_.pairs = u32(events->count());
     if (!lay_out()) fail(Fault::out_of_memory, f64(u64(1) << 32));
     words_.reserve(end_ / sizeof(u64));
@@ -138,8 +144,7 @@ class Snapshot {
   SMALL SnapshotFault stage(const SnapshotHeader& head, u32 size, u32 dimensions, u32 built) {
     if (size < sizeof(SnapshotHeader) || head.magic != SnapshotHeader::right_magic) return SnapshotFault::foreign;
     if (head.version > SnapshotHeader::newest) return SnapshotFault::newer;
-    bool good = head.version > 0 && head.count <= max_slots && head.reaches <= 1;
-    good &= head.version > 1 || (head.parts < has_groups && !head.reaches);
+    bool good = head.version > 0 && head.count <= max_slots && !head.spare && (head.version > 1 || !head.is_new());
     if (!good || (head.dimensions != 2 && head.dimensions != 3)) return SnapshotFault::damaged;
     head_ = head;
     if (!lay_out() || end_ != size) return SnapshotFault::length;

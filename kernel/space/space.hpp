@@ -68,10 +68,10 @@ template <int D> class Space {
     ordered_ = true;
     const f64* exact = numbers.exact();
     bool doubles = exact && !numbers.are_floats(exact, n, 2 * D);
-    snapshot.write(D, saved_number(technique), doubles, store.ids, store.own.filters, store.own.groups.data(),
-                   store.own.reaches.data(), kept_events());
-    const void* boxes = doubles ? static_cast<const void*>(exact) : numbers.boxes();
-    if (n) __builtin_memcpy(snapshot.boxes(), boxes, snapshot.box_bytes());
+    snapshot.write(D, saved_number(technique), doubles, numbers.written.in_place(), store.ids, store.own.filters,
+                   store.own.groups.data(), store.own.reaches.data(), kept_events());
+    if (doubles) __builtin_memcpy(snapshot.boxes(), exact, snapshot.box_bytes());
+    else numbers.write_floats(n, reinterpret_cast<f32*>(snapshot.boxes()));
     snapshot.seal();
     return -1;
   }
@@ -92,6 +92,7 @@ template <int D> class Space {
       return SnapshotFault::content;
     store.changes().note_all();
     numbers.take_staged(rounded);
+    if (head.in_place) numbers.write_in_place(head.count);
     technique = saved_technique(head.technique);
     restored_ = ordered_ = numbers.written.renamed = true;
     store.seen.restart();

@@ -161,7 +161,7 @@ template <int D> class Store {
       renumber(count);
     }
     if (numbers.exact()) {
-      if (ids_were_same) numbers.round_in_place(smaller(count, had));
+      if (ids_were_same) numbers.write_floats(smaller(count, had), numbers.boxes());
       changes().note_all();  // boxes that touch only when rounded are pairs from now on
       numbers.hold_floats();
     }
