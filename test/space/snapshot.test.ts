@@ -23,12 +23,14 @@ type Call = (space: BroadPhase<2 | 3>) => unknown;
 function randomCalls(count: number, dimensions: 2 | 3, seed: number): Call[] {
   const random = createRandom(seed);
   const integer = (below: number) => Math.floor(random() * below);
+  const apart = [0, 0, 1e6, 1e12][integer(4)]!; // of three clusters: wide gaps are taken out of the boxes searched
   const box = () => {
-    const min = Array.from({ length: dimensions }, () => integer(40) + anyPlace(random));
+    const cluster = integer(3) * apart;
+    const min = Array.from({ length: dimensions }, () => cluster + integer(40) + anyPlace(random));
     return [...min, ...min.map((value) => value + integer(6))];
   };
-  const boxes = () => Array.from({ length: integer(60) }, box).flat();
-  const id = () => (random() < 0.05 ? 2 ** 24 - 1 - integer(3) : integer(70));
+  const boxes = () => Array.from({ length: integer(120) }, box).flat();
+  const id = () => (random() < 0.05 ? 2 ** 24 - 1 - integer(3) : integer(140));
   const bits = () => [0xffffffff, 1, 2, 3, 0, 0x80000000][integer(6)]!;
   return Array.from({ length: count }, (): Call => {
     const chance = random();
@@ -71,6 +73,15 @@ function randomCalls(count: number, dimensions: 2 | 3, seed: number): Call[] {
       };
     }
     if (chance < 0.785) return (space) => void space.clear();
+    if (chance < 0.8) {
+      return (space) => {
+        for (const [at, given] of [...space]) setBox(space, at, Array.from(given, Math.fround));
+      };
+    }
+    if (chance < 0.82) {
+      const [at, group, reach, on] = [id(), integer(3), random(), random() < 0.5];
+      return (space) => void (space.has(at) && space.setGroup(at, group).setReach(at, reach).setEnabled(at, on));
+    }
     return (space) => space.update();
   });
 }
@@ -100,6 +111,7 @@ describe(`a restored space (SEED=${seed})`, () => {
       play(untouched, history);
       play(rolled, history);
       const saved = rolled.snapshot();
+      const boxesAtSave = [...rolled];
       untouched.snapshot(); // from the first one on, pairs come in an order that no update before shows in
       const expected = play(untouched, future);
       expectSameWords(play(rolled, future), expected, 'after a snapshot');
@@ -110,6 +122,9 @@ describe(`a restored space (SEED=${seed})`, () => {
       play(other, taken);
       expectSameWords(play(other.restore(saved).validate(), future), expected, 'from elsewhere');
       expectSameWords(play(new BroadPhase(options).restore(saved), future), expected, 'a fresh space');
+      const [one, same] = [rolled.restore(saved), new BroadPhase<2 | 3>(options).restore(saved)];
+      expect([...same]).toEqual([...one]);
+      expect(boxesAtSave).toEqual([...same]);
       expect(Buffer.compare(rolled.restore(saved).snapshot(), saved)).toBe(0);
       expect(rolled.size).toBe(new BroadPhase(options).restore(saved).size);
     });
