@@ -5,9 +5,10 @@
 // box that leaves stays for one more update. The events are then those of the space itself, in wrapped worlds too.
 // Cost: that of the space, one check per changed box and exchange, two look-ups per pair.
 import type { BroadPhase } from 'broadphase';
-import { badValue, checkBox } from '../errors.ts';
+import { badValue, checkBoolean, checkBox, checkId, checkOptions } from '../errors.ts';
+import { watch } from '../watch.ts';
 import { type Box, type Delta, pack, type Told, unpack } from './delta.ts';
-import type { Zones } from './zones.ts';
+import { checkOther, checkWorld, checkZone, checkZones, insideOf, type Zones } from './zones.ts';
 
 /** Options of {@link Shard}. */
 export interface ShardOptions {
@@ -88,16 +89,22 @@ export class Shard {
    * new Shard(new Zones({ borders: { x: [0] } }), 2, new BroadPhase({ events: true })); // throws RangeError: zone: got 2
    */
   constructor(zones: Zones, zone: number, space: BroadPhase<2 | 3>, options: ShardOptions = {}) {
-    this.#told = Array.from({ length: zones.count }, () => []);
-    if (!this.#told[zone]) badValue('zone', zone, `an integer from 0 to ${zones.count - 1}`);
-    if (space.dimensions !== zones.dimensions) badValue('space.dimensions', space.dimensions, `${zones.dimensions}`);
+    checkZones('zones', zones);
+    checkZone('zone', zone, zones.count);
+    if (typeof space?.[watch] !== 'function') badValue('space', space, 'a BroadPhase', true);
+    checkOptions('new Shard', options, ['entered', 'state']);
+    const { entered = () => {}, state } = options;
+    if (typeof entered !== 'function') badValue('entered', entered, 'a function', true);
+    checkWorld('space', space.dimensions, space[watch](null).wrap, zones, 'as in the zones');
     if (space.size > 0) badValue('space.size', space.size, 'an empty space');
     void space.began; // throws if events are off
+    const kept = state === undefined ? [] : [unpack('state', state, zone, zones)];
+    this.#told = Array.from({ length: zones.count }, () => []);
     this.zone = zone;
     this.space = space;
     this.#zones = this.#nextZones = zones;
-    this.#entered = options.entered ?? (() => {});
-    if (options.state) this.update([options.state]).update(); // the second update, so that no pair has begun
+    this.#entered = entered;
+    for (const told of kept) this.#apply(told).update(); // the second update, so that no pair has begun
   }
 
   /**
@@ -126,6 +133,7 @@ export class Shard {
    * shard.set(7, 0, 0, 10, 10).delete(7); // → true
    */
   delete(id: number): boolean {
+    checkId('delete', id);
     const seen = this.#seen.get(id);
     if (!seen) return false;
     if (seen.owner !== this.zone) badValue('delete', id, `a box of zone ${this.zone}, not of zone ${seen.owner}`);
@@ -142,6 +150,7 @@ export class Shard {
    * new Shard(new Zones({ borders: {} }), 0, new BroadPhase({ events: true })).owns(7); // → false
    */
   owns(id: number): boolean {
+    checkId('owns', id);
     return this.#seen.get(id)?.owner === this.zone;
   }
 
@@ -152,6 +161,7 @@ export class Shard {
    * new Shard(new Zones({ borders: {} }), 0, new BroadPhase({ events: true })).sees(7); // → false
    */
   sees(id: number): boolean {
+    checkId('sees', id);
     return this.#seen.has(id);
   }
 
@@ -162,7 +172,12 @@ export class Shard {
    * const shard = new Shard(new Zones({ borders: {} }), 0, new BroadPhase({ events: true }));
    * [...shard.set(7, 0, 0, 1, 1).ids()]; // → [7]
    */
-  *ids(owned = false): Generator<number> {
+  ids(owned = false): Generator<number> {
+    checkBoolean('ids: owned', owned);
+    return this.#ids(owned);
+  }
+
+  *#ids(owned: boolean): Generator<number> {
     for (const [id, { owner }] of this.#seen) if (!owned || owner === this.zone) yield id;
   }
 
@@ -179,7 +194,9 @@ export class Shard {
    * shard.given; // → [7]
    */
   exchange(zones: Zones = this.#nextZones): Delta[] {
+    checkZones('exchange', zones);
     if (zones.count !== this.#told.length) badValue('zones.count', zones.count, `${this.#told.length}, as before`);
+    checkWorld('zones', zones.dimensions, insideOf(zones).wrap, this.#nextZones, 'as before');
     const all = zones === this.#nextZones ? this.#untold : this.#seen.values();
     this.#nextZones = zones;
     this.given.length = 0;
@@ -200,7 +217,11 @@ export class Shard {
    * shard.update([{ from: 0, to: 1, ids, changes, boxes }]).taken; // → [7]
    */
   update(deltas: readonly Delta[] = []): this {
-    const told = deltas.flatMap((delta) => unpack(delta, this.zone, this.space.dimensions));
+    if (!Array.isArray(deltas)) badValue('update', deltas, 'an array of deltas', true);
+    return this.#apply(deltas.flatMap((delta: Delta) => unpack('update: delta', delta, this.zone, this.#zones)));
+  }
+
+  #apply(told: readonly Told[]): this {
     this.taken.length = 0;
     // Removals first: another zone may have added a box with that id.
     for (const [id, box] of told) if (!box) this.#remove(id);
@@ -243,7 +264,7 @@ export class Shard {
    * shard.exchange()[0].ids; // → Uint32Array [7]
    */
   resend(zone: number): void {
-    if (zone === this.zone) badValue('resend', zone, 'another zone than this one');
+    checkOther('resend', zone, this.zone, this.#told.length);
     for (const seen of this.#seen.values()) {
       if (!seen.seers.includes(zone)) continue;
       seen.seers = seen.seers.filter((other) => other !== zone);
@@ -263,7 +284,7 @@ export class Shard {
    * right.update().space.size; // → 0
    */
   forget(zone: number): void {
-    if (zone === this.zone) badValue('forget', zone, 'another zone than this one');
+    checkOther('forget', zone, this.zone, this.#told.length);
     for (const [id, { owner }] of this.#seen) if (owner === zone) this.#remove(id);
   }
 
@@ -280,7 +301,7 @@ export class Shard {
    * new Shard(zones, 0, new BroadPhase({ events: true }), { state }).owns(7); // → true
    */
   state(): Delta {
-    const [open] = [...this.#changed, ...this.#untold];
+    const [open] = [...this.#changed, ...this.#untold, ...this.#gone.values()];
     if (open) throw new Error(`state: box ${open.id} has changed, expected an exchange and an update first`);
     const all = Array.from(this.#seen, ([id, { box }]): Told => [id, box]);
     return pack(this.zone, this.zone, all);
@@ -336,11 +357,12 @@ export class Shard {
 
   /** The pairs that this zone reports. A box without a previous or present box has entered since, or has left. */
   #reported(pairs: Uint32Array, zones: Zones, placeOf: (id: number) => Box | undefined) {
+    const { reporterOf } = insideOf(zones);
     const own = new Uint32Array(pairs.length);
     let length = 0;
     for (let k = 0; k < pairs.length; k += 2) {
       const [a, b] = [placeOf(pairs[k]), placeOf(pairs[k + 1])];
-      if (!a?.length || !b?.length || zones.reporterOf(a, b) !== this.zone) continue;
+      if (!a?.length || !b?.length || reporterOf(a, b) !== this.zone) continue;
       own[length++] = pairs[k];
       own[length++] = pairs[k + 1];
     }
