@@ -7,14 +7,18 @@
 import type { BroadPhase } from 'broadphase';
 import { badValue, checkBoolean, checkBox, checkId, checkOptions } from '../errors.ts';
 import { watch } from '../watch.ts';
-import { type Box, type Delta, pack, type Told, unpack } from './delta.ts';
+import { type Box, type Delta, type Message, pack, type Told, unpack } from './delta.ts';
 import { checkOther, checkWorld, checkZone, checkZones, insideOf, type Zones } from './zones.ts';
 
 /** Options of {@link Shard}. */
 export interface ShardOptions {
   /** Called for each box that enters the space, before it counts: the place for `setFilter` and the like. */
   entered?: ((id: number) => void) | undefined;
-  /** The result of {@link Shard.state}: the shard continues from there. */
+  /**
+   * The result of {@link Shard.state}: the shard continues from there, with the zones as of then. An old one needs that
+   * the others {@link Shard.resend} what they have for this zone, and it what it has for them; what they have replaces
+   * what is in the state.
+   */
   state?: Delta | undefined;
 }
 
@@ -25,6 +29,11 @@ interface Seen {
   /** Its box as of the last update; empty: there was none. */
   before: Box;
   owner: number;
+  /**
+   * The zone that last told of it, or this one. If it is the owner, the owner knows that it owns it: a hand-over by
+   * another zone may still be on its way.
+   */
+  teller: number;
   /** The zones that see it; if this one owns it, as of the last exchange. */
   seers: readonly number[];
 }
@@ -75,6 +84,10 @@ export class Shard {
   readonly #untold = new Set<Seen>();
   /** The changes to send to each zone at the next exchange. */
   readonly #told: readonly Told[][];
+  /** The zones that are sent everything at the next exchange. */
+  readonly #resent = new Set<number>();
+  /** The zones that were forgotten, and have sent nothing since. */
+  readonly #forgotten = new Set<number>();
   /** The zones as of the last update, and as of the last exchange. */
   #zones: Zones;
   #nextZones: Zones;
@@ -104,7 +117,7 @@ export class Shard {
     this.space = space;
     this.#zones = this.#nextZones = zones;
     this.#entered = entered;
-    for (const told of kept) this.#apply(told).update(); // the second update, so that no pair has begun
+    for (const message of kept) this.#apply([message]).update(); // the second update, so that no pair has begun
   }
 
   /**
@@ -197,19 +210,23 @@ export class Shard {
     checkZones('exchange', zones);
     if (zones.count !== this.#told.length) badValue('zones.count', zones.count, `${this.#told.length}, as before`);
     checkWorld('zones', zones.dimensions, insideOf(zones).wrap, this.#nextZones, 'as before');
+    for (const zone of this.#resent) this.#unknow(zone);
     const all = zones === this.#nextZones ? this.#untold : this.#seen.values();
     this.#nextZones = zones;
     this.given.length = 0;
     for (const seen of all) if (seen.owner === this.zone) this.#tell(seen);
     this.#untold.clear();
-    return this.#told.flatMap((told, to) => (told.length > 0 ? pack(this.zone, to, told.splice(0)) : []));
+    return this.#told.flatMap((told, to) => {
+      const isAll = this.#resent.delete(to);
+      return told.length > 0 || isAll ? pack(this.zone, to, told.splice(0), isAll) : [];
+    });
   }
 
   /**
    * Updates pairs and events. Chainable.
    *
    * @param deltas those that the exchanges of other zones returned for this one
-   * @throws RangeError for a delta that is for another zone
+   * @throws RangeError or TypeError for what is no delta from another zone to this one. All is as before.
    *
    * @example
    * const shard = new Shard(new Zones({ borders: { x: [100] } }), 1, new BroadPhase({ events: true }));
@@ -218,15 +235,12 @@ export class Shard {
    */
   update(deltas: readonly Delta[] = []): this {
     if (!Array.isArray(deltas)) badValue('update', deltas, 'an array of deltas', true);
-    return this.#apply(deltas.flatMap((delta: Delta) => unpack('update: delta', delta, this.zone, this.#zones)));
+    return this.#apply(deltas.map((delta: Delta) => unpack('update: delta', delta, this.zone, this.#zones)));
   }
 
-  #apply(told: readonly Told[]): this {
+  #apply(messages: readonly Message[]): this {
     this.taken.length = 0;
-    // Removals first: another zone may have added a box with that id.
-    for (const [id, box] of told) if (!box) this.#remove(id);
-    const entering = told.filter(([id, , before]) => before && !this.#seen.has(id));
-    for (const [id, box] of told) if (box) this.#receive(id, box);
+    const entering = this.#hear(messages);
     // First to where it was at the previous update, so that the space knows what overlapped then.
     for (const [id, , before] of entering) {
       this.#seen.get(id)!.before = before;
@@ -255,7 +269,8 @@ export class Shard {
   }
 
   /**
-   * Sends a zone everything again at the next exchange: for one that was restarted without its state.
+   * Sends a zone everything again at the next exchange: for one that was restarted, with an old state or without. It
+   * drops whatever else it has of this zone.
    *
    * @example
    * const shard = new Shard(new Zones({ borders: { x: [100] } }), 0, new BroadPhase({ events: true }));
@@ -265,11 +280,7 @@ export class Shard {
    */
   resend(zone: number): void {
     checkOther('resend', zone, this.zone, this.#told.length);
-    for (const seen of this.#seen.values()) {
-      if (!seen.seers.includes(zone)) continue;
-      seen.seers = seen.seers.filter((other) => other !== zone);
-      this.#untold.add(seen);
-    }
+    this.#resent.add(zone);
   }
 
   /**
@@ -285,6 +296,7 @@ export class Shard {
    */
   forget(zone: number): void {
     checkOther('forget', zone, this.zone, this.#told.length);
+    this.#forgotten.add(zone);
     for (const [id, { owner }] of this.#seen) if (owner === zone) this.#remove(id);
   }
 
@@ -303,13 +315,15 @@ export class Shard {
   state(): Delta {
     const [open] = [...this.#changed, ...this.#untold, ...this.#gone.values()];
     if (open) throw new Error(`state: box ${open.id} has changed, expected an exchange and an update first`);
+    const [zone] = this.#resent;
+    if (zone !== undefined) throw new Error(`state: zone ${zone} waits for everything, expected an exchange first`);
     const all = Array.from(this.#seen, ([id, { box }]): Told => [id, box]);
     return pack(this.zone, this.zone, all);
   }
 
   /** Sets where a box, which may be new here, is from the next update on. */
   #move(id: number, box: Box): Seen {
-    const seen = this.#seen.get(id) ?? { id, box, before: [], owner: this.zone, seers: [this.zone] };
+    const seen = this.#seen.get(id) ?? { id, box, before: [], owner: this.zone, teller: this.zone, seers: [this.zone] };
     seen.box = box;
     this.#seen.set(id, seen);
     this.#changed.add(seen);
@@ -325,11 +339,21 @@ export class Shard {
     if (seen.before.length > 0) this.#gone.set(id, seen);
   }
 
+  /** From now on a zone counts as knowing no box. */
+  #unknow(zone: number): void {
+    for (const seen of this.#seen.values()) {
+      if (!seen.seers.includes(zone)) continue;
+      seen.seers = seen.seers.filter((other) => other !== zone);
+      this.#untold.add(seen);
+    }
+  }
+
   /** Collects the changes of a box that this zone owns for the other zones. */
   #tell(seen: Seen): void {
     const { id, box, before, seers: known } = seen;
     seen.owner = this.#nextZones.ownerOf(box);
     seen.seers = this.#nextZones.seenBy(box);
+    seen.teller = this.zone;
     if (seen.owner !== this.zone) this.given.push(id);
     if (!seen.seers.includes(this.zone)) this.#changed.add(seen); // so that it leaves
     for (let to = 0; to < this.#told.length; to++) {
@@ -341,10 +365,38 @@ export class Shard {
     }
   }
 
-  #receive(id: number, box: Box): void {
+  /** Applies the changes that zones told. Returns those of boxes that come into sight. */
+  #hear(messages: readonly Message[]): Told[] {
+    // Pairs with boxes of a forgotten zone have ended here. So they begin now, wherever these boxes were before.
+    const news = messages.map(({ from, told, isAll }) => {
+      const isBack = this.#forgotten.delete(from) && isAll;
+      return { from, isAll, told: isBack ? told.map(([id, ...boxes]): Told => [id, ...boxes.slice(0, 1)]) : told };
+    });
+    const told = news.flatMap((message) => message.told);
+    // Removals first: another zone may have added a box with that id.
+    for (const [id, box] of told) if (!box) this.#remove(id);
+    for (const { from, isAll } of news) if (isAll) this.#dropRest(from, told);
+    const entering = told.filter(([id, , before]) => before && !this.#seen.has(id));
+    for (const { from, told } of news) for (const [id, box] of told) if (box) this.#receive(id, box, from);
+    return entering;
+  }
+
+  /**
+   * Drops the boxes of a zone that it should have told, but did not. Not those of which it may not know yet that it
+   * owns them.
+   */
+  #dropRest(zone: number, told: readonly Told[]): void {
+    const ids = new Set(told.map(([id]) => id));
+    for (const [id, { owner, teller }] of this.#seen) {
+      if (owner === zone && teller === zone && !ids.has(id)) this.#remove(id);
+    }
+  }
+
+  #receive(id: number, box: Box, from: number): void {
     const seen = this.#move(id, box);
     seen.owner = this.#nextZones.ownerOf(box);
     seen.seers = this.#nextZones.seenBy(box);
+    seen.teller = from === this.zone ? seen.owner : from; // from a state: all had been told of long ago
     if (seen.owner === this.zone) this.taken.push(id);
   }
 

@@ -183,7 +183,9 @@ describe('a shard refuses', () => {
     left.update().delete(1);
     left.exchange();
     expect(() => left.state()).toThrow('state: box 1 has changed, expected an exchange and an update first');
-    left.update();
+    left.update().resend(1);
+    expect(() => left.state()).toThrow('state: zone 1 waits for everything, expected an exchange first');
+    left.exchange();
     expect(left.state().ids.length).toBe(0);
   });
 });
