@@ -486,13 +486,13 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
 
   /**
-   * For broadphase/trace: from now on calls `watcher`, if any, after each update. Returns the options that concern
-   * pairs.
+   * For broadphase/trace: from now on calls `watcher`, if any, after each update; null leaves that as it is. Returns the
+   * options that concern pairs.
    * @internal
    */
-  [watch](watcher?: Watcher): World {
+  [watch](watcher?: Watcher | null): World {
     if (watcher && this.#watcher) throw new Error('this BroadPhase is being recorded already');
-    this.#watcher = watcher;
+    if (watcher !== null) this.#watcher = watcher;
     return { wrap: this.#instance.wrap, touching: this.#instance.touching };
   }
 }

@@ -1,5 +1,5 @@
-// How broadphase/trace reads the contents of a space: by a method under a registered symbol, since the two entry points
-// are bundled separately and share nothing else.
+// How broadphase/trace reads the contents of a space, and broadphase/shard its world: by a method under a registered
+// symbol, since the entry points are bundled separately and share nothing else.
 import { boxesAt, doublesAt, groupsAt, idsAt, reachesAt, rulesAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 

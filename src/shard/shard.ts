@@ -5,15 +5,20 @@
 // box that leaves stays for one more update. The events are then those of the space itself, in wrapped worlds too.
 // Cost: that of the space, one check per changed box and exchange, two look-ups per pair.
 import type { BroadPhase } from 'broadphase';
-import { badValue, checkBox } from '../errors.ts';
-import { type Box, type Delta, pack, type Told, unpack } from './delta.ts';
-import type { Zones } from './zones.ts';
+import { badValue, checkBoolean, checkBox, checkId, checkOptions } from '../errors.ts';
+import { watch } from '../watch.ts';
+import { type Box, type Delta, type Message, pack, type Told, unpack } from './delta.ts';
+import { checkOther, checkWorld, checkZone, checkZones, insideOf, type Zones } from './zones.ts';
 
 /** Options of {@link Shard}. */
 export interface ShardOptions {
   /** Called for each box that enters the space, before it counts: the place for `setFilter` and the like. */
   entered?: ((id: number) => void) | undefined;
-  /** The result of {@link Shard.state}: the shard continues from there. */
+  /**
+   * The result of {@link Shard.state}: the shard continues from there, with the zones as of then. An old one needs that
+   * the others {@link Shard.resend} what they have for this zone, and it what it has for them; what they have replaces
+   * what is in the state.
+   */
   state?: Delta | undefined;
 }
 
@@ -24,6 +29,11 @@ interface Seen {
   /** Its box as of the last update; empty: there was none. */
   before: Box;
   owner: number;
+  /**
+   * The zone that last told of it, or this one. If it is the owner, the owner knows that it owns it: a hand-over by
+   * another zone may still be on its way.
+   */
+  teller: number;
   /** The zones that see it; if this one owns it, as of the last exchange. */
   seers: readonly number[];
 }
@@ -74,6 +84,10 @@ export class Shard {
   readonly #untold = new Set<Seen>();
   /** The changes to send to each zone at the next exchange. */
   readonly #told: readonly Told[][];
+  /** The zones that are sent everything at the next exchange. */
+  readonly #resent = new Set<number>();
+  /** The zones that were forgotten, and have sent nothing since. */
+  readonly #forgotten = new Set<number>();
   /** The zones as of the last update, and as of the last exchange. */
   #zones: Zones;
   #nextZones: Zones;
@@ -88,16 +102,22 @@ export class Shard {
    * new Shard(new Zones({ borders: { x: [0] } }), 2, new BroadPhase({ events: true })); // throws RangeError: zone: got 2
    */
   constructor(zones: Zones, zone: number, space: BroadPhase<2 | 3>, options: ShardOptions = {}) {
-    this.#told = Array.from({ length: zones.count }, () => []);
-    if (!this.#told[zone]) badValue('zone', zone, `an integer from 0 to ${zones.count - 1}`);
-    if (space.dimensions !== zones.dimensions) badValue('space.dimensions', space.dimensions, `${zones.dimensions}`);
+    checkZones('zones', zones);
+    checkZone('zone', zone, zones.count);
+    if (typeof space?.[watch] !== 'function') badValue('space', space, 'a BroadPhase', true);
+    checkOptions('new Shard', options, ['entered', 'state']);
+    const { entered = () => {}, state } = options;
+    if (typeof entered !== 'function') badValue('entered', entered, 'a function', true);
+    checkWorld('space', space.dimensions, space[watch](null).wrap, zones, 'as in the zones');
     if (space.size > 0) badValue('space.size', space.size, 'an empty space');
     void space.began; // throws if events are off
+    const kept = state === undefined ? [] : [unpack('state', state, zone, zones)];
+    this.#told = Array.from({ length: zones.count }, () => []);
     this.zone = zone;
     this.space = space;
     this.#zones = this.#nextZones = zones;
-    this.#entered = options.entered ?? (() => {});
-    if (options.state) this.update([options.state]).update(); // the second update, so that no pair has begun
+    this.#entered = entered;
+    for (const message of kept) this.#apply([message]).update(); // the second update, so that no pair has begun
   }
 
   /**
@@ -126,6 +146,7 @@ export class Shard {
    * shard.set(7, 0, 0, 10, 10).delete(7); // → true
    */
   delete(id: number): boolean {
+    checkId('delete', id);
     const seen = this.#seen.get(id);
     if (!seen) return false;
     if (seen.owner !== this.zone) badValue('delete', id, `a box of zone ${this.zone}, not of zone ${seen.owner}`);
@@ -142,6 +163,7 @@ export class Shard {
    * new Shard(new Zones({ borders: {} }), 0, new BroadPhase({ events: true })).owns(7); // → false
    */
   owns(id: number): boolean {
+    checkId('owns', id);
     return this.#seen.get(id)?.owner === this.zone;
   }
 
@@ -152,6 +174,7 @@ export class Shard {
    * new Shard(new Zones({ borders: {} }), 0, new BroadPhase({ events: true })).sees(7); // → false
    */
   sees(id: number): boolean {
+    checkId('sees', id);
     return this.#seen.has(id);
   }
 
@@ -162,7 +185,12 @@ export class Shard {
    * const shard = new Shard(new Zones({ borders: {} }), 0, new BroadPhase({ events: true }));
    * [...shard.set(7, 0, 0, 1, 1).ids()]; // → [7]
    */
-  *ids(owned = false): Generator<number> {
+  ids(owned = false): Generator<number> {
+    checkBoolean('ids: owned', owned);
+    return this.#ids(owned);
+  }
+
+  *#ids(owned: boolean): Generator<number> {
     for (const [id, { owner }] of this.#seen) if (!owned || owner === this.zone) yield id;
   }
 
@@ -179,20 +207,26 @@ export class Shard {
    * shard.given; // → [7]
    */
   exchange(zones: Zones = this.#nextZones): Delta[] {
+    checkZones('exchange', zones);
     if (zones.count !== this.#told.length) badValue('zones.count', zones.count, `${this.#told.length}, as before`);
+    checkWorld('zones', zones.dimensions, insideOf(zones).wrap, this.#nextZones, 'as before');
+    for (const zone of this.#resent) this.#unknow(zone);
     const all = zones === this.#nextZones ? this.#untold : this.#seen.values();
     this.#nextZones = zones;
     this.given.length = 0;
     for (const seen of all) if (seen.owner === this.zone) this.#tell(seen);
     this.#untold.clear();
-    return this.#told.flatMap((told, to) => (told.length > 0 ? pack(this.zone, to, told.splice(0)) : []));
+    return this.#told.flatMap((told, to) => {
+      const isAll = this.#resent.delete(to);
+      return told.length > 0 || isAll ? pack(this.zone, to, told.splice(0), isAll) : [];
+    });
   }
 
   /**
    * Updates pairs and events. Chainable.
    *
    * @param deltas those that the exchanges of other zones returned for this one
-   * @throws RangeError for a delta that is for another zone
+   * @throws RangeError or TypeError for what is no delta from another zone to this one. All is as before.
    *
    * @example
    * const shard = new Shard(new Zones({ borders: { x: [100] } }), 1, new BroadPhase({ events: true }));
@@ -200,12 +234,13 @@ export class Shard {
    * shard.update([{ from: 0, to: 1, ids, changes, boxes }]).taken; // → [7]
    */
   update(deltas: readonly Delta[] = []): this {
-    const told = deltas.flatMap((delta) => unpack(delta, this.zone, this.space.dimensions));
+    if (!Array.isArray(deltas)) badValue('update', deltas, 'an array of deltas', true);
+    return this.#apply(deltas.map((delta: Delta) => unpack('update: delta', delta, this.zone, this.#zones)));
+  }
+
+  #apply(messages: readonly Message[]): this {
     this.taken.length = 0;
-    // Removals first: another zone may have added a box with that id.
-    for (const [id, box] of told) if (!box) this.#remove(id);
-    const entering = told.filter(([id, , before]) => before && !this.#seen.has(id));
-    for (const [id, box] of told) if (box) this.#receive(id, box);
+    const entering = this.#hear(messages);
     // First to where it was at the previous update, so that the space knows what overlapped then.
     for (const [id, , before] of entering) {
       this.#seen.get(id)!.before = before;
@@ -234,7 +269,8 @@ export class Shard {
   }
 
   /**
-   * Sends a zone everything again at the next exchange: for one that was restarted without its state.
+   * Sends a zone everything again at the next exchange: for one that was restarted, with an old state or without. It
+   * drops whatever else it has of this zone.
    *
    * @example
    * const shard = new Shard(new Zones({ borders: { x: [100] } }), 0, new BroadPhase({ events: true }));
@@ -243,12 +279,8 @@ export class Shard {
    * shard.exchange()[0].ids; // → Uint32Array [7]
    */
   resend(zone: number): void {
-    if (zone === this.zone) badValue('resend', zone, 'another zone than this one');
-    for (const seen of this.#seen.values()) {
-      if (!seen.seers.includes(zone)) continue;
-      seen.seers = seen.seers.filter((other) => other !== zone);
-      this.#untold.add(seen);
-    }
+    checkOther('resend', zone, this.zone, this.#told.length);
+    this.#resent.add(zone);
   }
 
   /**
@@ -263,7 +295,8 @@ export class Shard {
    * right.update().space.size; // → 0
    */
   forget(zone: number): void {
-    if (zone === this.zone) badValue('forget', zone, 'another zone than this one');
+    checkOther('forget', zone, this.zone, this.#told.length);
+    this.#forgotten.add(zone);
     for (const [id, { owner }] of this.#seen) if (owner === zone) this.#remove(id);
   }
 
@@ -280,15 +313,17 @@ export class Shard {
    * new Shard(zones, 0, new BroadPhase({ events: true }), { state }).owns(7); // → true
    */
   state(): Delta {
-    const [open] = [...this.#changed, ...this.#untold];
+    const [open] = [...this.#changed, ...this.#untold, ...this.#gone.values()];
     if (open) throw new Error(`state: box ${open.id} has changed, expected an exchange and an update first`);
+    const [zone] = this.#resent;
+    if (zone !== undefined) throw new Error(`state: zone ${zone} waits for everything, expected an exchange first`);
     const all = Array.from(this.#seen, ([id, { box }]): Told => [id, box]);
     return pack(this.zone, this.zone, all);
   }
 
   /** Sets where a box, which may be new here, is from the next update on. */
   #move(id: number, box: Box): Seen {
-    const seen = this.#seen.get(id) ?? { id, box, before: [], owner: this.zone, seers: [this.zone] };
+    const seen = this.#seen.get(id) ?? { id, box, before: [], owner: this.zone, teller: this.zone, seers: [this.zone] };
     seen.box = box;
     this.#seen.set(id, seen);
     this.#changed.add(seen);
@@ -304,11 +339,21 @@ export class Shard {
     if (seen.before.length > 0) this.#gone.set(id, seen);
   }
 
+  /** From now on a zone counts as knowing no box. */
+  #unknow(zone: number): void {
+    for (const seen of this.#seen.values()) {
+      if (!seen.seers.includes(zone)) continue;
+      seen.seers = seen.seers.filter((other) => other !== zone);
+      this.#untold.add(seen);
+    }
+  }
+
   /** Collects the changes of a box that this zone owns for the other zones. */
   #tell(seen: Seen): void {
     const { id, box, before, seers: known } = seen;
     seen.owner = this.#nextZones.ownerOf(box);
     seen.seers = this.#nextZones.seenBy(box);
+    seen.teller = this.zone;
     if (seen.owner !== this.zone) this.given.push(id);
     if (!seen.seers.includes(this.zone)) this.#changed.add(seen); // so that it leaves
     for (let to = 0; to < this.#told.length; to++) {
@@ -320,10 +365,38 @@ export class Shard {
     }
   }
 
-  #receive(id: number, box: Box): void {
+  /** Applies the changes that zones told. Returns those of boxes that come into sight. */
+  #hear(messages: readonly Message[]): Told[] {
+    // Pairs with boxes of a forgotten zone have ended here. So they begin now, wherever these boxes were before.
+    const news = messages.map(({ from, told, isAll }) => {
+      const isBack = this.#forgotten.delete(from) && isAll;
+      return { from, isAll, told: isBack ? told.map(([id, ...boxes]): Told => [id, ...boxes.slice(0, 1)]) : told };
+    });
+    const told = news.flatMap((message) => message.told);
+    // Removals first: another zone may have added a box with that id.
+    for (const [id, box] of told) if (!box) this.#remove(id);
+    for (const { from, isAll } of news) if (isAll) this.#dropRest(from, told);
+    const entering = told.filter(([id, , before]) => before && !this.#seen.has(id));
+    for (const { from, told } of news) for (const [id, box] of told) if (box) this.#receive(id, box, from);
+    return entering;
+  }
+
+  /**
+   * Drops the boxes of a zone that it should have told, but did not. Not those of which it may not know yet that it
+   * owns them.
+   */
+  #dropRest(zone: number, told: readonly Told[]): void {
+    const ids = new Set(told.map(([id]) => id));
+    for (const [id, { owner, teller }] of this.#seen) {
+      if (owner === zone && teller === zone && !ids.has(id)) this.#remove(id);
+    }
+  }
+
+  #receive(id: number, box: Box, from: number): void {
     const seen = this.#move(id, box);
     seen.owner = this.#nextZones.ownerOf(box);
     seen.seers = this.#nextZones.seenBy(box);
+    seen.teller = from === this.zone ? seen.owner : from; // from a state: all had been told of long ago
     if (seen.owner === this.zone) this.taken.push(id);
   }
 
@@ -336,11 +409,12 @@ export class Shard {
 
   /** The pairs that this zone reports. A box without a previous or present box has entered since, or has left. */
   #reported(pairs: Uint32Array, zones: Zones, placeOf: (id: number) => Box | undefined) {
+    const { reporterOf } = insideOf(zones);
     const own = new Uint32Array(pairs.length);
     let length = 0;
     for (let k = 0; k < pairs.length; k += 2) {
       const [a, b] = [placeOf(pairs[k]), placeOf(pairs[k + 1])];
-      if (!a?.length || !b?.length || zones.reporterOf(a, b) !== this.zone) continue;
+      if (!a?.length || !b?.length || reporterOf(a, b) !== this.zone) continue;
       own[length++] = pairs[k];
       own[length++] = pairs[k + 1];
     }

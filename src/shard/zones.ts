@@ -3,7 +3,8 @@
 // their two lower corners, so the zone with that point sees both, and it alone reports the pair. That point is chosen
 // from given numbers, never computed, so all processes agree on it bit for bit. In a wrapped world, a lower corner is
 // taken modulo the world, which may round; so zones see a little further.
-import { badValue, checkWrap } from '../errors.ts';
+import { badNumber, badValue, checkOptions, checkWrap, corners, isFinitePositive, show } from '../errors.ts';
+import { isFloat32Array, isFloat64Array } from '../values.ts';
 
 const names = ['x', 'y', 'z'] as const;
 
@@ -24,6 +25,19 @@ export interface ZonesOptions {
 
 /** The rounding error of a lower corner in a world that wraps around, relative to the world. */
 const slack = 2 ** -48;
+
+const optionNames: readonly (keyof ZonesOptions)[] = ['borders', 'dimensions', 'margin', 'wrap'];
+
+/** What a Shard has to know of zones, and no user. */
+interface Inside {
+  /** The size of the world, if it wraps around. */
+  wrap: readonly number[] | undefined;
+  /** `reporterOf` without its checks, which would take as long again for every pair. */
+  reporterOf: (a: ArrayLike<number>, b: ArrayLike<number>) => number;
+}
+
+/** Whatever is in here is a Zones. */
+const insides = new WeakMap<Zones, Inside>();
 
 /** One axis, whether it is cut or not. */
 interface Cut {
@@ -63,24 +77,21 @@ export class Zones {
    * new Zones({ borders: { x: [200, 100] } }); // throws RangeError: borders.x: got [200, 100]
    */
   constructor(options: ZonesOptions) {
-    const { borders, dimensions = 2, margin = 0, wrap } = options;
+    checkOptions('new Zones', options, optionNames);
+    const { borders, dimensions = 2, margin = 0, wrap }: Partial<ZonesOptions> = options ?? {};
     if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
-    if (!(margin >= 0 && margin < Infinity)) badValue('margin', margin, 'a finite number, 0 or more');
-    if (wrap) checkWrap(wrap, dimensions);
-    if (typeof borders !== 'object' || borders === null) badValue('borders', borders, 'an object of arrays', true);
-    const known = names.slice(0, dimensions);
-    const strange = Object.keys(borders).find((name) => !known.some((each) => each === name));
-    if (strange !== undefined) badValue('borders', strange, `borders along ${known.join(', ')} in ${dimensions}D`);
+    if (!isFinitePositive(margin, 0)) badNumber('margin', margin, 'a finite number, 0 or more');
+    if (wrap !== undefined) checkWrap(wrap, dimensions);
+    const cut = checkBorders(borders, dimensions);
     this.dimensions = dimensions;
     this.count = 1;
-    for (const [axis, name] of known.entries()) {
+    for (const [axis, name] of names.slice(0, dimensions).entries()) {
       const world = wrap?.[axis] ?? 0;
-      const starts = [world > 0 ? 0 : -Infinity, ...(borders[name] ?? [])];
-      const fit = starts.every((at, k) => k === 0 || (at >= starts[k - 1] && at <= (world || Infinity)));
-      if (!fit) badValue(`borders.${name}`, borders[name], `ascending numbers${world ? ` from 0 to ${world}` : ''}`);
+      const starts = [world > 0 ? 0 : -Infinity, ...checkCuts(name, cut[name], world)];
       this.#cuts.push({ axis, starts, stride: this.count, world, reach: margin + 4 * slack * world });
       this.count *= starts.length;
     }
+    insides.set(this, { wrap: wrap?.slice(), reporterOf: (a, b) => this.#zoneOf(a, b) });
   }
 
   /**
@@ -90,7 +101,8 @@ export class Zones {
    * new Zones({ borders: { x: [100] } }).ownerOf([100, 0, 120, 20]); // → 1
    */
   ownerOf(box: ArrayLike<number>): number {
-    return this.reporterOf(box, box);
+    checkPlace('ownerOf', box, this.dimensions);
+    return this.#zoneOf(box, box);
   }
 
   /**
@@ -100,6 +112,7 @@ export class Zones {
    * new Zones({ borders: { x: [100] }, margin: 5 }).seenBy([80, 0, 96, 20]); // → [0, 1]
    */
   seenBy(box: ArrayLike<number>): number[] {
+    checkPlace('seenBy', box, this.dimensions);
     const seers = [0];
     for (const { axis, starts, stride, world, reach } of this.#cuts) {
       const [low, high] = [box[axis], box[axis + this.dimensions]];
@@ -123,6 +136,12 @@ export class Zones {
    * new Zones({ borders: { x: [100] } }).reporterOf([80, 0, 130, 20], [110, 0, 120, 20]); // → 1
    */
   reporterOf(a: ArrayLike<number>, b: ArrayLike<number>): number {
+    checkPlace('reporterOf', a, this.dimensions);
+    checkPlace('reporterOf', b, this.dimensions);
+    return this.#zoneOf(a, b);
+  }
+
+  #zoneOf(a: ArrayLike<number>, b: ArrayLike<number>): number {
     let zone = 0;
     for (const { axis, starts, stride, world } of this.#cuts) {
       const [low, other] = [a[axis], b[axis]];
@@ -132,6 +151,71 @@ export class Zones {
     }
     return zone;
   }
+}
+
+/** Throws unless this is a Zones. */
+export function checkZones(where: string, zones: unknown): asserts zones is Zones {
+  if (!insides.has(zones as Zones)) badValue(where, zones, 'a Zones', true);
+}
+
+/** Throws unless a world has as many dimensions, and wraps around alike: `where` says whose it is, `as` what it must fit. */
+export function checkWorld(where: string, dimensions: number, wrap: unknown, zones: Zones, as: string): void {
+  const expected = show(insideOf(zones).wrap);
+  if (dimensions !== zones.dimensions) badValue(`${where}.dimensions`, dimensions, `${zones.dimensions}, ${as}`);
+  if (show(wrap) !== expected) badValue(`${where}.wrap`, wrap, `${expected}, ${as}`);
+}
+
+/** What a Shard has to know of zones that passed `checkZones`. */
+export const insideOf = (zones: Zones): Inside => insides.get(zones)!;
+
+/** Throws unless this is the number of a zone. */
+export function checkZone(where: string, zone: unknown, count: number): void {
+  const isZone = Number.isInteger(zone) && Number(zone) >= 0 && Number(zone) < count;
+  if (!isZone) badNumber(where, zone, `an integer from 0 to ${count - 1}`);
+}
+
+/** Throws unless this is the number of a zone, but not of this one. */
+export function checkOther(where: string, other: unknown, zone: number, count: number): void {
+  checkZone(where, other, count);
+  if (other === zone) badValue(where, other, 'another zone than this one');
+}
+
+function checkBorders(borders: unknown, dimensions: 2 | 3): Borders {
+  const isObject = typeof borders === 'object' && borders !== null && !Array.isArray(borders);
+  if (!isObject) badValue('borders', borders, 'an object of arrays', true);
+  const known: readonly string[] = names.slice(0, dimensions);
+  for (const [name, value] of Object.entries(borders)) {
+    if (value === undefined || known.includes(name)) continue;
+    badValue('borders', name, `borders along ${known.join(', ')} in ${dimensions}D`);
+  }
+  return borders;
+}
+
+/** The borders along one axis. */
+function checkCuts(name: string, cuts: unknown, world: number): readonly number[] {
+  const expected = `ascending numbers${world ? ` from 0 to ${world}` : ''}`;
+  if (cuts === undefined) return [];
+  const isArray = Array.isArray(cuts) || isFloat32Array(cuts) || isFloat64Array(cuts);
+  const starts: unknown[] = isArray ? [...cuts] : [];
+  const areNumbers = isArray && starts.every((at) => typeof at === 'number');
+  if (!areNumbers) badValue(`borders.${name}`, cuts, `an array of ${expected}`, true);
+  const [first, last] = world ? [0, world] : [-Infinity, Infinity];
+  const fit = starts.every((at, k) => at >= (starts[k - 1] ?? first) && at <= last);
+  if (!fit) badValue(`borders.${name}`, cuts, expected);
+  return starts;
+}
+
+/** Throws unless this is a box in these dimensions. */
+function checkPlace(where: string, box: ArrayLike<unknown>, dimensions: 2 | 3): void {
+  let isGood = box?.length === 2 * dimensions;
+  for (let k = 0; isGood && k < dimensions; k++) {
+    const [low, high] = [box[k], box[k + dimensions]];
+    isGood = typeof low === 'number' && typeof high === 'number' && low <= high;
+  }
+  if (isGood) return;
+  const numbers = Array.isArray(box) || ArrayBuffer.isView(box) ? Array.from(box) : undefined;
+  const wrongType = !numbers?.every((value) => typeof value === 'number');
+  badValue(where, numbers ?? box, `a box: ${corners[dimensions].join(', ')}`, wrongType);
 }
 
 /** The last zone that begins at or below a coordinate. */

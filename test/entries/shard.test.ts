@@ -294,7 +294,7 @@ describe('two zones', () => {
     tick([left, right]);
     expect([...right.state().ids]).toEqual([1]);
     expect(() => new Shard(zones, 0, new BroadPhase({ events: true }), { state: right.state() })).toThrow(
-      'delta.to: got 1, expected 0, this zone',
+      'state.to: got 1, expected 0, this zone',
     );
   });
 
