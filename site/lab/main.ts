@@ -21,6 +21,7 @@ import {
 } from './panels/controls.ts';
 import { createCountSlider } from './panels/count-slider.ts';
 import { createInspector } from './panels/inspector.ts';
+import { describeParts } from './panels/parts.ts';
 import { Playback } from './panels/playback.ts';
 import { createRace, type Race } from './race.ts';
 import { defaults, type LabState, type Layer, latestFrame, type Rate, readState, writeState } from './state.ts';
@@ -349,6 +350,10 @@ function report(): void {
   write('touching', formatCount(touching));
   write('tests', formatCount(stats.tests));
   write('cells', formatCount(stats.cells));
+  write(
+    'parts',
+    describeParts(stats.technique, stats.cells, state.show.includes('structure') ? picture.cells : stats.cells),
+  );
   if (timings.summarise()) {
     write('median', formatMilliseconds(timings.median));
     write('rate', playback.playing ? formatRate(timings.rate) : '–');

@@ -45,6 +45,18 @@ async function colours(page: Page, selector: string): Promise<number> {
   }, picture);
 }
 
+/** The share of a canvas in the colour of the page, where nothing is drawn. */
+function backgroundShare(selector: string): number {
+  const canvas = document.querySelector<HTMLCanvasElement>(selector)!;
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d')!;
+  copy.drawImage(canvas, 0, 0);
+  const pixels = new Uint32Array(copy.getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+  const page = getComputedStyle(canvas).getPropertyValue('--page').trim().slice(1);
+  const [red, green, blue] = [0, 2, 4].map((at) => Number.parseInt(page.slice(at, at + 2), 16));
+  const background = (0xff000000 | (blue << 16) | (green << 8) | red) >>> 0;
+  return pixels.filter((pixel) => pixel === background).length / pixels.length;
+}
+
 /** Drops a file on the page. */
 async function drop(page: Page, name: string, bytes: Buffer): Promise<void> {
   const transfer = await page.evaluateHandle(
@@ -83,6 +95,14 @@ test('every technique finds the same pairs, and its cells are drawn', async ({ p
     expect(await number(page, 'pairs'), name).toBe(pairs);
     expect(await number(page, 'cells'), name).toBeGreaterThan(0);
   }
+});
+
+test('sweep-and-prune has intervals, of which so few are drawn that the boxes are seen', async ({ page }) => {
+  await openStill(page, 'boxes=5000&technique=sweep-and-prune');
+  await expect(shown(page, 'cells').locator('..')).toHaveText('5,000 intervals, 40 drawn');
+  expect(await page.evaluate(backgroundShare, '#boxes')).toBeGreaterThan(0.3);
+  await page.getByRole('checkbox', { name: 'Cells', exact: true }).uncheck();
+  await expect(shown(page, 'cells').locator('..')).toHaveText('5,000 intervals');
 });
 
 test('every scene can be shown', async ({ page }) => {

@@ -53,6 +53,23 @@ test.each(BroadPhase.techniques)('%s: the picture is the scene, its pairs and it
   }
 });
 
+test('of the intervals of sweep-and-prune some are drawn: each reaches across the view, so all would hide it', async () => {
+  const engine = await opened('uniform2d', 5000);
+  engine.setup({ technique: 'sweep-and-prune', cellSize: undefined });
+  const { stats, cells, drawn } = engine.picture(everything);
+  expect(stats.cells).toBe(5000);
+  expect(cells).toBeGreaterThan(20);
+  expect(cells).toBeLessThanOrEqual(40);
+  const axis = Number(Number.isFinite(drawn[1]));
+  const spread = (from: number, to: number) => {
+    const low = Array.from({ length: to - from }, (_, k) => drawn[4 * (from + k) + axis]);
+    return Math.max(...low) - Math.min(...low);
+  };
+  expect(spread(0, cells)).toBeGreaterThan(0.9 * spread(cells, cells + 5000));
+  const { chosen, cells: with1 } = engine.picture({ ...plain, structure: true, chosen: 1 });
+  expect(with1).toBeGreaterThanOrEqual(chosen!.cells); // all that the chosen box is in
+});
+
 test('a scene begun at a frame is as one that was stepped to it', async () => {
   const stepped = await opened('crowd', 200);
   const jumped = await opened('crowd', 200, 7);
