@@ -6,6 +6,7 @@ import { formatCount, formatMilliseconds, formatRate } from '../shared/format.ts
 import { numberPanel } from '../shared/numbers.ts';
 import type { RendererKind } from '../shared/renderer.ts';
 import { Timings } from '../shared/timings.ts';
+import { Address } from './address.ts';
 import { isTrace, mostBoxes, traces } from './catalog.ts';
 import { save, takeFiles } from './files.ts';
 import { createCellSize } from './panels/cell-size.ts';
@@ -37,7 +38,6 @@ const mostByBruteForce = 20_000;
 /** Limited, because every racer has all boxes in its own memory. */
 const mostInRace = 100_000;
 const refresh = 200;
-const rememberAfter = 300;
 const file = 'file';
 
 const note = find('note');
@@ -67,11 +67,9 @@ const slider = createCountSlider(find('count'), state.boxes, (count) => {
 const cellSize = createCellSize(find('cells'), setCell, (cell) => ask('cost', cell));
 /** For comparison, the renderer of flat scenes can be chosen in the URL: ?renderer=canvas-2d. */
 const kinds: readonly RendererKind[] = ['webgl2', 'canvas-2d'];
-const flat = createFlatView(
-  find('flat'),
-  () => remember(),
-  kinds.find((kind) => kind === new URLSearchParams(location.search).get('renderer')),
-);
+const wantedKind = new URLSearchParams(location.search).get('renderer');
+const chosenKind = kinds.find((kind) => kind === wantedKind);
+const flat = createFlatView(find('flat'), () => remember(), chosenKind);
 view = flat;
 let solid: Promise<LabView> | undefined;
 
@@ -318,25 +316,16 @@ function showFileInMenu(): void {
   if (ownFile) sceneMenu.add(new Option(ownFile.name, file), 0);
 }
 
-let pendingMemory: ReturnType<typeof setTimeout> | undefined;
-/** Writes the state into the URL, after a delay: browsers limit how often that is allowed. */
-function remember(): void {
-  clearTimeout(pendingMemory);
-  pendingMemory = setTimeout(() => {
-    const shown = {
-      ...state,
-      scene: ownFile ? file : state.scene,
-      frame: playback.playing ? undefined : picture?.index,
-    };
-    const renderer = new URLSearchParams(location.search).get('renderer');
-    const kept = kinds.find((kind) => kind === renderer);
-    history.replaceState(
-      null,
-      '',
-      `?${writeState({ ...shown, view: state.race ? undefined : view.look })}${kept ? `&renderer=${kept}` : ''}`,
-    );
-  }, rememberAfter);
-}
+const address = new Address(() => {
+  const query = writeState({
+    ...state,
+    scene: ownFile ? file : state.scene,
+    frame: playback.playing ? undefined : picture?.index,
+    view: state.race ? undefined : view.look,
+  });
+  return chosenKind ? `${query}&renderer=${chosenKind}` : query;
+});
+const remember = () => address.writeSoon();
 
 /** Writes the live numbers. */
 function report(): void {
@@ -409,7 +398,7 @@ async function toggleRecording(): Promise<void> {
 async function share(): Promise<void> {
   const held = ownFile ? ' It does not hold your file.' : '';
   try {
-    await navigator.clipboard.writeText(location.href);
+    await navigator.clipboard.writeText(address.write());
     say(`Link copied.${held}`);
   } catch {
     say(`The address of this page is the link: copy it from the address bar.${held}`);

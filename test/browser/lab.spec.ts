@@ -316,6 +316,21 @@ test('a link shows the same: scene, technique, cells, frame, view and box', asyn
   }
 });
 
+test('a link that is copied right after a change has the change', async ({ page }) => {
+  await openStill(page, 'boxes=300');
+  const copied = await page.evaluate(async () => {
+    let copied = '';
+    navigator.clipboard.writeText = async (text) => {
+      copied = text;
+    };
+    document.querySelector<HTMLInputElement>('#layers [value=pairs]')!.click();
+    document.querySelector<HTMLButtonElement>('#share')!.click();
+    return copied;
+  });
+  expect(copied).toContain('show=structure,pairs');
+  await expect(page).toHaveURL(copied);
+});
+
 test('an address that makes no sense is said to, and the defaults are shown', async ({ page }) => {
   await page.goto(
     '/lab/?boxes=99999999999&scene=%3Cimg%20src=x%3E&technique=magic&frame=1e9&view=1,2&race=nobody&cell=-3',
