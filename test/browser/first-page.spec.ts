@@ -180,6 +180,47 @@ test('zooms by keys, wheel and buttons, and shows everything again', async ({ pa
   await showsAll().toBe(true);
 });
 
+test.describe('by touch', () => {
+  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+
+  for (const [address, id] of [
+    ['/?boxes=1000', 'view'],
+    ['/lab/?boxes=1000', 'flat'],
+  ]) {
+    test(`${address}: a finger moves a view that was zoomed by a button, and scrolls past one that shows everything`, async ({
+      page,
+    }) => {
+      await openStill(page, address);
+      const view = page.locator(`#${id}`);
+      const touch = await page.context().newCDPSession(page);
+      const scrolled = () => page.evaluate(() => Math.round(scrollY));
+      /** Drags a finger upwards; returns by how much that scrolled the page, and whether the picture changed. */
+      const drag = async () => {
+        const [before, was] = [await view.locator('canvas').first().screenshot(), await scrolled()];
+        const { x, y, height } = (await view.boundingBox())!;
+        for (let step = 0; step <= 8; step++) {
+          const points = [{ x: x + 150, y: y + 0.8 * height - 15 * step }];
+          const type = step === 0 ? 'touchStart' : 'touchMove';
+          await touch.send('Input.dispatchTouchEvent', { type, touchPoints: points });
+        }
+        await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+        await page.waitForTimeout(300);
+        const by = (await scrolled()) - was;
+        await page.evaluate((to) => scrollTo(0, to), was);
+        return { by, moved: !(await view.locator('canvas').first().screenshot()).equals(before) };
+      };
+      await view.scrollIntoViewIfNeeded();
+      expect((await drag()).by).toBeGreaterThan(50);
+      await page.getByRole('button', { name: 'Zoom in' }).tap();
+      expect(await drag()).toEqual({ by: 0, moved: true });
+      await page.getByRole('button', { name: 'Show everything' }).tap();
+      const { by, moved } = await drag();
+      expect(by).toBeGreaterThan(50);
+      expect(moved).toBe(false);
+    });
+  }
+});
+
 for (const renderer of ['webgl2', 'canvas-2d']) {
   test(`draws by ${renderer}`, async ({ page }) => {
     await openStill(page, `/?boxes=1000&renderer=${renderer}`);
