@@ -53,13 +53,36 @@ test('opens with 100,000 moving boxes and live numbers, or as many as move smoot
   await expect.poll(() => number(page, 'pairs'), { timeout: 20_000 }).not.toBe(before);
   await expect.poll(() => number(page, 'rate'), { timeout: 20_000 }).toBeGreaterThan(0);
   await page.waitForTimeout(4000);
+  await expect(page.getByRole('status')).not.toContainText('because', { timeout: 20_000 }); // still trying
   await page.getByRole('button', { name: 'Pause' }).click();
   const boxes = (await shown(page, 'boxes').textContent())!;
   expect(['100,000', '50,000', '20,000', '10,000', '5,000']).toContain(boxes);
   await expect(page.locator('.lede')).toContainText(`${boxes} boxes move`);
   await expect(page.getByRole('img')).toHaveAttribute('aria-label', new RegExp(`^${boxes} boxes, paused`));
-  if (boxes !== '100,000')
-    await expect(page.getByRole('status')).toContainText(`${boxes} boxes, as many as this device`);
+  const told = boxes === '100,000' ? 'From 2 to 2,000 wide' : boxes === '5,000' ? '5,000 boxes' : `${boxes} boxes, as`;
+  await expect(page.getByRole('status')).toContainText(told);
+});
+
+test('a slow device is not said to move its boxes smoothly', async ({ page }) => {
+  await page.addInitScript(() => {
+    const { requestAnimationFrame } = window;
+    window.requestAnimationFrame = (act) => window.setTimeout(() => requestAnimationFrame(act), 150);
+  });
+  await page.goto('/');
+  const status = page.getByRole('status');
+  await expect(status).toHaveText('This device does not move even 5,000 boxes smoothly; the slider goes to 200,000.', {
+    timeout: 20_000,
+  });
+  await page.getByRole('combobox', { name: 'Scene' }).selectOption('sparse2d');
+  await expect(status).toHaveText('Hardly anything touches.');
+});
+
+test('a recording in the address keeps its description: the page has not chosen its number of boxes', async ({
+  page,
+}) => {
+  await openStill(page, '/?scene=rain&technique=auto');
+  await expect(shown(page, 'boxes')).toHaveText('15,505');
+  await expect(page.getByRole('status')).toContainText('Real input: every shape of a Box2D world');
 });
 
 test('shows 100,000 boxes, still, to those who ask for less motion; what they choose stays', async ({ page }) => {
