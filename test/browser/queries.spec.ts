@@ -147,6 +147,38 @@ test('pairs begin and end as boxes move', async ({ page }) => {
   await expect(call(page)).toContainText('space.began');
 });
 
+const time = (page: Page) => page.locator('[data-number=time]');
+
+test('what is there after update() has its time, once something has moved', async ({ page }) => {
+  const label = page.locator('#time-label');
+  await open(page, 'box');
+  await expect(label).toHaveText('Answered in');
+  await expect(time(page)).toHaveText(/^\d/);
+  for (const name of ['events', 'filters', 'debug']) {
+    await open(page, name);
+    await expect(label).toHaveText('update() took');
+    await expect(time(page)).toHaveText('–');
+    await page.getByRole('button', { name: 'Step' }).click();
+    await expect(time(page)).toHaveText(/^\d/);
+  }
+});
+
+test('the time of an answer is not that of building its query', async ({ page }) => {
+  await page.addInitScript(() => {
+    const { cos } = Math;
+    Math.cos = (angle) => {
+      const until = performance.now() + 0.1;
+      while (performance.now() < until);
+      return cos(angle);
+    };
+  });
+  for (const name of ['fan', 'spaces']) {
+    await open(page, name);
+    await expect(time(page)).toHaveText(/^\d/);
+    expect(Number(await time(page).textContent()), name).toBeLessThan(3000); // µs; 36 or 90 calls take more
+  }
+});
+
 test('filters say who meets whom', async ({ page }) => {
   await open(page, 'filters');
   const before = await found(page);
