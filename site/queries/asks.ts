@@ -272,7 +272,7 @@ const layerHue = [8, 2, 10];
 const filters: Ask = {
   name: 'filters',
   label: 'Filters',
-  hint: 'Three layers: choose which of them meet. Boxes in a pair are dark, the others pale.',
+  hint: 'Three layers: choose which of them meet. Boxes in a pair are strong, the others faint.',
   counts: 'Pairs',
   options: ['meet'],
   mark({ space, slots }) {
