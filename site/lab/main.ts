@@ -117,7 +117,7 @@ async function makeFrame(steps: number): Promise<void> {
     if (race) {
       await race.step();
       if (race?.picture) take(race.picture);
-    } else if (opened) {
+    } else if (opened && !state.race) {
       take(await ask('picture', wanted(steps)));
       view.show(picture!);
     }
@@ -249,12 +249,16 @@ async function useView(dimensions: 2 | 3): Promise<void> {
     });
   }
   view = dimensions === 3 ? await solid! : flat;
-  arrange(state.race !== undefined, view.element.id);
+  arrange(state.race?.length, view.element.id);
 }
 
 async function startRace(frame: number, signal: AbortSignal): Promise<void> {
   const places = { tiles: find('race'), bars: find('bars'), note: find('race-note') };
-  if (state.race!.length === 0) return say('Choose who races.');
+  if (state.race!.length === 0) {
+    for (const place of Object.values(places)) place.replaceChildren(); // those of the race before
+    write('frame', '–');
+    return say('Choose who races.');
+  }
   const made = await createRace(places, state.race!, source, frame, signal);
   signal.throwIfAborted();
   race = made;
@@ -474,7 +478,7 @@ takeFiles(find('choose'), find<HTMLInputElement>('file'), (chosen) => void chang
 addEventListener('keydown', (event) => {
   if (event.key !== ' ' || (event.target as Element).closest('button, select, input, label')) return;
   event.preventDefault();
-  play(!playback.playing);
+  find('play').click(); // unless there is nothing to play
 });
 // Without an error it is only a notice, such as that elements were resized twice in a frame.
 addEventListener('error', (event) => event.error && failed(event.error));

@@ -202,6 +202,34 @@ test('techniques race on the same frames, and agree', async ({ page }) => {
   await expect(page).not.toHaveURL(/race=/);
 });
 
+test('a race of nobody shows nobody, cannot be played, and is still a race when the page is loaded again', async ({
+  page,
+}) => {
+  await openStill(page, 'boxes=300');
+  await page.getByRole('button', { name: 'Race' }).click();
+  await expect(page.locator('#race-note')).toContainText('Median of 1 frame,');
+  await page.getByRole('button', { name: 'Step' }).click();
+  await expect(page.locator('#race-note')).toContainText('Median of 2 frames,');
+  for (const racer of await page.locator('#racer-list input').all()) await racer.uncheck();
+  const expectNobody = async () => {
+    await expect(note(page)).toHaveText('Choose who races.');
+    await expect(page.locator('.tile, #bars li')).toHaveCount(0);
+    await expect(page.locator('#race-note')).toBeEmpty();
+    await expect(page.getByRole('button', { name: 'Play' })).toBeDisabled();
+    await expect(page.getByRole('button', { name: 'Step' })).toBeDisabled();
+    await expect(page.getByRole('button', { name: 'Race' })).toHaveAttribute('aria-pressed', 'true');
+    await expect(page).toHaveURL(/race=$/);
+  };
+  await expectNobody();
+  await page.reload();
+  await expectNobody();
+  await page.getByRole('checkbox', { name: 'quadtree' }).check();
+  await expect(page.locator('#race-note')).toContainText('Median of 1 frame,');
+  await expect(page.locator('.tile')).toHaveCount(1);
+  await page.getByRole('button', { name: 'Step' }).click();
+  await expect(shown(page, 'frame')).toHaveText('1');
+});
+
 test('a race goes on after a recording that was long in coming', async ({ page }) => {
   await page.context().route('**/*.trace*.gz', async (route) => {
     await new Promise((resolve) => setTimeout(resolve, 1500));
