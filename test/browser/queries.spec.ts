@@ -218,6 +218,16 @@ test('it moves by itself, and stops where asked', async ({ page }) => {
 test.describe('on a phone', () => {
   test.use({ viewport: { width: 375, height: 740 }, hasTouch: true });
 
+  test('what is below the hint stays where it is, whichever query is chosen', async ({ page }) => {
+    await open(page, 'box');
+    const top = () => page.locator('#controls').evaluate((form) => form.getBoundingClientRect().top + scrollY);
+    const before = await top();
+    for (const name of await page.locator('[name=ask]').evaluateAll((all) => all.map(({ id }) => id))) {
+      await page.locator(`#${name}`).check({ force: true });
+      expect(await top(), name).toBe(before);
+    }
+  });
+
   test('a tap moves the point, and nothing is wider than the screen', async ({ page }) => {
     await open(page, 'nearest');
     const before = await ids(page);
