@@ -203,6 +203,24 @@ test('zooms by keys, wheel and buttons, and shows everything again', async ({ pa
   await showsAll().toBe(true);
 });
 
+test('at no width is a link of the navigation alone below the name: all are beside it, or all start at its left', async ({
+  page,
+}) => {
+  await openStill(page, '/?boxes=100');
+  for (const width of [390, 640, 720, 820, 860, 900]) {
+    await page.setViewportSize({ width, height: 600 });
+    const [home, ...links] = await page.locator('.site-nav a').evaluateAll((all) =>
+      all.map((link) => {
+        const { left, top, height } = link.getBoundingClientRect();
+        return { left: left + Number.parseFloat(getComputedStyle(link).paddingLeft), middle: top + height / 2 };
+      }),
+    );
+    const below = links.filter(({ middle }) => middle > home.middle + 10);
+    expect([0, links.length], `${width} pixels wide`).toContain(below.length);
+    if (below.length > 0) expect(below[0].left, `${width} pixels wide`).toBe(home.left);
+  }
+});
+
 test.describe('by touch', () => {
   test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
 
