@@ -34,8 +34,10 @@ async function openStill(page: Page, query: string): Promise<void> {
 }
 
 /** How many colours an element shows. */
-async function colours(page: Page, selector: string): Promise<number> {
-  const picture = (await page.locator(selector).screenshot()).toString('base64');
+const colours = async (page: Page, selector: string) => coloursOf(page, await page.locator(selector).screenshot());
+
+async function coloursOf(page: Page, png: Buffer): Promise<number> {
+  const picture = png.toString('base64');
   return page.evaluate(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
     const image = await createImageBitmap(new Blob([bytes]));
@@ -388,6 +390,22 @@ test('a solid scene is drawn, turned by keys, and its boxes can be clicked', asy
   await expect(page).toHaveURL(/view=[-\d.]+(,[-\d.]+){5}/);
   await page.locator('#solid').click();
   await expect(page.locator('#chosen')).toContainText(/Box \d+/);
+});
+
+test('everything of a solid scene is in view, wide or tall', async ({ page }) => {
+  await openStill(page, 'scene=gravity');
+  for (const [width, height] of [
+    [1440, 900],
+    [390, 844],
+  ]) {
+    await page.setViewportSize({ width, height });
+    await page.waitForTimeout(300);
+    const view = (await page.locator('#solid').boundingBox())!;
+    for (const x of [view.x + 1, view.x + view.width - 5]) {
+      const clip = { x, y: view.y + 4, width: 4, height: view.height - 8 };
+      expect(await coloursOf(page, await page.screenshot({ clip, fullPage: true })), `${width}: at ${x}`).toBe(1);
+    }
+  }
 });
 
 test('the library for solid scenes is fetched for those alone', async ({ page }) => {

@@ -182,7 +182,9 @@ describe('the traces that come with the page', () => {
   });
 });
 
-test('the world that is shown leaves out what reaches far away', () => {
+test('the world that is shown has walls around what happens, and leaves out what reaches far away', () => {
+  const pile = Array.from({ length: 200 }, (_, k) => [10 + k / 4, k / 4, 11 + k / 4, k / 4 + 1]).flat();
+  expect(worldOf([...pile, 0, 0, 80, 1, 0, 0, 1, 80, 0, 79, 80, 80], 2)).toEqual([0, 0, 80, 80]);
   const boxes = Array.from({ length: 200 }, (_, k) => [k, k, k + 1, k + 1]).flat();
   expect(worldOf([...boxes, -1e6, -5, 1e6, 0], 2)[2]).toBeLessThan(300);
   expect(worldOf([-Infinity, -Infinity, Infinity, Infinity], 2).every(Number.isFinite)).toBe(true);
