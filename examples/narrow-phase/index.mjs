@@ -10,6 +10,7 @@ for (const [name, scene] of Object.entries({
   let [pairs, hits] = [0, 0];
   for (let frame = 0; frame < frames; frame++) {
     scene.move();
+    scene.broad();
     scene.narrow();
     scene.react();
     pairs += scene.space.pairCount;

@@ -8,6 +8,7 @@ interface World<Thing> {
   readonly things: readonly Thing[];
   readonly hits: readonly number[];
   move(): void;
+  broad(): void;
   narrow(): void;
   react(): void;
 }

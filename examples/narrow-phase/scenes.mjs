@@ -1,6 +1,6 @@
-// Three small worlds, each with a frame as in a game, from pairs of boxes to exact results. `move()` moves everything
-// and finds the pairs of boxes. `narrow()` finds those that really touch, the `hits`, as [a, b, a, b, …]. `react()`
-// reacts to them.
+// Three small worlds, each with a frame as in a game, from pairs of boxes to exact results. `move()` moves everything.
+// `broad()` gives the boxes to the space, which finds their pairs. `narrow()` finds those that really touch, the `hits`,
+// as [a, b, a, b, …]. `react()` reacts to them.
 import { BroadPhase } from 'broadphase';
 import { maskOf, masksTouch } from './pixel-masks.mjs';
 import { boundsOf, circle, contactOf, polygon } from './separating-axes.mjs';
@@ -35,27 +35,29 @@ export function shapes(count = 60, seed = 1) {
     const shape = id % 5 === 0 ? circle(size) : polygon(corners);
     shape.pos.x = size + random() * (world - 2 * size);
     shape.pos.y = size + random() * (world - 2 * size);
-    return { shape, size, dx: random() - 0.5, dy: random() - 0.5, turn: 0.04 * (random() - 0.5) };
+    const [dx, dy, turn] = [random() - 0.5, random() - 0.5, 0.04 * (random() - 0.5)];
+    return { shape, size, dx, dy, turn, box: [0, 0, 0, 0] };
   });
   const hits = [];
   /** For each hit: the direction from `a` to `b`, and the depth. */
   const contacts = [];
-  const box = [0, 0, 0, 0];
   return {
     space,
     things,
     hits,
     move() {
-      for (const [id, thing] of things.entries()) {
+      for (const thing of things) {
         const { shape, size } = thing;
         thing.dx = bounced(shape.pos.x, thing.dx, size);
         thing.dy = bounced(shape.pos.y, thing.dy, size);
         shape.pos.x += thing.dx;
         shape.pos.y += thing.dy;
         if (shape.setAngle) shape.setAngle(shape.angle + thing.turn);
-        boundsOf(shape, box);
-        space.set(id, box[0], box[1], box[2], box[3]);
+        boundsOf(shape, thing.box);
       }
+    },
+    broad() {
+      for (const [id, { box }] of things.entries()) space.set(id, box[0], box[1], box[2], box[3]);
       space.update();
     },
     narrow() {
@@ -128,16 +130,21 @@ export function masks(count = 60, seed = 2) {
     things,
     hits,
     move() {
-      for (const [id, thing] of things.entries()) {
+      for (const thing of things) {
         const { mask } = thing;
         thing.dx = bounced(thing.x, thing.dx, 13);
         thing.dy = bounced(thing.y, thing.dy, 13);
         thing.x += thing.dx;
         thing.y += thing.dy;
-        // The pixels are at whole numbers, so the box is too. It is one pixel smaller, so that neighbours do not touch.
+        // The pixels are at whole numbers, so the box is too.
         thing.left = Math.round(thing.x - mask.width / 2);
         thing.top = Math.round(thing.y - mask.height / 2);
-        space.set(id, thing.left, thing.top, thing.left + mask.width - 1, thing.top + mask.height - 1);
+      }
+    },
+    broad() {
+      for (const [id, { mask, left, top }] of things.entries()) {
+        // One pixel smaller than the picture, so that neighbours do not touch.
+        space.set(id, left, top, left + mask.width - 1, top + mask.height - 1);
       }
       space.update();
     },
@@ -180,11 +187,15 @@ export function fastBoxes(count = 60, seed = 3) {
     things,
     hits,
     move() {
-      for (const [id, thing] of things.entries()) {
+      for (const thing of things) {
         const { box, way } = thing;
         thing.time = 1;
         thing.first = -1;
         for (let k = 0; k < 2; k++) way[k] = bounced(box[k], way[k], thing.isBullet ? 1 : 15);
+      }
+    },
+    broad() {
+      for (const [id, { box, way }] of things.entries()) {
         space.setSwept(id, box[0], box[1], box[2], box[3], way[0], way[1]);
       }
       space.update();

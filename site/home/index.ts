@@ -55,8 +55,8 @@ const figure = new Figure(
 );
 let recording: Promise<LiveScene> | undefined;
 let shown = 0;
-/** Until the visitor chooses a number of boxes, or it runs smoothly. */
-let greeting = !address.has('boxes');
+/** How the number of boxes moves here that the page has chosen; undefined once the visitor has chosen something. */
+let greeting: 'unknown' | 'smooth' | 'slow' | undefined = address.has('boxes') ? undefined : 'unknown';
 /** When the scene began to move. */
 let movingSince = 0;
 
@@ -93,16 +93,23 @@ async function show(): Promise<void> {
   slider.disabled = recorded;
   slider.style.setProperty('--filled', `${(100 * slider.valueAsNumber) / Number(slider.max)}%`);
   slider.setAttribute('aria-valuetext', `${formatCount(scene.count)} boxes`);
-  const fewer = !recorded && scene.count < boxesAt(slider.valueAsNumber / Number(slider.max));
-  note.textContent = fewer
-    ? `Brute force stops here at ${formatCount(scene.count)} boxes: that is ${formatCount(possible(scene.count))} tests per frame.`
-    : greeting && scene.count < greetings[0]
-      ? `${formatCount(scene.count)} boxes, as many as this device moves smoothly; the slider goes to ${formatCount(most)}.`
-      : scenes[sceneMenu.selectedIndex][2];
   figure.show(scene);
+  describe(scene, recorded);
   movingSince = performance.now();
   report();
   remember(scene.count);
+}
+
+/** Describes the scene, or why it has fewer boxes than one would expect. */
+function describe({ count }: LiveScene, recorded: boolean): void {
+  const boxes = `${formatCount(count)} boxes`;
+  const reach = `the slider goes to ${formatCount(most)}.`;
+  if (!recorded && count < boxesAt(slider.valueAsNumber / Number(slider.max)))
+    note.textContent = `Brute force stops here at ${boxes}: that is ${formatCount(possible(count))} tests per frame.`;
+  else if (recorded || !greeting || count === greetings[0]) note.textContent = scenes[sceneMenu.selectedIndex][2];
+  else if (greeting === 'smooth') note.textContent = `${boxes}, as many as this device moves smoothly; ${reach}`;
+  else if (greeting === 'slow') note.textContent = `This device does not move even ${boxes} smoothly; ${reach}`;
+  else note.textContent = `${boxes}, because this device does not move ${formatCount(greetings[0])} smoothly; ${reach}`;
 }
 
 function remember(count: number): void {
@@ -115,11 +122,13 @@ function remember(count: number): void {
 /** Shows fewer boxes if those of the greeting do not run smoothly here. Drawing them is most of the work. */
 function greet(): void {
   const { timings, loop, scene } = figure;
-  if (!greeting || !loop.playing || !scene || slider.disabled || performance.now() - movingSince < trial) return;
+  if (greeting !== 'unknown' || !loop.playing || !scene || slider.disabled || performance.now() - movingSince < trial)
+    return;
   const can = (scene.count * timings.rate) / smooth;
   const fewer = greetings.filter((count) => count < scene.count);
   if (timings.rate >= smooth || fewer.length === 0) {
-    greeting = false;
+    greeting = timings.rate >= smooth ? 'smooth' : 'slow';
+    describe(scene, false);
     return;
   }
   slide(fewer.find((count) => count <= can) ?? fewer.at(-1)!);
@@ -189,7 +198,7 @@ const showSoon = () => {
 };
 for (const control of [slider, sceneMenu, techniqueMenu]) {
   control.addEventListener('input', () => {
-    greeting = false;
+    greeting = undefined;
     showSoon();
   });
 }

@@ -6,6 +6,7 @@ import { formatCount, formatMilliseconds, formatRate } from '../shared/format.ts
 import { numberPanel } from '../shared/numbers.ts';
 import type { RendererKind } from '../shared/renderer.ts';
 import { Timings } from '../shared/timings.ts';
+import { Address } from './address.ts';
 import { isTrace, mostBoxes, traces } from './catalog.ts';
 import { save, takeFiles } from './files.ts';
 import { createCellSize } from './panels/cell-size.ts';
@@ -21,6 +22,7 @@ import {
 } from './panels/controls.ts';
 import { createCountSlider } from './panels/count-slider.ts';
 import { createInspector } from './panels/inspector.ts';
+import { describeParts } from './panels/parts.ts';
 import { Playback } from './panels/playback.ts';
 import { createRace, type Race } from './race.ts';
 import { defaults, type LabState, type Layer, latestFrame, type Rate, readState, writeState } from './state.ts';
@@ -36,7 +38,6 @@ const mostByBruteForce = 20_000;
 /** Limited, because every racer has all boxes in its own memory. */
 const mostInRace = 100_000;
 const refresh = 200;
-const rememberAfter = 300;
 const file = 'file';
 
 const note = find('note');
@@ -66,11 +67,9 @@ const slider = createCountSlider(find('count'), state.boxes, (count) => {
 const cellSize = createCellSize(find('cells'), setCell, (cell) => ask('cost', cell));
 /** For comparison, the renderer of flat scenes can be chosen in the URL: ?renderer=canvas-2d. */
 const kinds: readonly RendererKind[] = ['webgl2', 'canvas-2d'];
-const flat = createFlatView(
-  find('flat'),
-  () => remember(),
-  kinds.find((kind) => kind === new URLSearchParams(location.search).get('renderer')),
-);
+const wantedKind = new URLSearchParams(location.search).get('renderer');
+const chosenKind = kinds.find((kind) => kind === wantedKind);
+const flat = createFlatView(find('flat'), () => remember(), chosenKind);
 view = flat;
 let solid: Promise<LabView> | undefined;
 
@@ -118,7 +117,7 @@ async function makeFrame(steps: number): Promise<void> {
     if (race) {
       await race.step();
       if (race?.picture) take(race.picture);
-    } else if (opened) {
+    } else if (opened && !state.race) {
       take(await ask('picture', wanted(steps)));
       view.show(picture!);
     }
@@ -250,12 +249,16 @@ async function useView(dimensions: 2 | 3): Promise<void> {
     });
   }
   view = dimensions === 3 ? await solid! : flat;
-  arrange(state.race !== undefined, view.element.id);
+  arrange(state.race?.length, view.element.id);
 }
 
 async function startRace(frame: number, signal: AbortSignal): Promise<void> {
   const places = { tiles: find('race'), bars: find('bars'), note: find('race-note') };
-  if (state.race!.length === 0) return say('Choose who races.');
+  if (state.race!.length === 0) {
+    for (const place of Object.values(places)) place.replaceChildren(); // those of the race before
+    write('frame', '–');
+    return say('Choose who races.');
+  }
   const made = await createRace(places, state.race!, source, frame, signal);
   signal.throwIfAborted();
   race = made;
@@ -317,25 +320,16 @@ function showFileInMenu(): void {
   if (ownFile) sceneMenu.add(new Option(ownFile.name, file), 0);
 }
 
-let pendingMemory: ReturnType<typeof setTimeout> | undefined;
-/** Writes the state into the URL, after a delay: browsers limit how often that is allowed. */
-function remember(): void {
-  clearTimeout(pendingMemory);
-  pendingMemory = setTimeout(() => {
-    const shown = {
-      ...state,
-      scene: ownFile ? file : state.scene,
-      frame: playback.playing ? undefined : picture?.index,
-    };
-    const renderer = new URLSearchParams(location.search).get('renderer');
-    const kept = kinds.find((kind) => kind === renderer);
-    history.replaceState(
-      null,
-      '',
-      `?${writeState({ ...shown, view: state.race ? undefined : view.look })}${kept ? `&renderer=${kept}` : ''}`,
-    );
-  }, rememberAfter);
-}
+const address = new Address(() => {
+  const query = writeState({
+    ...state,
+    scene: ownFile ? file : state.scene,
+    frame: playback.playing ? undefined : picture?.index,
+    view: state.race ? undefined : view.look,
+  });
+  return chosenKind ? `${query}&renderer=${chosenKind}` : query;
+});
+const remember = () => address.writeSoon();
 
 /** Writes the live numbers. */
 function report(): void {
@@ -349,6 +343,10 @@ function report(): void {
   write('touching', formatCount(touching));
   write('tests', formatCount(stats.tests));
   write('cells', formatCount(stats.cells));
+  write(
+    'parts',
+    describeParts(stats.technique, stats.cells, state.show.includes('structure') ? picture.cells : stats.cells),
+  );
   if (timings.summarise()) {
     write('median', formatMilliseconds(timings.median));
     write('rate', playback.playing ? formatRate(timings.rate) : '–');
@@ -404,7 +402,7 @@ async function toggleRecording(): Promise<void> {
 async function share(): Promise<void> {
   const held = ownFile ? ' It does not hold your file.' : '';
   try {
-    await navigator.clipboard.writeText(location.href);
+    await navigator.clipboard.writeText(address.write());
     say(`Link copied.${held}`);
   } catch {
     say(`The address of this page is the link: copy it from the address bar.${held}`);
@@ -480,7 +478,7 @@ takeFiles(find('choose'), find<HTMLInputElement>('file'), (chosen) => void chang
 addEventListener('keydown', (event) => {
   if (event.key !== ' ' || (event.target as Element).closest('button, select, input, label')) return;
   event.preventDefault();
-  play(!playback.playing);
+  find('play').click(); // unless there is nothing to play
 });
 // Without an error it is only a notice, such as that elements were resized twice in a frame.
 addEventListener('error', (event) => event.error && failed(event.error));

@@ -11,7 +11,7 @@ import { Pilot, TooSlow } from './worker/pilot.ts';
 
 /** Milliseconds that a frame may take in a race. */
 const patience = 3000;
-/** The median is over this many frames. */
+/** The median is over this many frames, or fewer at first. */
 const kept = 60;
 /** More cells than this would be a haze in a tile, so only some are drawn. */
 const mostCells = 3000;
@@ -173,11 +173,12 @@ export async function createRace(
       item.classList.toggle('first', racer === order[0] && !out);
     }
     const digests = new Set(running.map(({ picture }) => picture?.digest));
+    const measured = Math.min(kept, ...running.map(({ frames }) => frames));
     const pairs = running[0]?.picture?.stats.pairs ?? 0;
     note.textContent =
       digests.size > 1
         ? 'They disagree on the pairs: that is a bug in the library. Please report it.'
-        : `Median of ${kept} frames, on a logarithmic scale. They take turns, and all find the same ${formatCount(pairs)} pairs.`;
+        : `Median of ${measured} ${measured === 1 ? 'frame' : 'frames'}, on a logarithmic scale. They take turns, and all find the same ${formatCount(pairs)} pairs.`;
   };
 
   return {

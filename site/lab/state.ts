@@ -24,7 +24,7 @@ export interface LabState {
   view: readonly number[] | undefined;
   /** The id of the box that was clicked. */
   box: number | undefined;
-  /** The techniques that race; undefined: no race. */
+  /** The techniques that race, perhaps none; undefined: no race. */
   race: readonly TechniqueName[] | undefined;
 }
 
@@ -109,7 +109,6 @@ export function readState(query: string): ReadState {
     box: wholeNumber('box', 0, mostId),
     race: someOf('race', BroadPhase.techniques),
   };
-  if (state.race?.length === 0) state.race = undefined;
   return { state, faults };
 }
 

@@ -58,6 +58,8 @@ async function writeReference(folder: string): Promise<void> {
   app.renderer.hooks.on('body.begin', ({ page }) =>
     JSX.createElement(JSX.Raw, { html: navigation(`api/${page.url}`) }),
   );
+  app.renderer.hooks.on('content.begin', () => JSX.createElement(JSX.Raw, { html: '<main>' }));
+  app.renderer.hooks.on('content.end', () => JSX.createElement(JSX.Raw, { html: '</main>' }));
   let ungrouped: string[] = [];
   app.converter.on(Converter.EVENT_RESOLVE_BEGIN, ({ project }) => {
     ungrouped = groupMembers(project);

@@ -36,8 +36,12 @@ export interface Ask {
   readonly options: readonly OptionName[];
   /** The technique that finds the pairs, if the query needs a certain one. */
   readonly technique?: TechniqueName;
-  /** Makes the query, and marks what it found. This alone is timed. */
-  ask(desk: Desk): number;
+  /** Builds what the query takes. */
+  prepare?(desk: Desk): void;
+  /** Makes the query. This alone is timed. Without it, the answer is there after `update()`, whose time is shown. */
+  ask?(desk: Desk): void;
+  /** Marks what was found among the boxes, and counts it. */
+  mark(desk: Desk): number;
   /** Draws the query and its answer. */
   draw(desk: Desk): void;
   /** The call and its answer, as in a program. */

@@ -2,7 +2,7 @@
 // them, and the text of the call. All aim with the same two points: where the pointer went down, and where it is now.
 import type { BroadPhase, RayHit, SweepHit } from 'broadphase';
 import { shades } from '../shared/groups.ts';
-import { type Ask, first, flash, found, fresh, gone, hueSlot, join, list, maskText, short } from './ask.ts';
+import { type Ask, type Desk, first, flash, found, fresh, gone, hueSlot, join, list, maskText, short } from './ask.ts';
 import { debug, fan, spaces, view } from './more-asks.ts';
 
 const ids: number[] = [];
@@ -15,8 +15,8 @@ const sweepOptions = { out: { id: 0, time: 0, normal: [0, 0] }, mask: 7 };
 let ray: RayHit | undefined;
 let met: SweepHit | undefined;
 
-function mark(slots: Uint8Array, slot: number): number {
-  for (let n = 0; n < ids.length; n++) slots[ids[n]] = slot;
+function markIds({ slots }: Desk): number {
+  for (let n = 0; n < ids.length; n++) slots[ids[n]] = found;
   return ids.length;
 }
 
@@ -26,13 +26,13 @@ const box: Ask = {
   hint: 'Drag across the view to find the boxes that touch yours, or lie wholly inside it.',
   counts: 'Boxes found',
   options: ['within', 'mask'],
-  ask({ space, aim, mask, within, slots }) {
+  ask({ space, aim, mask, within }) {
     boxOptions.mask = mask;
     boxOptions.within = within;
     const [x, y, toX, toY] = aim;
     space.queryBox(Math.min(x, toX), Math.min(y, toY), Math.max(x, toX), Math.max(y, toY), boxOptions);
-    return mark(slots, found);
   },
+  mark: markIds,
   draw({ pen, aim: [x, y, toX, toY] }) {
     pen.box(Math.min(x, toX), Math.min(y, toY), Math.max(x, toX), Math.max(y, toY), 'accent');
   },
@@ -50,11 +50,11 @@ const point: Ask = {
   hint: 'Put the point on a box, or where boxes overlap.',
   counts: 'Boxes that contain it',
   options: ['mask'],
-  ask({ space, aim, mask, slots }) {
+  ask({ space, aim, mask }) {
     idsOptions.mask = mask;
     space.queryPoint(aim[2], aim[3], idsOptions);
-    return mark(slots, found);
   },
+  mark: markIds,
   draw({ pen, aim }) {
     pen.dot(aim[2], aim[3], 5, 'accent');
   },
@@ -70,11 +70,11 @@ const circle: Ask = {
   hint: 'Drag the circle: an explosion, or how far someone can hear.',
   counts: 'Boxes that it touches',
   options: ['radius', 'mask'],
-  ask({ space, aim, radius, mask, slots }) {
+  ask({ space, aim, radius, mask }) {
     idsOptions.mask = mask;
     space.queryCircle(aim[2], aim[3], radius, idsOptions);
-    return mark(slots, found);
   },
+  mark: markIds,
   draw({ pen, aim, radius }) {
     pen.circle(aim[2], aim[3], radius, 'accent');
   },
@@ -90,20 +90,18 @@ const rayCast: Ask = {
   hint: 'Drag from where the ray begins to where it aims.',
   counts: 'Boxes that it hits',
   options: ['all', 'mask'],
-  ask({ space, aim, all, mask, slots }) {
+  ask({ space, aim, all, mask }) {
     const [x, y, toX, toY] = aim;
     ray = undefined;
     rays.length = 0;
-    if (all) {
-      raysOptions.mask = mask;
-      space.rayCastAll(x, y, toX - x, toY - y, raysOptions);
-      for (let n = 0; n < rays.length; n++) slots[rays[n].id] = n === 0 ? first : found;
-      return rays.length;
-    }
-    rayOptions.mask = mask;
-    ray = space.rayCast(x, y, toX - x, toY - y, rayOptions);
+    raysOptions.mask = rayOptions.mask = mask;
+    if (all) space.rayCastAll(x, y, toX - x, toY - y, raysOptions);
+    else ray = space.rayCast(x, y, toX - x, toY - y, rayOptions);
+  },
+  mark({ slots }) {
+    for (let n = 0; n < rays.length; n++) slots[rays[n].id] = n === 0 ? first : found;
     if (ray) slots[ray.id] = first;
-    return ray ? 1 : 0;
+    return ray ? 1 : rays.length;
   },
   draw({ pen, aim: [x, y, toX, toY], all, world }) {
     const length = Math.hypot(toX - x, toY - y) || 1;
@@ -139,11 +137,13 @@ const sweep: Ask = {
   hint: 'Drag from where the box is to where it goes within one frame: it stops at the first box it hits.',
   counts: 'Boxes met first',
   options: ['mask'],
-  ask({ space, aim, mask, slots, world }) {
+  ask({ space, aim, mask, world }) {
     const [x, y, toX, toY] = aim;
     const half = (sweptSide * world) / 2;
     sweepOptions.mask = mask;
     met = space.sweep(x - half, y - half, x + half, y + half, toX - x, toY - y, sweepOptions);
+  },
+  mark({ slots }) {
     if (met) slots[met.id] = first;
     return met ? 1 : 0;
   },
@@ -178,11 +178,13 @@ const nearest: Ask = {
   hint: 'Move the point: the boxes nearest to it, by their edges, are found in order.',
   counts: 'Boxes found',
   options: ['k', 'mask'],
-  ask({ space, aim, k, mask, slots }) {
+  ask({ space, aim, k, mask }) {
     nearestOptions.mask = mask;
     space.nearest(aim[2], aim[3], k, nearestOptions);
-    mark(slots, found);
-    if (ids.length > 0) slots[ids[0]] = first;
+  },
+  mark(desk) {
+    markIds(desk);
+    if (ids.length > 0) desk.slots[ids[0]] = first;
     return ids.length;
   },
   draw({ pen, aim, boxes }) {
@@ -209,13 +211,18 @@ const partners: Ask = {
   hint: 'Choose a box: which boxes is it in a pair with?',
   counts: 'Boxes in a pair with it',
   options: [],
-  ask({ space, aim, aimed, slots }) {
+  prepare({ space, aim, aimed }) {
     // The chosen box stays chosen while it moves.
     if (aimed) [chosen = -1] = space.nearest(aim[2], aim[3], 1, { out: ids });
-    if (chosen < 0 || !space.has(chosen)) return 0;
-    space.collisionsOf(chosen, ids);
-    mark(slots, found);
-    slots[chosen] = first;
+    if (chosen >= 0 && !space.has(chosen)) chosen = -1;
+  },
+  ask({ space }) {
+    ids.length = 0;
+    if (chosen >= 0) space.collisionsOf(chosen, ids);
+  },
+  mark(desk) {
+    markIds(desk);
+    if (chosen >= 0) desk.slots[chosen] = first;
     return ids.length;
   },
   draw({ pen, boxes }) {
@@ -239,7 +246,7 @@ const events: Ask = {
   hint: 'Green flashes where a pair began, red where one ended.',
   counts: 'Began and ended in this frame',
   options: [],
-  ask({ space, slots }) {
+  mark({ space, slots }) {
     if (flashes.length !== slots.length) flashes = new Int8Array(slots.length);
     const { began, ended } = space;
     for (let k = 0; k < ended.length; k++) flashes[ended[k]] = -flash;
@@ -265,10 +272,10 @@ const layerHue = [8, 2, 10];
 const filters: Ask = {
   name: 'filters',
   label: 'Filters',
-  hint: 'Three layers: choose which of them meet. Boxes in a pair are dark, the others pale.',
+  hint: 'Three layers: choose which of them meet. Boxes in a pair are strong, the others faint.',
   counts: 'Pairs',
   options: ['meet'],
-  ask({ space, slots }) {
+  mark({ space, slots }) {
     for (let id = 0; id < slots.length; id++) slots[id] = hueSlot(layerHue[id % 3], 0);
     const { pairs } = space;
     for (let k = 0; k < pairs.length; k++) slots[pairs[k]] = hueSlot(layerHue[pairs[k] % 3]);

@@ -9,8 +9,8 @@ const [sine, cosine] = [Math.sin(half), Math.cos(half)];
 
 /** Left, right and far side of the view: for each, a normal that points inside, and an offset. */
 const planes = new Float64Array(9);
-let whole = 0;
-let seen = 0;
+const cut: number[] = [];
+const whole: number[] = [];
 
 function look(x: number, y: number, toX: number, toY: number): void {
   const length = Math.hypot(toX - x, toY - y) || 1;
@@ -22,13 +22,11 @@ function look(x: number, y: number, toX: number, toY: number): void {
   put(6, -dx, -dy, length);
 }
 
-let slotsNow: Uint8Array = new Uint8Array();
 const viewOptions = {
   mask: 7,
   visit: (id: number, inside: boolean) => {
-    slotsNow[id] = inside ? found : first;
-    seen++;
-    if (inside) whole++;
+    if (inside) whole.push(id);
+    else cut.push(id);
   },
 };
 
@@ -38,13 +36,18 @@ export const view: Ask = {
   hint: 'Drag from the camera to where it looks. Boxes wholly in view are blue, those cut by its sides are red.',
   counts: 'Boxes in view',
   options: ['mask'],
-  ask({ space, aim, mask, slots }) {
+  prepare({ aim }) {
     look(aim[0], aim[1], aim[2], aim[3]);
-    slotsNow = slots;
-    seen = whole = 0;
+  },
+  ask({ space, mask }) {
+    cut.length = whole.length = 0;
     viewOptions.mask = mask;
     space.queryPlanes(planes, viewOptions);
-    return seen;
+  },
+  mark({ slots }) {
+    for (let n = 0; n < cut.length; n++) slots[cut[n]] = first;
+    for (let n = 0; n < whole.length; n++) slots[whole[n]] = found;
+    return cut.length + whole.length;
   },
   draw({ pen, aim: [x, y, toX, toY] }) {
     const [dx, dy] = [toX - x, toY - y];
@@ -58,7 +61,7 @@ export const view: Ask = {
     const rows = [0, 3, 6].map(
       (k) => `  ${[planes[k], planes[k + 1]].map((n) => n.toFixed(2)).join(', ')}, ${short(planes[k + 2])},`,
     );
-    return `const planes = [\n${rows.join('\n')}\n]; // left, right, far\nspace.queryPlanes(${join('planes', maskText(desk))});\n// ${seen} boxes, ${whole} wholly inside`;
+    return `const planes = [\n${rows.join('\n')}\n]; // left, right, far\nspace.queryPlanes(${join('planes', maskText(desk))});\n// ${cut.length + whole.length} boxes, ${whole.length} wholly inside`;
   },
 };
 
@@ -75,7 +78,7 @@ export const fan: Ask = {
   hint: 'Move the point: 90 rays are cast from it, in one call. What a robot sees, or where light falls.',
   counts: 'Rays that hit a box',
   options: ['mask'],
-  ask({ space, aim, mask, slots, world }) {
+  prepare({ aim }) {
     for (let k = 0; k < rayCount; k++) {
       const angle = (2 * Math.PI * k) / rayCount;
       rays[4 * k] = aim[2];
@@ -83,9 +86,13 @@ export const fan: Ask = {
       rays[4 * k + 2] = Math.cos(angle);
       rays[4 * k + 3] = Math.sin(angle);
     }
+  },
+  ask({ space, mask, world }) {
     hits = space.rayCasts(rays, { mask, maxDistance: reach * world, ...(hits && { out: hits }) });
-    met = hits.offsets[rayCount];
-    for (let n = 0; n < met; n++) slots[hits.ids[n]] = found;
+  },
+  mark({ slots }) {
+    met = hits!.offsets[rayCount];
+    for (let n = 0; n < met; n++) slots[hits!.ids[n]] = found;
     return met;
   },
   draw({ pen, aim, world }) {
@@ -122,7 +129,7 @@ export const spaces: Ask = {
   hint: 'The ring is a space of its own. Move it: its pairs with the boxes are retained, so only what moves costs time.',
   counts: 'Pairs of the two',
   options: ['radius'],
-  ask({ space, aim, radius, slots, world }) {
+  prepare({ aim, radius, world }) {
     const side = world / 60;
     for (let k = 0; k < ringCount; k++) {
       const angle = (2 * Math.PI * k) / ringCount;
@@ -130,7 +137,11 @@ export const spaces: Ask = {
       const y = aim[3] + radius * Math.sin(angle);
       ringBoxes.set([x - side / 2, y - side / 2, x + side / 2, y + side / 2], 4 * k);
     }
+  },
+  ask({ space }) {
     pairs = ring.setAll(ringBoxes).update().pairsWith(space);
+  },
+  mark({ slots }) {
     for (let k = 1; k < pairs.length; k += 2) slots[pairs[k]] = found;
     return pairs.length / 2;
   },
@@ -155,7 +166,7 @@ export const debug: Ask = {
   counts: 'Pairs',
   options: [],
   technique: 'quadtree',
-  ask: ({ space }) => space.pairCount,
+  mark: ({ space }) => space.pairCount,
   draw({ pen, space, aim: [x, y, toX, toY] }) {
     pen.space(space, { cells: true, hot: true, rays: [[x, y, toX - x, toY - y]] });
   },

@@ -15,9 +15,20 @@ export class Camera {
   y = 0;
   /** Device pixels per world unit. */
   scale = 1;
-  /** True while the whole world is shown; then a new size or world is fitted again. */
-  fitted = true;
+  /** Called whenever the whole world begins or ceases to be shown. */
+  fittedChanged: () => void = () => {};
+  #fitted = true;
   #world: World = [0, 0, 1, 1];
+
+  /** True while the whole world is shown; then a new size or world is fitted again. */
+  get fitted(): boolean {
+    return this.#fitted;
+  }
+  #setFitted(fitted: boolean): void {
+    if (fitted === this.#fitted) return;
+    this.#fitted = fitted;
+    this.fittedChanged();
+  }
 
   #fitScale(): number {
     const [minX, minY, maxX, maxY] = this.#world;
@@ -29,7 +40,7 @@ export class Camera {
     this.x = (world[0] + world[2]) / 2;
     this.y = (world[1] + world[3]) / 2;
     this.scale = this.#fitScale();
-    this.fitted = true;
+    this.#setFitted(true);
   }
 
   /** The scale, relative to the one that shows the whole world. */
@@ -43,7 +54,7 @@ export class Camera {
     this.zoom(zoomed);
     this.x = x;
     this.y = y;
-    this.fitted = false;
+    this.#setFitted(false);
   }
 
   resize(width: number, height: number): void {
@@ -57,7 +68,7 @@ export class Camera {
     const [minX, minY, maxX, maxY] = this.#world;
     this.x = Math.min(maxX, Math.max(minX, this.x - dx / this.scale));
     this.y = Math.min(maxY, Math.max(minY, this.y - dy / this.scale));
-    this.fitted = false;
+    this.#setFitted(false);
   }
 
   /** Zooms by a factor around a pixel, which keeps showing the same point of the world. */
@@ -69,6 +80,6 @@ export class Camera {
     this.x += dx / this.scale - dx / scale;
     this.y += dy / this.scale - dy / scale;
     this.scale = scale;
-    this.fitted = false;
+    this.#setFitted(false);
   }
 }

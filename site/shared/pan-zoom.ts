@@ -11,10 +11,12 @@ const keyZoom = 1.25;
 export function panZoom(view: HTMLElement, camera: Camera, changed: () => void): void {
   const fingers = new Map<number, { x: number; y: number }>();
 
-  const update = () => {
+  // Told by the camera, since buttons and new scenes move it too.
+  const letFingersScroll = () => {
     view.style.touchAction = camera.fitted ? 'pan-y' : 'none';
-    changed();
   };
+  camera.fittedChanged = letFingersScroll;
+  letFingersScroll();
   /** A client position in the camera's pixels. */
   const locate = (x: number, y: number) => {
     const frame = view.getBoundingClientRect();
@@ -32,7 +34,7 @@ export function panZoom(view: HTMLElement, camera: Camera, changed: () => void):
       const at = locate(event.clientX, event.clientY);
       // A pinch on a touchpad arrives as small deltas with the control key.
       camera.zoom(Math.exp(-event.deltaY * lines * wheelSpeed * (event.ctrlKey ? 6 : 1)), at.x, at.y);
-      update();
+      changed();
     },
     { passive: false },
   );
@@ -55,7 +57,7 @@ export function panZoom(view: HTMLElement, camera: Camera, changed: () => void):
       camera.pan(now.x - before.x, now.y - before.y);
     }
     fingers.set(event.pointerId, now);
-    update();
+    changed();
   });
   const lift = (event: PointerEvent) => fingers.delete(event.pointerId);
   view.addEventListener('pointerup', lift);
@@ -76,9 +78,8 @@ export function panZoom(view: HTMLElement, camera: Camera, changed: () => void):
     else if (event.key === '0') camera.fit();
     else return;
     event.preventDefault();
-    update();
+    changed();
   });
 
   view.tabIndex = 0;
-  view.style.touchAction = 'pan-y';
 }

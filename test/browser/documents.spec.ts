@@ -151,6 +151,39 @@ test('the reference leads with BroadPhase: a line for each member, in the groups
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('broadphase/all, /2d and /3d');
 });
 
+/** The smallest contrast of a coloured word in code with its background, as WCAG counts it. */
+function leastContrast(): number {
+  const channels = (colour: string) =>
+    colour
+      .match(/[\d.]+/g)!
+      .slice(0, 3)
+      .map(Number);
+  const luminance = (colour: string) => {
+    const [red, green, blue] = channels(colour).map((value) => {
+      const share = value / 255;
+      return share <= 0.04045 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
+    });
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+  };
+  const contrasts = Array.from(document.querySelectorAll('pre span[class^=hl-]'), (word) => {
+    const pair = [getComputedStyle(word).color, getComputedStyle(word.closest('pre')!).backgroundColor].map(luminance);
+    return (Math.max(...pair) + 0.05) / (Math.min(...pair) + 0.05);
+  });
+  return Math.min(...contrasts);
+}
+
+test('the reference can be read: its code has contrast, its links are underlined, and it has a main part', async ({
+  page,
+}) => {
+  for (const colorScheme of ['light', 'dark'] as const) {
+    await page.emulateMedia({ colorScheme });
+    await page.goto('api/classes/broadphase.BroadPhase.html');
+    await expect(page.getByRole('main').getByRole('heading', { level: 1 })).toBeVisible();
+    expect(await page.evaluate(leastContrast), colorScheme).toBeGreaterThan(4.5);
+    await expect(page.locator('.tsd-comment p a').first()).toHaveCSS('text-decoration-line', 'underline');
+  }
+});
+
 test('the reference has the options of a method beside it', async ({ page }) => {
   await page.goto('api/classes/broadphase.BroadPhase.html#querybox');
   const told = page

@@ -53,13 +53,36 @@ test('opens with 100,000 moving boxes and live numbers, or as many as move smoot
   await expect.poll(() => number(page, 'pairs'), { timeout: 20_000 }).not.toBe(before);
   await expect.poll(() => number(page, 'rate'), { timeout: 20_000 }).toBeGreaterThan(0);
   await page.waitForTimeout(4000);
+  await expect(page.getByRole('status')).not.toContainText('because', { timeout: 20_000 }); // still trying
   await page.getByRole('button', { name: 'Pause' }).click();
   const boxes = (await shown(page, 'boxes').textContent())!;
   expect(['100,000', '50,000', '20,000', '10,000', '5,000']).toContain(boxes);
   await expect(page.locator('.lede')).toContainText(`${boxes} boxes move`);
   await expect(page.getByRole('img')).toHaveAttribute('aria-label', new RegExp(`^${boxes} boxes, paused`));
-  if (boxes !== '100,000')
-    await expect(page.getByRole('status')).toContainText(`${boxes} boxes, as many as this device`);
+  const told = boxes === '100,000' ? 'From 2 to 2,000 wide' : boxes === '5,000' ? '5,000 boxes' : `${boxes} boxes, as`;
+  await expect(page.getByRole('status')).toContainText(told);
+});
+
+test('a slow device is not said to move its boxes smoothly', async ({ page }) => {
+  await page.addInitScript(() => {
+    const { requestAnimationFrame } = window;
+    window.requestAnimationFrame = (act) => window.setTimeout(() => requestAnimationFrame(act), 150);
+  });
+  await page.goto('/');
+  const status = page.getByRole('status');
+  await expect(status).toHaveText('This device does not move even 5,000 boxes smoothly; the slider goes to 200,000.', {
+    timeout: 20_000,
+  });
+  await page.getByRole('combobox', { name: 'Scene' }).selectOption('sparse2d');
+  await expect(status).toHaveText('Hardly anything touches.');
+});
+
+test('a recording in the address keeps its description: the page has not chosen its number of boxes', async ({
+  page,
+}) => {
+  await openStill(page, '/?scene=rain&technique=auto');
+  await expect(shown(page, 'boxes')).toHaveText('15,505');
+  await expect(page.getByRole('status')).toContainText('Real input: every shape of a Box2D world');
 });
 
 test('shows 100,000 boxes, still, to those who ask for less motion; what they choose stays', async ({ page }) => {
@@ -178,6 +201,65 @@ test('zooms by keys, wheel and buttons, and shows everything again', async ({ pa
   await page.getByRole('button', { name: 'Show everything' }).click();
   await page.mouse.move(0, 0);
   await showsAll().toBe(true);
+});
+
+test('at no width is a link of the navigation alone below the name: all are beside it, or all start at its left', async ({
+  page,
+}) => {
+  await openStill(page, '/?boxes=100');
+  for (const width of [390, 640, 720, 820, 860, 900]) {
+    await page.setViewportSize({ width, height: 600 });
+    const [home, ...links] = await page.locator('.site-nav a').evaluateAll((all) =>
+      all.map((link) => {
+        const { left, top, height } = link.getBoundingClientRect();
+        return { left: left + Number.parseFloat(getComputedStyle(link).paddingLeft), middle: top + height / 2 };
+      }),
+    );
+    const below = links.filter(({ middle }) => middle > home.middle + 10);
+    expect([0, links.length], `${width} pixels wide`).toContain(below.length);
+    if (below.length > 0) expect(below[0].left, `${width} pixels wide`).toBe(home.left);
+  }
+});
+
+test.describe('by touch', () => {
+  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+
+  for (const [address, id] of [
+    ['/?boxes=1000', 'view'],
+    ['/lab/?boxes=1000', 'flat'],
+  ]) {
+    test(`${address}: a finger moves a view that was zoomed by a button, and scrolls past one that shows everything`, async ({
+      page,
+    }) => {
+      await openStill(page, address);
+      const view = page.locator(`#${id}`);
+      const touch = await page.context().newCDPSession(page);
+      const scrolled = () => page.evaluate(() => Math.round(scrollY));
+      /** Drags a finger upwards; returns by how much that scrolled the page, and whether the picture changed. */
+      const drag = async () => {
+        const [before, was] = [await view.locator('canvas').first().screenshot(), await scrolled()];
+        const { x, y, height } = (await view.boundingBox())!;
+        for (let step = 0; step <= 8; step++) {
+          const points = [{ x: x + 150, y: y + 0.8 * height - 15 * step }];
+          const type = step === 0 ? 'touchStart' : 'touchMove';
+          await touch.send('Input.dispatchTouchEvent', { type, touchPoints: points });
+        }
+        await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+        await page.waitForTimeout(300);
+        const by = (await scrolled()) - was;
+        await page.evaluate((to) => scrollTo(0, to), was);
+        return { by, moved: !(await view.locator('canvas').first().screenshot()).equals(before) };
+      };
+      await view.scrollIntoViewIfNeeded();
+      expect((await drag()).by).toBeGreaterThan(50);
+      await page.getByRole('button', { name: 'Zoom in' }).tap();
+      expect(await drag()).toEqual({ by: 0, moved: true });
+      await page.getByRole('button', { name: 'Show everything' }).tap();
+      const { by, moved } = await drag();
+      expect(by).toBeGreaterThan(50);
+      expect(moved).toBe(false);
+    });
+  }
 });
 
 for (const renderer of ['webgl2', 'canvas-2d']) {

@@ -34,8 +34,10 @@ async function openStill(page: Page, query: string): Promise<void> {
 }
 
 /** How many colours an element shows. */
-async function colours(page: Page, selector: string): Promise<number> {
-  const picture = (await page.locator(selector).screenshot()).toString('base64');
+const colours = async (page: Page, selector: string) => coloursOf(page, await page.locator(selector).screenshot());
+
+async function coloursOf(page: Page, png: Buffer): Promise<number> {
+  const picture = png.toString('base64');
   return page.evaluate(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
     const image = await createImageBitmap(new Blob([bytes]));
@@ -43,6 +45,18 @@ async function colours(page: Page, selector: string): Promise<number> {
     context.drawImage(image, 0, 0);
     return new Set(new Uint32Array(context.getImageData(0, 0, image.width, image.height).data.buffer)).size;
   }, picture);
+}
+
+/** The share of a canvas in the colour of the page, where nothing is drawn. */
+function backgroundShare(selector: string): number {
+  const canvas = document.querySelector<HTMLCanvasElement>(selector)!;
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d')!;
+  copy.drawImage(canvas, 0, 0);
+  const pixels = new Uint32Array(copy.getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+  const page = getComputedStyle(canvas).getPropertyValue('--page').trim().slice(1);
+  const [red, green, blue] = [0, 2, 4].map((at) => Number.parseInt(page.slice(at, at + 2), 16));
+  const background = (0xff000000 | (blue << 16) | (green << 8) | red) >>> 0;
+  return pixels.filter((pixel) => pixel === background).length / pixels.length;
 }
 
 /** Drops a file on the page. */
@@ -83,6 +97,14 @@ test('every technique finds the same pairs, and its cells are drawn', async ({ p
     expect(await number(page, 'pairs'), name).toBe(pairs);
     expect(await number(page, 'cells'), name).toBeGreaterThan(0);
   }
+});
+
+test('sweep-and-prune has intervals, of which so few are drawn that the boxes are seen', async ({ page }) => {
+  await openStill(page, 'boxes=5000&technique=sweep-and-prune');
+  await expect(shown(page, 'cells').locator('..')).toHaveText('5,000 intervals, 40 drawn');
+  expect(await page.evaluate(backgroundShare, '#boxes')).toBeGreaterThan(0.3);
+  await page.getByRole('checkbox', { name: 'Cells', exact: true }).uncheck();
+  await expect(shown(page, 'cells').locator('..')).toHaveText('5,000 intervals');
 });
 
 test('every scene can be shown', async ({ page }) => {
@@ -180,6 +202,34 @@ test('techniques race on the same frames, and agree', async ({ page }) => {
   await page.getByRole('button', { name: 'Race' }).click();
   await expect(page.locator('#flat')).toBeVisible();
   await expect(page).not.toHaveURL(/race=/);
+});
+
+test('a race of nobody shows nobody, cannot be played, and is still a race when the page is loaded again', async ({
+  page,
+}) => {
+  await openStill(page, 'boxes=300');
+  await page.getByRole('button', { name: 'Race' }).click();
+  await expect(page.locator('#race-note')).toContainText('Median of 1 frame,');
+  await page.getByRole('button', { name: 'Step' }).click();
+  await expect(page.locator('#race-note')).toContainText('Median of 2 frames,');
+  for (const racer of await page.locator('#racer-list input').all()) await racer.uncheck();
+  const expectNobody = async () => {
+    await expect(note(page)).toHaveText('Choose who races.');
+    await expect(page.locator('.tile, #bars li')).toHaveCount(0);
+    await expect(page.locator('#race-note')).toBeEmpty();
+    await expect(page.getByRole('button', { name: 'Play' })).toBeDisabled();
+    await expect(page.getByRole('button', { name: 'Step' })).toBeDisabled();
+    await expect(page.getByRole('button', { name: 'Race' })).toHaveAttribute('aria-pressed', 'true');
+    await expect(page).toHaveURL(/race=$/);
+  };
+  await expectNobody();
+  await page.reload();
+  await expectNobody();
+  await page.getByRole('checkbox', { name: 'quadtree' }).check();
+  await expect(page.locator('#race-note')).toContainText('Median of 1 frame,');
+  await expect(page.locator('.tile')).toHaveCount(1);
+  await page.getByRole('button', { name: 'Step' }).click();
+  await expect(shown(page, 'frame')).toHaveText('1');
 });
 
 test('a race goes on after a recording that was long in coming', async ({ page }) => {
@@ -296,6 +346,21 @@ test('a link shows the same: scene, technique, cells, frame, view and box', asyn
   }
 });
 
+test('a link that is copied right after a change has the change', async ({ page }) => {
+  await openStill(page, 'boxes=300');
+  const copied = await page.evaluate(async () => {
+    let copied = '';
+    navigator.clipboard.writeText = async (text) => {
+      copied = text;
+    };
+    document.querySelector<HTMLInputElement>('#layers [value=pairs]')!.click();
+    document.querySelector<HTMLButtonElement>('#share')!.click();
+    return copied;
+  });
+  expect(copied).toContain('show=structure,pairs');
+  await expect(page).toHaveURL(copied);
+});
+
 test('an address that makes no sense is said to, and the defaults are shown', async ({ page }) => {
   await page.goto(
     '/lab/?boxes=99999999999&scene=%3Cimg%20src=x%3E&technique=magic&frame=1e9&view=1,2&race=nobody&cell=-3',
@@ -325,6 +390,22 @@ test('a solid scene is drawn, turned by keys, and its boxes can be clicked', asy
   await expect(page).toHaveURL(/view=[-\d.]+(,[-\d.]+){5}/);
   await page.locator('#solid').click();
   await expect(page.locator('#chosen')).toContainText(/Box \d+/);
+});
+
+test('everything of a solid scene is in view, wide or tall', async ({ page }) => {
+  await openStill(page, 'scene=gravity');
+  for (const [width, height] of [
+    [1440, 900],
+    [390, 844],
+  ]) {
+    await page.setViewportSize({ width, height });
+    await page.waitForTimeout(300);
+    const view = (await page.locator('#solid').boundingBox())!;
+    for (const x of [view.x + 1, view.x + view.width - 5]) {
+      const clip = { x, y: view.y + 4, width: 4, height: view.height - 8 };
+      expect(await coloursOf(page, await page.screenshot({ clip, fullPage: true })), `${width}: at ${x}`).toBe(1);
+    }
+  }
 });
 
 test('the library for solid scenes is fetched for those alone', async ({ page }) => {

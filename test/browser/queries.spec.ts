@@ -147,6 +147,38 @@ test('pairs begin and end as boxes move', async ({ page }) => {
   await expect(call(page)).toContainText('space.began');
 });
 
+const time = (page: Page) => page.locator('[data-number=time]');
+
+test('what is there after update() has its time, once something has moved', async ({ page }) => {
+  const label = page.locator('#time-label');
+  await open(page, 'box');
+  await expect(label).toHaveText('Answered in');
+  await expect(time(page)).toHaveText(/^\d/);
+  for (const name of ['events', 'filters', 'debug']) {
+    await open(page, name);
+    await expect(label).toHaveText('update() took');
+    await expect(time(page)).toHaveText('–');
+    await page.getByRole('button', { name: 'Step' }).click();
+    await expect(time(page)).toHaveText(/^\d/);
+  }
+});
+
+test('the time of an answer is not that of building its query', async ({ page }) => {
+  await page.addInitScript(() => {
+    const { cos } = Math;
+    Math.cos = (angle) => {
+      const until = performance.now() + 0.1;
+      while (performance.now() < until);
+      return cos(angle);
+    };
+  });
+  for (const name of ['fan', 'spaces']) {
+    await open(page, name);
+    await expect(time(page)).toHaveText(/^\d/);
+    expect(Number(await time(page).textContent()), name).toBeLessThan(3000); // µs; 36 or 90 calls take more
+  }
+});
+
 test('filters say who meets whom', async ({ page }) => {
   await open(page, 'filters');
   const before = await found(page);
@@ -185,6 +217,16 @@ test('it moves by itself, and stops where asked', async ({ page }) => {
 
 test.describe('on a phone', () => {
   test.use({ viewport: { width: 375, height: 740 }, hasTouch: true });
+
+  test('what is below the hint stays where it is, whichever query is chosen', async ({ page }) => {
+    await open(page, 'box');
+    const top = () => page.locator('#controls').evaluate((form) => form.getBoundingClientRect().top + scrollY);
+    const before = await top();
+    for (const name of await page.locator('[name=ask]').evaluateAll((all) => all.map(({ id }) => id))) {
+      await page.locator(`#${name}`).check({ force: true });
+      expect(await top(), name).toBe(before);
+    }
+  });
 
   test('a tap moves the point, and nothing is wider than the screen', async ({ page }) => {
     await open(page, 'nearest');

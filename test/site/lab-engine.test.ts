@@ -53,6 +53,23 @@ test.each(BroadPhase.techniques)('%s: the picture is the scene, its pairs and it
   }
 });
 
+test('of the intervals of sweep-and-prune some are drawn: each reaches across the view, so all would hide it', async () => {
+  const engine = await opened('uniform2d', 5000);
+  engine.setup({ technique: 'sweep-and-prune', cellSize: undefined });
+  const { stats, cells, drawn } = engine.picture(everything);
+  expect(stats.cells).toBe(5000);
+  expect(cells).toBeGreaterThan(20);
+  expect(cells).toBeLessThanOrEqual(40);
+  const axis = Number(Number.isFinite(drawn[1]));
+  const spread = (from: number, to: number) => {
+    const low = Array.from({ length: to - from }, (_, k) => drawn[4 * (from + k) + axis]);
+    return Math.max(...low) - Math.min(...low);
+  };
+  expect(spread(0, cells)).toBeGreaterThan(0.9 * spread(cells, cells + 5000));
+  const { chosen, cells: with1 } = engine.picture({ ...plain, structure: true, chosen: 1 });
+  expect(with1).toBeGreaterThanOrEqual(chosen!.cells); // all that the chosen box is in
+});
+
 test('a scene begun at a frame is as one that was stepped to it', async () => {
   const stepped = await opened('crowd', 200);
   const jumped = await opened('crowd', 200, 7);
@@ -165,7 +182,9 @@ describe('the traces that come with the page', () => {
   });
 });
 
-test('the world that is shown leaves out what reaches far away', () => {
+test('the world that is shown has walls around what happens, and leaves out what reaches far away', () => {
+  const pile = Array.from({ length: 200 }, (_, k) => [10 + k / 4, k / 4, 11 + k / 4, k / 4 + 1]).flat();
+  expect(worldOf([...pile, 0, 0, 80, 1, 0, 0, 1, 80, 0, 79, 80, 80], 2)).toEqual([0, 0, 80, 80]);
   const boxes = Array.from({ length: 200 }, (_, k) => [k, k, k + 1, k + 1]).flat();
   expect(worldOf([...boxes, -1e6, -5, 1e6, 0], 2)[2]).toBeLessThan(300);
   expect(worldOf([-Infinity, -Infinity, Infinity, Infinity], 2).every(Number.isFinite)).toBe(true);

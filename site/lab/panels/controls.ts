@@ -41,13 +41,15 @@ const checkedIn = (list: string) =>
 export const racersChosen = () => checkedIn('racer-list') as TechniqueName[];
 export const layersChosen = () => checkedIn('layers') as Layer[];
 
-/** Shows the controls for watching or for racing, and the view with this id. */
-export function arrange(racing: boolean, view: string): void {
+/** Shows the controls for watching, or for a race of that many, and the view with this id. */
+export function arrange(racers: number | undefined, view: string): void {
+  const racing = racers !== undefined;
   for (const id of ['flat', 'solid']) find(id).hidden = racing || view !== id;
   for (const id of ['race', 'racers', 'bars', 'race-note']) find(id).hidden = !racing;
   for (const id of ['technique-field', 'layers', 'charts', 'numbers']) find(id).hidden = racing;
   for (const button of document.querySelectorAll<HTMLElement>('.looking')) button.hidden = racing;
   find<HTMLButtonElement>('record').disabled = racing;
+  for (const id of ['play', 'step']) find<HTMLButtonElement>(id).disabled = racers === 0;
   if (racing) find('cells').hidden = find('chosen').hidden = true;
   document.body.classList.toggle('racing', racing);
   find('race-mode').setAttribute('aria-pressed', String(racing));

@@ -1,6 +1,7 @@
 // The box that was clicked: its place, its partners, and the number of its cells; and the hottest cells.
 import { formatCount } from '../../shared/format.ts';
 import type { Chosen, HotCell, Picture } from '../worker/messages.ts';
+import { partOf } from './parts.ts';
 
 const digits = new Intl.NumberFormat('en', { maximumSignificantDigits: 6, useGrouping: false });
 
@@ -23,7 +24,7 @@ export function createInspector(root: HTMLElement, choose: (id: number | undefin
     place.append(...children);
     return place;
   };
-  const show = (chosen: Chosen | undefined, wanted: number | undefined, hottest: readonly HotCell[]) => {
+  const show = (part: string, chosen: Chosen | undefined, wanted: number | undefined, hottest: readonly HotCell[]) => {
     root.replaceChildren();
     root.hidden = wanted === undefined && hottest.length === 0;
     if (wanted !== undefined) {
@@ -44,7 +45,7 @@ export function createInspector(root: HTMLElement, choose: (id: number | undefin
       root.append(line(sides.map((side, a) => `${'xyz'[a]} ${side}`).join(', ')));
       root.append(
         line(
-          `In ${many(chosen.cells, 'cell')}, ${many(chosen.partnerCount, 'pair')}${chosen.partnerCount ? ' with' : ''}`,
+          `In ${many(chosen.cells, part)}, ${many(chosen.partnerCount, 'pair')}${chosen.partnerCount ? ' with' : ''}`,
         ),
       );
       const partners = line(...chosen.partners.map((id) => link(String(id), `Box ${id}`, () => choose(id))));
@@ -53,16 +54,17 @@ export function createInspector(root: HTMLElement, choose: (id: number | undefin
       root.append(partners);
     }
     if (hottest.length > 0) {
-      root.append(line(`Hottest cells: ${hottest.map(({ boxes }) => formatCount(boxes)).join(', ')} boxes`));
+      root.append(line(`Hottest ${part}s: ${hottest.map(({ boxes }) => formatCount(boxes)).join(', ')} boxes`));
     }
   };
   return (picture: Picture, wanted: number | undefined): void => {
     // Rebuilt only if something has changed, so that links do not move under the finger.
     const { chosen, hottest } = picture;
-    const now = JSON.stringify([wanted, chosen, hottest.map(({ boxes }) => boxes)]);
+    const part = partOf(picture.stats.technique);
+    const now = JSON.stringify([part, wanted, chosen, hottest.map(({ boxes }) => boxes)]);
     if (now === was) return;
     was = now;
     if (root.contains(document.activeElement) && chosen) root.tabIndex = -1;
-    show(chosen, wanted, hottest);
+    show(part, chosen, wanted, hottest);
   };
 }

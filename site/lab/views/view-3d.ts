@@ -69,10 +69,27 @@ void main() {
 }`;
 
 const fieldOfView = 45;
-/** The initial distance of the eye from what it looks at, in diagonals of the world. */
-const firstDistance = 1.4;
+/** The share of the view that is left free around the whole world. */
+const fitMargin = 0.04;
 /** Coordinates are clamped to this many diagonals of the world from its middle. */
 const horizon = 20;
+
+const firstDirection = new Vector3(0.55, 0.5, 0.67).normalize();
+
+/** How far from the middle of a box the eye has to be, in its first direction, to see all eight corners. */
+function distanceToSee(low: Vector3, high: Vector3, aspect: number): number {
+  const right = new Vector3(0, 1, 0).cross(firstDirection).normalize();
+  const up = firstDirection.clone().cross(right);
+  const tangent = Math.tan((fieldOfView * Math.PI) / 360) * (1 - fitMargin);
+  const half = high.clone().sub(low).multiplyScalar(0.5);
+  let distance = 0;
+  for (let k = 0; k < 8; k++) {
+    const corner = new Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1).multiply(half);
+    const wide = Math.max(Math.abs(corner.dot(right)) / aspect, Math.abs(corner.dot(up)));
+    distance = Math.max(distance, corner.dot(firstDirection) + wide / tangent);
+  }
+  return distance;
+}
 
 /** The element holds one canvas. */
 export function createSolidView(element: HTMLElement, moved: () => void): LabView {
@@ -108,7 +125,7 @@ export function createSolidView(element: HTMLElement, moved: () => void): LabVie
   const pairs = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ depthTest: false }));
   pairs.frustumCulled = false;
   scene.add(boxes.object, cells.object, pairs);
-  const middle = new Vector3();
+  const [middle, low, high] = [new Vector3(), new Vector3(), new Vector3()];
   let diagonal = 1;
   let fitted = true;
   let awaited = 0;
@@ -121,9 +138,8 @@ export function createSolidView(element: HTMLElement, moved: () => void): LabVie
   const start = () => {
     controls.target.copy(middle);
     camera.position
-      .set(0.55, 0.5, 0.67)
-      .normalize()
-      .multiplyScalar((firstDistance * diagonal) / Math.min(1, camera.aspect))
+      .copy(firstDirection)
+      .multiplyScalar(distanceToSee(low, high, camera.aspect))
       .add(middle);
     controls.update();
     fitted = true;
@@ -151,6 +167,7 @@ export function createSolidView(element: HTMLElement, moved: () => void): LabVie
     renderer.setSize(width, height, false);
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
+    if (fitted) start();
     draw();
   });
 
@@ -193,8 +210,8 @@ export function createSolidView(element: HTMLElement, moved: () => void): LabVie
   return {
     element,
     fit(world) {
-      const low = new Vector3(world[0], world[1], world[2]);
-      const high = new Vector3(world[3], world[4], world[5]);
+      low.fromArray(world, 0);
+      high.fromArray(world, 3);
       middle.copy(low).add(high).multiplyScalar(0.5);
       diagonal = low.distanceTo(high);
       uniforms.diagonal.value = diagonal;

@@ -15,6 +15,8 @@ import type { CellSizes, Chosen, Cost, HotCell, Opened, Picture, Requests, Setup
 /** The most cells and pairs drawn: more cells would be a haze, and more pairs a tangle. */
 const mostCells = 300_000;
 const mostLines = 20_000;
+/** Intervals of one axis reach across the whole view: all of them would hide it, and take most of a frame to draw. */
+const mostIntervals = 40;
 const partnersListed = 24;
 const hottestListed = 3;
 /** Milliseconds between two searches for hot cells: each takes time of its own. */
@@ -238,6 +240,8 @@ export class Engine implements Record<keyof Requests, unknown> {
   #draw(wanted: Wanted, { frame, dimensions }: Feed, all: Float32Array, chosen: Chosen | undefined) {
     const width = 2 * dimensions;
     const there = Math.min(mostCells, all.length / width);
+    // The intervals are in order, so those that are drawn are spread over all boxes.
+    const every = this.#space.stats.technique === 'sweep-and-prune' ? Math.ceil(there / mostIntervals) : 1;
     const { spare } = wanted;
     const count = wanted.boxes ? frame.count : 0;
     const room = there + count;
@@ -250,7 +254,7 @@ export class Engine implements Record<keyof Requests, unknown> {
       const holds = chosen !== undefined && overlap(all, from, chosen.box, dimensions);
       if (holds) chosen.cells++;
       const heat = wanted.heat ? this.#heat[cell] : 0;
-      if (!(wanted.structure || heat > 0 || holds)) continue;
+      if (!(((wanted.structure || heat > 0) && cell % every === 0) || holds)) continue;
       slots[cells] = holds ? partnerSlot : heat > 0 ? heatSlot + heat - 1 : cellSlot;
       for (let k = 0; k < width; k++) drawn[cells * width + k] = all[from + k];
       cells++;

@@ -91,6 +91,8 @@ class Player implements Feed {
 /** Grounds and walls may reach far beyond where things happen, so only this share of the boxes determines the view. */
 const usual = 0.98;
 const beyond = 0.25;
+/** But walls that are not much farther apart than what is between them are shown whole. */
+const near = 2;
 
 /** The extent of the boxes, without outliers. */
 export function worldOf(boxes: ArrayLike<number>, dimensions: 2 | 3): number[] {
@@ -107,9 +109,10 @@ export function worldOf(boxes: ArrayLike<number>, dimensions: 2 | 3): number[] {
     const ends = [Float64Array.from(minima).sort(), Float64Array.from(maxima).sort()];
     const from = ends[0][Math.floor((1 - usual) * ends[0].length)] ?? 0;
     const to = ends[1][Math.floor(usual * (ends[1].length - 1))] ?? from + 1;
-    const spare = beyond * Math.max(to - from, Number.MIN_VALUE);
-    low.push(Math.max(ends[0][0] ?? 0, from - spare));
-    high.push(Math.min(ends[1][ends[1].length - 1] ?? 1, to + spare));
+    const [least, most] = [ends[0][0] ?? 0, ends[1].at(-1) ?? 1];
+    const spare = most - least <= near * (to - from) ? Infinity : beyond * Math.max(to - from, Number.MIN_VALUE);
+    low.push(Math.max(least, from - spare));
+    high.push(Math.min(most, to + spare));
     if (!(low[axis] < high[axis])) high[axis] = low[axis] + 1;
   }
   return [...low, ...high];
