@@ -141,6 +141,31 @@ test('motions are a table, with the goals', async ({ page }) => {
   await expect(part.getByRole('region', { name: 'Goals' })).toContainText('1 of 2; the worst: 0.90x (flock 2D');
 });
 
+test('charts are pictures with a name, whose parts have none; labels of the run keep their distance', async ({
+  page,
+}) => {
+  await openResults(page);
+  await page.locator('#count').selectOption('any number');
+  await expect(page.locator('#heat svg')).toBeVisible();
+  await expect(page.locator('main svg[role="img"][aria-label]')).not.toHaveCount(0);
+  await expect(page.locator('main svg:not([role])')).toHaveCount(0);
+  await expect(page.locator('main svg g:is([aria-label], [aria-description])')).toHaveCount(0);
+  await expect(page.locator('#run-names label').last()).toBeVisible();
+  for (const width of [390, 1000, 1280, 1440]) {
+    await page.setViewportSize({ width, height: 900 });
+    // The words of a label end before the next label begins.
+    const touching = await page.locator('#run-names label').evaluateAll((labels) =>
+      labels.flatMap((label, k) => {
+        const range = document.createRange();
+        range.selectNodeContents(label);
+        const [mine, next] = [range.getBoundingClientRect(), labels[k + 1]?.getBoundingClientRect()];
+        return next?.top === label.getBoundingClientRect().top && mine.right > next.left - 4 ? [label.textContent] : [];
+      }),
+    );
+    expect(touching).toEqual([]);
+  }
+});
+
 test('a file that is not a result is refused with a message', async ({ page }) => {
   await page.goto('/bench/');
   await page.getByLabel('Your own results').setInputFiles({ name: 'a.json', mimeType: '', buffer: Buffer.from('{}') });
