@@ -18,7 +18,10 @@ const hues = [262, 225, 190, 150, 310];
 const keyStep = 24;
 const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
-/** What each showcase draws: how large rectangles are before they are scaled to the stage, and where they belong. */
+/**
+ * What each showcase draws: how large rectangles are before they are scaled to the stage, where they belong, and how much
+ * they are pulled there, so that what results has about the shape of the stage.
+ */
 const kinds = {
   chart: {
     sizeOf(node, random) {
@@ -27,8 +30,12 @@ const kinds = {
       node.width = 20 * Math.sqrt(value * aspect);
       node.height = 20 * Math.sqrt(value / aspect);
     },
-    middleOf: ({ group }, width, height) => [width * (0.14 + 0.18 * group), height * (group % 2 ? 0.58 : 0.42)],
-    fill: 0.42,
+    middleOf: ({ group }, width, height) => [
+      width * (0.2 + 0.15 * group),
+      height * (0.5 + ((group % 2 ? 0.13 : -0.13) * height) / width),
+    ],
+    pull: (width, height) => [0.075 * (height / width), 0.055],
+    fill: 0.35,
     spread: [0.2, 0.7],
   },
   cloud: {
@@ -37,7 +44,9 @@ const kinds = {
       node.width = node.label.length * node.height * 0.56;
     },
     middleOf: (_, width, height) => [width / 2, height / 2],
-    fill: 0.3,
+    // Words are wide, and part upwards and downwards.
+    pull: (width, height) => [0.04 * (height / width) ** 2, 0.3],
+    fill: 0.2,
     spread: [0.9, 0.8],
   },
 };
@@ -68,6 +77,17 @@ function fading(pull) {
   const force = (alpha) => pull(alpha ** 2);
   force.initialize = pull.initialize;
   return force;
+}
+
+/** Lets no rectangle leave the stage, where it would be cut off: what is pushed over the border stays at it. */
+function keepWithin(nodes, width, height) {
+  const within = (middle, size, whole) =>
+    Math.min(Math.max(middle, size / 2 + padding), Math.max(whole - size / 2 - padding, size / 2 + padding));
+  for (const node of nodes) {
+    if (node.guest) continue;
+    node.vx = within(node.x + node.vx, node.width, width) - node.x;
+    node.vy = within(node.y + node.vy, node.height, height) - node.y;
+  }
 }
 
 const colliders = { broadphase: forceCollideRect, ...rivals };
@@ -138,22 +158,26 @@ export const rectanglesDemo =
       nodes = [...makeNodes(kind, count, width, height, seed), guest];
       raceNodes = nodes.map((node) => ({ ...node, vx: 0, vy: 0 }));
       const to = (axis) => (node) => kinds[kind].middleOf(node, width, height)[axis];
-      const strength = 0.05;
+      const [acrossPull, downPull] = kinds[kind].pull(width, height);
       simulation = forceSimulation(nodes)
         .stop()
         .alphaDecay(0.025)
         .velocityDecay(0.1)
-        .force('x', fading(forceX(to(0)).strength(strength * (height / width) ** 2)))
-        .force('y', fading(forceY(to(1)).strength(strength)));
+        .force('x', fading(forceX(to(0)).strength(acrossPull)))
+        .force('y', fading(forceY(to(1)).strength(downPull)));
       use(key);
     }
     function use(name) {
       key = name;
       const collide = collider(name);
       const timed = () => {
-        const started = performance.now();
-        for (let turn = 0; turn < iterations; turn++) collide();
-        took = performance.now() - started;
+        took = 0;
+        for (let turn = 0; turn < iterations; turn++) {
+          const started = performance.now();
+          collide();
+          took += performance.now() - started;
+          keepWithin(nodes, stage.clientWidth, stage.clientHeight);
+        }
       };
       timed.initialize = collide.initialize;
       simulation.force('collide', timed).alpha(Math.max(0.3, simulation.alpha()));

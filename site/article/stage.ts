@@ -102,6 +102,7 @@ export function createStage<D extends { readonly world: World }>(
       rate = 0;
       tell();
     },
+    root,
   );
   button(controls, 'Step', () => {
     attended.stop();

@@ -1,19 +1,18 @@
-// The charts, drawn by Observable Plot: bars of one race, curves against the number of boxes, a heat map of techniques.
-// All on logarithmic scales, since contenders differ by factors.
+// The charts, drawn by Observable Plot: bars of one race, a heat map of techniques, and what these share with the curves
+// of growth.ts. All on logarithmic scales, since contenders differ by factors.
 import * as Plot from '@observablehq/plot';
 import { formatCount, formatMilliseconds } from '../shared/format.ts';
-import { type Curve, isOurs, type Race, ratios, reference, timed } from './records.ts';
+import { isOurs, type Race, ratios, reference, timed } from './records.ts';
 
-const ours = 'var(--accent)';
-const others = 'var(--control-line)';
-const style = { fontSize: '12px', background: 'none', overflow: 'visible' };
+export const ours = 'var(--accent)';
+export const others = 'var(--control-line)';
+export const style = { fontSize: '12px', background: 'none', overflow: 'visible' };
 const rowHeight = 22;
-const lineHeight = 14;
 /** Room for the names on the left, and for the label after the longest bar. */
 const [nameRoom, labelRoom] = [132, 62];
 
 /** The marks of a logarithmic axis: at powers of ten, and between them if those are few. */
-function marks(from: number, to: number): number[] {
+export function marks(from: number, to: number): number[] {
   const between = Math.log10(to / from) < 2.2 ? [1, 3] : [1];
   const found: number[] = [];
   for (let power = 10 ** Math.floor(Math.log10(from)); power <= to; power *= 10) {
@@ -23,6 +22,15 @@ function marks(from: number, to: number): number[] {
 }
 
 export type Chart = (SVGSVGElement | HTMLElement) & Plot.Plot;
+
+/** Makes a chart one picture with a name. Plot names its parts for itself, which says nothing within a picture. */
+export function asPicture(chart: Element, label: string): void {
+  for (const part of chart.querySelectorAll('g')) {
+    for (const name of ['aria-label', 'aria-description']) part.removeAttribute(name);
+  }
+  chart.setAttribute('role', 'img');
+  chart.setAttribute('aria-label', label);
+}
 
 /** How many times as long. */
 export const times = (ratio: number) => `${ratio < 10 ? ratio.toPrecision(2) : formatCount(ratio)}×`;
@@ -83,72 +91,6 @@ export function bars(race: Race, width: number): Chart {
   });
 }
 
-/** A line for each contender, times against the number of boxes. */
-export function growth(lines: readonly Curve[], width: number): Chart {
-  const points = lines.flatMap(({ name, ours, points }) => points.map((point) => ({ name, ours, ...point })));
-  const lasts = lines.flatMap(({ name, ours, points }) =>
-    points.slice(-1).map((point) => ({ name: shortName(name), ours, ...point })),
-  );
-  const counts = [...new Set(points.map(({ count }) => count))];
-  const room = width < 560 ? 100 : 128;
-  const height = Math.max(Math.min(460, 0.62 * width + 120), 60 + lineHeight * lines.length);
-  const [least, most] = [Math.min, Math.max].map((of) => of(...points.map(({ ms }) => ms)));
-  const apart = (most / least) ** (lineHeight / (height - 60));
-  return Plot.plot({
-    width,
-    height,
-    marginLeft: 48,
-    marginRight: room,
-    marginBottom: 38,
-    style,
-    x: { type: 'log', axis: null },
-    y: { type: 'log', label: 'ms a frame', tickFormat: ms, ticks: 6, grid: true },
-    marks: [
-      // With a text of their own all marks are named: an axis on its own leaves out those between powers of ten.
-      Plot.axisX(counts, {
-        text: (count: number) => formatCount(count),
-        label: 'boxes',
-        labelAnchor: 'center',
-        labelArrow: 'none',
-      }),
-      Plot.gridX(counts),
-      Plot.line(points, {
-        x: 'count',
-        y: 'ms',
-        z: 'name',
-        stroke: (point) => (point.ours ? ours : others),
-        strokeWidth: (point) => (['auto', 'set'].includes(point.name) ? 3 : 1.4),
-      }),
-      Plot.dot(points, {
-        x: 'count',
-        y: 'ms',
-        r: 2.5,
-        fill: (point) => (point.ours ? ours : others),
-        title: (point) => `${point.name}: ${formatMilliseconds(point.ms)} ms with ${formatCount(point.count)} boxes`,
-      }),
-      Plot.text(spread(lasts, apart), {
-        x: 'count',
-        y: 'at',
-        text: 'name',
-        dx: 8,
-        textAnchor: 'start',
-        fill: (point) => (point.ours ? ours : 'var(--muted)'),
-      }),
-    ],
-  });
-}
-
-/** Names at the ends of lines, moved up by a factor if they would cover each other. */
-function spread<Point extends { ms: number }>(points: readonly Point[], apart: number): (Point & { at: number })[] {
-  const sorted = [...points].sort((a, b) => a.ms - b.ms);
-  let below = 0;
-  return sorted.map((point) => {
-    const at = Math.max(point.ms, below * apart);
-    below = at;
-    return { ...point, at };
-  });
-}
-
 /** A row for each race, a column for each technique: its time in multiples of the best. */
 export function heat(races: readonly Race[], width: number): Chart {
   const rowOf = ({ name, count }: Race) => `${name} ${short(count)}`;
@@ -190,4 +132,4 @@ const warmth = (share: number) => `color-mix(in oklab, var(--heat-best) ${100 * 
 
 const short = (count: number) =>
   count >= 1e6 ? `${count / 1e6}M` : count >= 1e3 ? `${Number((count / 1e3).toPrecision(3))}k` : `${count}`;
-const ms = (value: number) => Number(value.toPrecision(1)).toString();
+export const ms = (value: number) => Number(value.toPrecision(1)).toString();

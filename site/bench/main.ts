@@ -1,8 +1,9 @@
 // The page of the benchmark: what bench/ has measured, drawn, and the same in the reader's own browser.
 import { figuresOf } from '../../bench/report/page.mjs';
 import { formatCount, formatMilliseconds } from '../shared/format.ts';
-import { growth, heat, times } from './charts.ts';
+import { asPicture, heat, times } from './charts.ts';
 import { fillMenu, find, make, table } from './elements.ts';
+import { growth } from './growth.ts';
 import { raceFigure } from './race-figure.ts';
 import { advice, curves, ofKind, type Race, type Results, readResults, timed } from './records.ts';
 import { setUpRun } from './run.ts';
@@ -122,20 +123,22 @@ function showGrowth(results: Results): void {
   const place = find('growth-chart');
   place.replaceChildren();
   if (lines.length === 0) return;
-  const chart = growth(lines, Math.max(leastWidth, place.clientWidth));
-  chart.setAttribute('role', 'img');
-  chart.setAttribute('aria-label', `Lines: the time of each contender on ${scene.value} against the number of boxes.`);
+  const label = `Lines: the time of each contender on ${scene.value} against the number of boxes.`;
   const sorted = [...lines].sort((a, b) => a.exponent! - b.exponent!);
   place.append(
-    chart,
-    make('p', { className: 'aside' }, 'Time grows as the number of boxes to the power of:'),
+    ...growth(lines, Math.max(leastWidth, place.clientWidth), label, find<HTMLSelectElement>('growth-line')),
+    make(
+      'p',
+      { className: 'aside' },
+      'Time grows as the number of boxes to this power; the milliseconds are those with the most boxes.',
+    ),
     table(
-      ['', 'power', 'from', 'to boxes'],
+      ['', 'power', 'boxes', 'ms'],
       sorted.map(({ name, exponent, points }) => [
         name,
         exponent!.toFixed(2),
-        formatCount(points[0].count),
-        formatCount(points.at(-1)!.count),
+        `${formatCount(points[0].count)} to ${formatCount(points.at(-1)!.count)}`,
+        formatMilliseconds(points.at(-1)!.ms),
       ]),
     ),
   );
@@ -147,8 +150,7 @@ function showHeat(races: readonly Race[]): void {
   if (several.length === 0) return;
   const place = find('heat-chart');
   const chart = heat(several, Math.min(place.clientWidth, 900));
-  chart.setAttribute('role', 'img');
-  chart.setAttribute('aria-label', 'A heat map; the table below says the same in words.');
+  asPicture(chart, 'A heat map; the table below says the same in words.');
   place.replaceChildren(chart);
   const rows = advice(several).map(({ technique, good, races, worst, where, scenes }) => [
     technique,

@@ -1,15 +1,14 @@
 // One race as a figure: its bars, the figures as a table, and the command that reproduces them.
 import { formatCount, formatMilliseconds } from '../shared/format.ts';
-import { bars } from './charts.ts';
+import { asPicture, bars } from './charts.ts';
 import { make, table } from './elements.ts';
 import { type Race, reference, timed } from './records.ts';
 
 export function raceFigure(race: Race, width: number, command: string): HTMLElement {
   const chart = bars(race, width);
   const [fastest] = timed(race);
-  chart.setAttribute('role', 'img');
-  chart.setAttribute(
-    'aria-label',
+  asPicture(
+    chart,
     `Bars: the time of each contender on ${race.name} with ${formatCount(race.count)} boxes. The fastest: ${fastest.name}, ${formatMilliseconds(fastest.total.median)} ms a frame.`,
   );
   const us = reference(race);

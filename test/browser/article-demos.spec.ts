@@ -223,6 +223,40 @@ for (const [device, width, height] of [
       expect(await counter(figure, 'changed')).toBeLessThan(await counter(figure, 'rebuilt'));
     });
 
+    test('fig-18: at rest, the numbers are those of the slider', async ({ page }) => {
+      const figure = await open(page, 'fig-18');
+      await page.mouse.move(1, 1);
+      const numbers = () => Promise.all(['moved', 'changed'].map((name) => counter(figure, name)));
+      const [few] = await numbers();
+      expect(few).toBeGreaterThan(1);
+      await slide(figure, 'Boxes that move', 100);
+      const [moved, changed] = await numbers();
+      expect(moved).toBeGreaterThan(5 * few);
+      for (let i = 0; i < 40; i++) await press(figure, 'Step');
+      const [later, changedLater] = await numbers();
+      expect(Math.abs(later - moved)).toBeLessThan(0.2 * moved);
+      expect(Math.abs(changedLater - changed)).toBeLessThan(0.2 * changed);
+      await slide(figure, 'Boxes that move', 0);
+      expect(await numbers()).toEqual([0, 0]);
+    });
+
+    test('fig-18 goes on while the reader is at its controls', async ({ page }) => {
+      const figure = await open(page, 'fig-18');
+      const slider = figure.getByRole('slider');
+      await canvas(figure).hover();
+      await expect(stage(figure)).toHaveAttribute('data-running', '');
+      await slider.hover();
+      await page.waitForTimeout(100);
+      await expect(stage(figure)).toHaveAttribute('data-running', '');
+      await changesPicture(figure, () => slider.click());
+      await expect(stage(figure)).toHaveAttribute('data-running', '');
+      await page.mouse.move(1, 1);
+      await expect(stage(figure)).not.toHaveAttribute('data-running', '');
+      await slider.hover();
+      await page.waitForTimeout(100);
+      await expect(stage(figure), 'it does not start from there').not.toHaveAttribute('data-running', '');
+    });
+
     test('fig-19: another box, other cells; a larger giant, more of them', async ({ page }) => {
       const figure = await open(page, 'fig-19');
       await changesPicture(figure, () => press(figure, 'Next box'));
@@ -267,7 +301,16 @@ for (const [device, width, height] of [
       await slide(figure, 'Boxes', 400);
       await expect(figure.getByRole('status').last()).toContainText('400 boxes', { timeout: 10_000 });
       await press(figure, 'Time again');
-      await expect(figure.locator('.timed b').first()).toContainText('ms');
+      const time = figure.locator('.timed b').first();
+      await expect(time).toContainText('ms');
+      await expect(figure).toContainText('Four lanes explain a factor of at most 4');
+      // A long time stays on its line, and the figure as high as it was.
+      const height = async () => (await figure.boundingBox())!.height;
+      const before = await height();
+      await time.evaluate((element) => {
+        element.textContent = '148.44 ms';
+      });
+      expect(await height()).toBe(before);
     });
 
     test('table 1: both extremes as counted, and what lies between', async ({ page }) => {

@@ -167,6 +167,24 @@ test('figure 4: the box at 20, 50 lies in six cells, and moves by mouse and by k
   await expect(mapping.locator('.arrays > code')).toHaveCount(3);
 });
 
+for (const width of [1440, 768, 390]) {
+  test(`figure 4 stays as high and its slider where it is, whatever the cells: ${width}`, async ({ page }) => {
+    await page.setViewportSize({ width, height: 900 });
+    await page.goto('/article/');
+    const mapping = await figure(page, 'fig-4');
+    const slider = mapping.getByRole('slider', { name: 'Cell size' });
+    const places = async () => {
+      const [whole, part] = [(await mapping.boundingBox())!, (await slider.boundingBox())!];
+      return [whole.height, part.y - whole.y].map(Math.round);
+    };
+    const before = await places();
+    for (const size of ['20', '25', '30', '35', '80']) {
+      await slider.fill(size);
+      expect(await places(), `cells of ${size}`).toEqual(before);
+    }
+  });
+}
+
 test('figure 5: a point is found in a grid with a negative minimum, in and beyond it', async ({ page }) => {
   await page.goto('/article/');
   const offset = await figure(page, 'fig-5');

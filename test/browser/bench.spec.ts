@@ -76,11 +76,61 @@ test('growth has a line and a power for each contender, the heat map advice', as
   await page.locator('#growth-scene').selectOption('mixed2d');
   const powers = page.locator('#growth tbody tr');
   await expect(powers.filter({ hasText: 'strip-sweep' })).toHaveText(/strip-sweep0\.\d\d|strip-sweep1\.\d\d/);
-  await expect(page.locator('#growth svg path')).not.toHaveCount(0);
+  await expect(page.locator('#growth svg path.piece')).not.toHaveCount(0);
   await page.locator('#count').selectOption('any number');
   await expect(page.locator('#advice tbody tr')).toHaveCount(5);
   await expect(page.locator('#advice')).toContainText('best, or within 10 %');
 });
+
+for (const [size, width, most] of [
+  ['desktop', 1440, 30],
+  ['phone', 390, 6],
+] as const) {
+  test(`growth: names stand apart, each by its own line, and one can be brought out: ${size}`, async ({ page }) => {
+    await page.setViewportSize({ width, height: 900 });
+    await page.goto('/bench/');
+    const chart = page.locator('#growth svg');
+    await expect(chart).toBeVisible();
+    for (const machine of await page.locator('#machine option').allTextContents()) {
+      await page.locator('#machine').selectOption(machine);
+      const { covered, adrift, shown } = await chart.evaluate((svg) => {
+        const texts = [...svg.querySelectorAll('text')].filter((text) => text.checkVisibility());
+        const boxes = texts.map((text) => ({ text: text.textContent, ...text.getBoundingClientRect().toJSON() }));
+        const covered = boxes.flatMap((a, k) =>
+          boxes
+            .slice(k + 1)
+            .filter((b) => a.left < b.right && b.left < a.right && a.top + 2 < b.bottom && b.top + 2 < a.bottom)
+            .map((b) => `${a.text} and ${b.text}`),
+        );
+        // A name with a leader starts where a line ends; one without stands at that height.
+        const ends = [...svg.querySelectorAll('path.piece')].map((path) => {
+          const [x, y] = path.getAttribute('d')!.split('L').at(-1)!.split(',').map(Number);
+          const { left, top } = svg.getBoundingClientRect();
+          return [x + left, y + top];
+        });
+        const names = [...svg.querySelectorAll<SVGGElement>('.name:not(.passing)')];
+        const adrift = names.filter((name) => {
+          const text = name.querySelector('text')!.getBoundingClientRect();
+          const leader = name.querySelector('path')?.getBoundingClientRect();
+          return !ends.some(([x, y]) =>
+            leader
+              ? Math.abs(leader.left - 5 - x) < 1 && leader.top - 1 <= y && y <= leader.bottom + 1
+              : Math.abs(text.left - 9 - x) < 2 && Math.abs((text.top + text.bottom) / 2 - y) < 5,
+          );
+        });
+        return { covered, adrift: adrift.map((name) => name.textContent), shown: names.length };
+      });
+      expect(covered).toEqual([]);
+      expect(adrift).toEqual([]);
+      expect(shown).toBeLessThanOrEqual(most);
+    }
+    await page.getByLabel('Highlight').selectOption('planck');
+    await expect(page.locator('#growth .name.chosen text')).toHaveText('planck');
+    await expect(page.locator('#growth .said')).toContainText(
+      /^planck: [\d.]+ ms with 20 boxes, .* the time of set\.$/,
+    );
+  });
+}
 
 test('motions are a table, with the goals', async ({ page }) => {
   await openResults(page);
@@ -89,6 +139,31 @@ test('motions are a table, with the goals', async ({ page }) => {
   await expect(motions).toHaveCount(4);
   await expect(motions.first()).toContainText(/straight 2D10,000set.*0\.28x/);
   await expect(part.getByRole('region', { name: 'Goals' })).toContainText('1 of 2; the worst: 0.90x (flock 2D');
+});
+
+test('charts are pictures with a name, whose parts have none; labels of the run keep their distance', async ({
+  page,
+}) => {
+  await openResults(page);
+  await page.locator('#count').selectOption('any number');
+  await expect(page.locator('#heat svg')).toBeVisible();
+  await expect(page.locator('main svg[role="img"][aria-label]')).not.toHaveCount(0);
+  await expect(page.locator('main svg:not([role])')).toHaveCount(0);
+  await expect(page.locator('main svg g:is([aria-label], [aria-description])')).toHaveCount(0);
+  await expect(page.locator('#run-names label').last()).toBeVisible();
+  for (const width of [390, 1000, 1280, 1440]) {
+    await page.setViewportSize({ width, height: 900 });
+    // The words of a label end before the next label begins.
+    const touching = await page.locator('#run-names label').evaluateAll((labels) =>
+      labels.flatMap((label, k) => {
+        const range = document.createRange();
+        range.selectNodeContents(label);
+        const [mine, next] = [range.getBoundingClientRect(), labels[k + 1]?.getBoundingClientRect()];
+        return next?.top === label.getBoundingClientRect().top && mine.right > next.left - 4 ? [label.textContent] : [];
+      }),
+    );
+    expect(touching).toEqual([]);
+  }
 });
 
 test('a file that is not a result is refused with a message', async ({ page }) => {

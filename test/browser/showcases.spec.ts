@@ -2,7 +2,7 @@
 // overlaps in the end, and code is copied in one piece.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { expect, type Page, test } from '@playwright/test';
+import { expect, type Locator, type Page, test } from '@playwright/test';
 
 let faults: string[] = [];
 
@@ -118,6 +118,22 @@ test('belt: everyone sees about as many of the stones, and the one in the middle
   await expect.poll(inView, patient).not.toBe(ours);
 });
 
+/** Nothing is drawn at the border of a canvas, so nothing is cut off there. */
+const expectWithin = async (canvas: Locator) => {
+  const drawn = await canvas.evaluate((element) => {
+    const { width, height } = element as HTMLCanvasElement;
+    const context = (element as HTMLCanvasElement).getContext('2d')!;
+    const sides: [x: number, y: number, width: number, height: number][] = [
+      [0, 0, width, 1],
+      [0, height - 1, width, 1],
+      [0, 0, 1, height],
+      [width - 1, 0, 1, height],
+    ];
+    return sides.map((side) => context.getImageData(...side).data.some((value) => value > 0));
+  });
+  expect(drawn).toEqual([false, false, false, false]);
+};
+
 for (const [id, things] of [
   ['chart', 'rectangles'],
   ['cloud', 'words'],
@@ -130,12 +146,27 @@ for (const [id, things] of [
     await section.getByRole('button', { name: 'Shuffle' }).click();
     await expect(section.locator('p[role=status]')).toContainText('; 0 overlap', patient);
     const canvas = section.locator('canvas');
+    await expectWithin(canvas);
     const look = () => canvas.evaluate((element) => (element as HTMLCanvasElement).toDataURL());
     const before = await look();
     await section.locator('.stage').focus();
     await page.keyboard.press('ArrowRight');
     await expect.poll(look, patient).not.toBe(before);
   });
+
+  for (const width of [1440, 390]) {
+    test(`${things}: few and many fit on their stage: ${width}`, async ({ page }) => {
+      await page.setViewportSize({ width, height: 900 });
+      const section = await open(page, id);
+      const [status, canvas] = [section.locator('p[role=status]'), section.locator('canvas')];
+      await expect(status).toContainText('; 0 overlap', patient);
+      await expectWithin(canvas);
+      await section.getByRole('button', { name: `2,000 ${things}` }).click();
+      // Between walls, a pair of the smallest may be stuck; words are as wide as the fonts of the machine.
+      await expect(status).toHaveText(new RegExp(`2000 ${things}.*; [0-2] overlap`), patient);
+      await expectWithin(canvas);
+    });
+  }
 }
 
 test('labels: zooming in shows more, panning changes none, and both finders agree', async ({ page }) => {

@@ -8,6 +8,7 @@ const COUNT = 240;
 const SPEED = 1.6; // the most pixels per step
 const FADE = 12; // steps until a cell is dark again
 const FOLLOW = 0.06; // the weight of the last step in the averages
+const ENOUGH = 30; // steps for averages from the beginning
 
 export function stillAndMoving(
   ro: typeof Ro,
@@ -74,6 +75,20 @@ export function stillAndMoving(
     });
   }
 
+  /** Makes the averages those of the boxes that move now, by some steps at once. */
+  function settle() {
+    const sum = { moved: 0, changed: 0 };
+    world.step(); // still counts changes from before
+    for (let i = 0; i < ENOUGH; i++) {
+      work.moved = work.changed = 0;
+      world.step();
+      sum.moved += work.moved / FOLLOW;
+      sum.changed += work.changed / FOLLOW;
+    }
+    work.moved = sum.moved / ENOUGH;
+    work.changed = sum.changed / ENOUGH;
+  }
+
   function drawCells(ctx: CanvasRenderingContext2D) {
     const size = coltech.cellSize;
     ctx.fillStyle = colors.now;
@@ -90,5 +105,5 @@ export function stillAndMoving(
     ctx.stroke();
   }
 
-  return { world, move, work };
+  return { world, move, settle, work };
 }

@@ -134,6 +134,7 @@ export function mount(root: HTMLElement): () => void {
       cancelAnimationFrame(frame);
       tell();
     },
+    left,
   );
   tell();
   return attended.stop;

@@ -16,6 +16,8 @@ import {
 const side = 200;
 const boxSize = { x: 50, y: 80 };
 const keyStep = 5;
+/** With more rows or columns, their cells are drawn small. */
+const most = 6;
 const letter = (row: number) => String.fromCharCode(65 + row);
 
 export function mount(root: HTMLElement): void {
@@ -74,10 +76,8 @@ export function mount(root: HTMLElement): void {
     },
   });
 
-  const arrays = element('div', { class: 'arrays' });
-  right.append(arrays);
-  const say = sayer(right);
-  slider(right, {
+  // In the other column, or above the arrays on a phone: these need more room or less, and must not move the slider.
+  slider(left, {
     label: 'Cell size',
     min: 20,
     max: 80,
@@ -88,6 +88,9 @@ export function mount(root: HTMLElement): void {
       show();
     },
   });
+  const say = sayer(right);
+  const arrays = element('div', { class: 'arrays all' });
+  right.append(arrays);
 
   /** Puts the box at a place within the grid, and shows its cells. */
   const show = () => {
@@ -99,13 +102,17 @@ export function mount(root: HTMLElement): void {
     world.step();
 
     const rows: HTMLElement[] = [];
+    const many = count() > most;
+    arrays.classList.toggle('many', many);
     for (let col = 0; col < count(); col++) {
       const column = grid.grid[col] as (Entity[] | undefined)[] | undefined;
       const cells = element('span', { class: 'array' });
       if (!column) cells.append(element('span', { class: 'nothing' }, 'empty'));
       else
         for (let row = 0; row < count(); row++) {
-          cells.append(element('span', { class: column[row] ? 'slot full' : 'slot' }, column[row] ? '[box]' : '·'));
+          cells.append(
+            element('span', { class: column[row] ? 'slot full' : 'slot' }, column[row] ? (many ? '■' : '[box]') : '·'),
+          );
         }
       rows.push(element('code', {}, `grid[${col}]`), cells);
     }

@@ -18,9 +18,10 @@ export function mount(root: HTMLElement): () => void {
     build(canvas, colors) {
       const demo = stillAndMoving(ro, canvas, grid, colors);
       demo.move(first);
+      demo.settle();
       return demo;
     },
-    counters: { boxes: 'Boxes', moved: 'Changed cells', changed: 'Entries moved', rebuilt: 'If rebuilt' },
+    counters: { boxes: 'Boxes', moved: 'Boxes that changed cells', changed: 'Entries moved', rebuilt: 'If rebuilt' },
     count: ({ world, work }) => ({
       boxes: world.entities.length,
       moved: work.moved.toFixed(1),
@@ -39,7 +40,9 @@ export function mount(root: HTMLElement): () => void {
     value: 100 * first,
     format: (percent) => `${percent} %`,
     moved(percent) {
-      stage.demo.move(percent / 100);
+      const { move, settle, world } = stage.demo;
+      move(percent / 100);
+      if (!world.isRunning) settle(); // else the numbers follow by themselves
       stage.refresh();
     },
   });

@@ -1,5 +1,6 @@
 // Runs something while the reader attends to it: while the mouse is over it, it has the keyboard focus, or a finger
-// tapped it. It stops when the mouse or the focus leaves, and after a tap elsewhere.
+// tapped it. It stops when the mouse or the focus leaves, and after a tap elsewhere; if it has controls, it goes on
+// while the reader is at these, and can be watched as they change it.
 //
 // If the reader prefers reduced motion, hovering does not start it, only a tap, a click or the Enter key.
 
@@ -14,7 +15,15 @@ export interface Attended {
   stop(): void;
 }
 
-export function runWhileAttended(target: HTMLElement, start: () => void, stop: () => void): Attended {
+/**
+ * @param around what contains the target and its controls: in there, it goes on, but does not start
+ */
+export function runWhileAttended(
+  target: HTMLElement,
+  start: () => void,
+  stop: () => void,
+  around: HTMLElement = target,
+): Attended {
   let running = false;
   const run = (wanted: boolean) => {
     if (wanted === running) return;
@@ -23,27 +32,28 @@ export function runWhileAttended(target: HTMLElement, start: () => void, stop: (
     if (running) start();
     else stop();
   };
-  const keyboardIsHere = () => target.matches(':focus-visible') || target.querySelector(':focus-visible') !== null;
+  const keyboardIsIn = (place: HTMLElement) =>
+    place.matches(':focus-visible') || place.querySelector(':focus-visible') !== null;
 
   target.addEventListener('pointerenter', (event) => {
     if (event.pointerType === 'mouse' && !prefersStill()) run(true);
   });
-  target.addEventListener('pointerleave', (event) => {
-    if (event.pointerType === 'mouse' && !keyboardIsHere()) run(false);
+  around.addEventListener('pointerleave', (event) => {
+    if (event.pointerType === 'mouse' && !keyboardIsIn(around)) run(false);
   });
   target.addEventListener('click', () => run(true));
   target.addEventListener('focusin', () => {
-    if (!prefersStill() && keyboardIsHere()) run(true);
+    if (!prefersStill() && keyboardIsIn(target)) run(true);
   });
-  target.addEventListener('focusout', (event) => {
-    if (!target.contains(event.relatedTarget as Node | null)) run(false);
+  around.addEventListener('focusout', (event) => {
+    if (!around.contains(event.relatedTarget as Node | null)) run(false);
   });
   target.addEventListener('keydown', (event) => {
     if (event.key === 'Enter') run(true);
     if (event.key === 'Escape') run(false);
   });
   document.addEventListener('pointerdown', (event) => {
-    if (!target.contains(event.target as Node)) run(false);
+    if (!around.contains(event.target as Node)) run(false);
   });
 
   return {
