@@ -2,23 +2,41 @@
 import { BroadPhase } from 'broadphase';
 import { expect, test } from 'vitest';
 
-test.each([2, 3] as const)('a world that wraps around in which all boxes are off: a query divided by 0, %iD', (dimensions) => {
-  const wrap = [100, 100, 100].slice(0, dimensions);
-  const box = [0, 0, 0, 1, 1, 1].slice(0, 2 * dimensions) as [number, number, number, number];
-  const make = () => new BroadPhase<2 | 3>({ dimensions, wrap });
-  const asked = make().set(7, ...box).setEnabled(7, false).update();
-  const late = make().set(7, ...box).update();
-  expect(late.queryBox(...box)).toEqual([7]);
-  late.setEnabled(7, false).update();
-  for (const space of [asked, late]) {
-    expect(space.queryBox(...box)).toEqual([]);
-    expect(space.queryPlanes([])).toEqual([]);
-    expect([...space.queryBoxes(box).offsets]).toEqual([0, 0]);
-    expect([...space.nearestsOfAll(1).offsets]).toEqual([0, 0]);
-    expect(make().set(1, ...box).update().pairsWith(space)).toHaveLength(0);
-    expect(space.setEnabled(7, true).update().queryBox(...box)).toEqual([7]);
-  }
-});
+test.each([2, 3] as const)(
+  'a world that wraps around in which all boxes are off: a query divided by 0, %iD',
+  (dimensions) => {
+    const wrap = [100, 100, 100].slice(0, dimensions);
+    const box = [0, 0, 0, 1, 1, 1].slice(0, 2 * dimensions) as [number, number, number, number];
+    const make = () => new BroadPhase<2 | 3>({ dimensions, wrap });
+    const asked = make()
+      .set(7, ...box)
+      .setEnabled(7, false)
+      .update();
+    const late = make()
+      .set(7, ...box)
+      .update();
+    expect(late.queryBox(...box)).toEqual([7]);
+    late.setEnabled(7, false).update();
+    for (const space of [asked, late]) {
+      expect(space.queryBox(...box)).toEqual([]);
+      expect(space.queryPlanes([])).toEqual([]);
+      expect([...space.queryBoxes(box).offsets]).toEqual([0, 0]);
+      expect([...space.nearestsOfAll(1).offsets]).toEqual([0, 0]);
+      expect(
+        make()
+          .set(1, ...box)
+          .update()
+          .pairsWith(space),
+      ).toHaveLength(0);
+      expect(
+        space
+          .setEnabled(7, true)
+          .update()
+          .queryBox(...box),
+      ).toEqual([7]);
+    }
+  },
+);
 
 const detached = () => {
   const array = new Float32Array(8);
