@@ -208,5 +208,6 @@ addEventListener('resize', () => {
 
 setUpRun();
 await loaded;
+machine.selectedIndex = 0; // the newest, whichever file came first
 show();
 if (known.size === 0) note.textContent = 'No results are in the repository yet: npm run bench makes them.';

@@ -82,6 +82,25 @@ test('growth has a line and a power for each contender, the heat map advice', as
   await expect(page.locator('#advice')).toContainText('best, or within 10 %');
 });
 
+test('the newest results are shown first, whichever file comes first', async ({ page }) => {
+  for (const late of [/amd-/, /intel-/]) {
+    await page.route(
+      (url) => late.test(url.pathname) && url.pathname.endsWith('.json'),
+      async (route) => {
+        await new Promise((resolve) => setTimeout(resolve, 700));
+        await route.continue();
+      },
+    );
+    await page.goto('/bench/');
+    await expect(page.locator('#growth')).toBeVisible();
+    const names = await page.locator('#machine option').allTextContents();
+    const dates = names.map((name) => name.slice(-10));
+    expect(dates).toEqual(dates.toSorted().reverse());
+    await expect(page.locator('#machine')).toHaveValue(names[0]!);
+    await page.unrouteAll();
+  }
+});
+
 for (const [size, width, most] of [
   ['desktop', 1440, 30],
   ['phone', 390, 6],
