@@ -343,10 +343,9 @@ function report(): void {
   write('touching', formatCount(touching));
   write('tests', formatCount(stats.tests));
   write('cells', formatCount(stats.cells));
-  write(
-    'parts',
-    describeParts(stats.technique, stats.cells, state.show.includes('structure') ? picture.cells : stats.cells),
-  );
+  const drawn = state.show.includes('structure');
+  const tooSmall = drawn && !race && view.cellsTooSmall;
+  write('parts', describeParts(stats.technique, stats.cells, drawn ? picture.cells : stats.cells, tooSmall));
   if (timings.summarise()) {
     write('median', formatMilliseconds(timings.median));
     write('rate', playback.playing ? formatRate(timings.rate) : '–');

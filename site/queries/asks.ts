@@ -240,10 +240,13 @@ const partners: Ask = {
 /** Per box, the remaining frames of its flash; negative if its pair has ended. */
 let flashes = new Int8Array();
 
+/** Half the size of the ring or the cross in a box, as a share of its width. */
+const markReach = 0.25;
+
 const events: Ask = {
   name: 'events',
   label: 'Began, ended',
-  hint: 'Green flashes where a pair began, red where one ended.',
+  hint: 'Green with a ring where a pair began, red with a cross where one ended.',
   counts: 'Began and ended in this frame',
   options: [],
   mark({ space, slots }) {
@@ -260,7 +263,20 @@ const events: Ask = {
     }
     return (began.length + ended.length) / 2;
   },
-  draw() {},
+  draw({ pen, boxes }) {
+    for (let id = 0; id < flashes.length; id++) {
+      if (flashes[id] === 0) continue;
+      const at = 4 * id;
+      const x = (boxes[at] + boxes[at + 2]) / 2;
+      const y = (boxes[at + 1] + boxes[at + 3]) / 2;
+      const reach = markReach * (boxes[at + 2] - boxes[at]);
+      if (flashes[id] > 0) pen.circle(x, y, reach, 'text');
+      else {
+        pen.line(x - reach, y - reach, x + reach, y + reach, 'text');
+        pen.line(x - reach, y + reach, x + reach, y - reach, 'text');
+      }
+    }
+  },
   text({ space }) {
     return `new BroadPhase({ events: true });\nspace.update();\nspace.began; // [${space.began.subarray(0, 10).join(', ')}]\nspace.ended; // [${space.ended.subarray(0, 10).join(', ')}]`;
   },

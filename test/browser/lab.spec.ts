@@ -107,6 +107,14 @@ test('sweep-and-prune has intervals, of which so few are drawn that the boxes ar
   await expect(shown(page, 'cells').locator('..')).toHaveText('5,000 intervals');
 });
 
+test('cells that are too small to be seen are said to be, until the view is zoomed', async ({ page }) => {
+  await openStill(page, 'boxes=200000&technique=spatial-grid');
+  const told = shown(page, 'cells').locator('..');
+  await expect(told).toHaveText(/^[\d,]+ cells, too small to see here$/);
+  for (let k = 0; k < 4; k++) await page.getByRole('button', { name: 'Zoom in' }).click();
+  await expect(told).toHaveText(/^[\d,]+ cells$/);
+});
+
 test('every scene can be shown', async ({ page }) => {
   test.slow();
   await openStill(page, 'boxes=500&show=structure,heat,pairs');

@@ -147,6 +147,27 @@ test('pairs begin and end as boxes move', async ({ page }) => {
   await expect(call(page)).toContainText('space.began');
 });
 
+test('pairs that began and ended differ by more than their colours: by rings and crosses', async ({ page }) => {
+  await page.addInitScript(`{
+    window.drawn = { rings: 0, lines: 0 };
+    const { arc, lineTo } = CanvasRenderingContext2D.prototype;
+    CanvasRenderingContext2D.prototype.arc = function (...given) {
+      window.drawn.rings++;
+      return arc.apply(this, given);
+    };
+    CanvasRenderingContext2D.prototype.lineTo = function (...given) {
+      window.drawn.lines++;
+      return lineTo.apply(this, given);
+    };
+  }`);
+  await open(page, 'events');
+  for (let k = 0; k < 10; k++) await page.getByRole('button', { name: 'Step' }).click();
+  const { rings, lines } = (await page.evaluate('drawn')) as { rings: number; lines: number };
+  expect(rings).toBeGreaterThan(2);
+  expect(lines).toBeGreaterThan(4);
+  expect(lines % 2).toBe(0);
+});
+
 const time = (page: Page) => page.locator('[data-number=time]');
 
 test('what is there after update() has its time, once something has moved', async ({ page }) => {

@@ -8,6 +8,9 @@ import { type LabView, onSize } from './view.ts';
 
 /** A click this near to a box counts for it, in CSS pixels. */
 const fingertip = 14;
+/** The renderer fills boxes smaller than this, in CSS pixels: cells are outlines, so there is nothing left of them. */
+const leastCell = 4;
+const cellsLookedAt = 100;
 
 /** The element holds two canvases, the upper one for lines. */
 export function createFlatView(element: HTMLElement, moved: () => void, kind?: RendererKind): LabView {
@@ -93,6 +96,18 @@ export function createFlatView(element: HTMLElement, moved: () => void, kind?: R
         camera.look(minX + given[0] * (maxX - minX), minY + given[1] * (maxY - minY), given[2]);
       }
       redraw();
+    },
+    get cellsTooSmall() {
+      if (!picture || picture.cells === 0) return false;
+      const { drawn, cells } = picture;
+      const least = (leastCell * camera.width) / canvas.clientWidth / camera.scale;
+      const every = Math.ceil(cells / cellsLookedAt);
+      let [small, all] = [0, 0];
+      for (let at = 0; at < 4 * cells; at += 4 * every) {
+        all++;
+        if (Math.max(drawn[at + 2] - drawn[at], drawn[at + 3] - drawn[at + 1]) < least) small++;
+      }
+      return 2 * small > all;
     },
     place(clientX, clientY) {
       const frame = canvas.getBoundingClientRect();

@@ -252,6 +252,7 @@ export function createSolidView(element: HTMLElement, moved: () => void): LabVie
       fitted = false;
       controls.update();
     },
+    cellsTooSmall: false, // the nearest are large enough
     place(clientX, clientY) {
       const frame = canvas.getBoundingClientRect();
       const x = (2 * (clientX - frame.left)) / frame.width - 1;

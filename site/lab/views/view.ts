@@ -11,6 +11,8 @@ export interface LabView {
   zoom(factor: number): void;
   /** Where the view looks, as in the URL; undefined while everything is shown. */
   look: readonly number[] | undefined;
+  /** Whether most cells of the picture are too small on the screen to be told apart. */
+  readonly cellsTooSmall: boolean;
   /** What is at a place on the screen: a point or a ray in the world, and how near a click must be to a box. */
   place(clientX: number, clientY: number): { place: number[]; reach: number };
 }
