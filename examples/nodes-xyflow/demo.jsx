@@ -67,6 +67,8 @@ export function nodesDemo(stage, { wake, say }) {
   let heap = withHeap(nodes);
   let work = separate;
   let relaxing = false;
+  /** Until none overlap; then all of them are brought into view, which dragging a node does not do. */
+  let untangling = false;
   let flow;
   const listeners = new Set();
   const show = (next) => {
@@ -85,6 +87,10 @@ export function nodesDemo(stage, { wake, say }) {
     const apart = next === nodes;
     relaxing = !apart || nodes.some(fixed);
     if (!apart) show(next);
+    if (untangling && (apart || maxIterations === enough)) {
+      untangling = false;
+      fit();
+    }
     say(`${nodes.length} nodes; this step took ${taken.toFixed(2)} ms${apart ? '; none overlap' : ''}`);
   };
   const changed = (changes) => {
@@ -98,6 +104,7 @@ export function nodesDemo(stage, { wake, say }) {
         nodes={useSyncExternalStore(subscribe, () => nodes)}
         edges={first.edges}
         nodeTypes={nodeTypes}
+        edgesFocusable={false}
         onNodesChange={changed}
         onInit={(instance) => {
           flow = instance;
@@ -115,7 +122,7 @@ export function nodesDemo(stage, { wake, say }) {
 
   const fit = () => requestAnimationFrame(() => flow?.fitView({ padding: 0.08 }));
   const start = (given) => {
-    relaxing = false;
+    relaxing = untangling = false;
     show(given);
     say(`${given.length} nodes`);
     fit();
@@ -135,7 +142,10 @@ export function nodesDemo(stage, { wake, say }) {
     },
     race: (key) => time(() => by[key](heap, { padding, maxIterations: 10 })),
     actions: {
-      Untangle: wake,
+      Untangle: () => {
+        untangling = true;
+        wake();
+      },
       'Paste 500': () => {
         heap = withHeap(nodes.slice(0, first.nodes.length));
         start(withHeap(nodes));

@@ -13,9 +13,11 @@ async function mount(figure: HTMLElement): Promise<void> {
   const load = modules[`./figures/${figure.dataset.figure}.ts`];
   const live = figure.querySelector<HTMLElement>('.live')!;
   if (!load) return;
+  let loaded: FigureModule | undefined;
   try {
-    const { mount } = await load();
-    const rest = mount(live);
+    loaded = await load();
+    live.replaceChildren();
+    const rest = loaded.mount(live);
     if (rest) {
       new IntersectionObserver(([entry]) => {
         if (!entry.isIntersecting) rest();
@@ -25,8 +27,18 @@ async function mount(figure: HTMLElement): Promise<void> {
   } catch (error) {
     figure.dataset.state = 'failed';
     live.textContent = `This figure stopped: ${error instanceof Error ? error.message : String(error)}`;
+    if (!loaded) offerAgain(figure, live); // without a network, perhaps, which comes back
     throw error;
   }
+}
+
+function offerAgain(figure: HTMLElement, live: HTMLElement): void {
+  const button = document.createElement('button');
+  Object.assign(button, { type: 'button', className: 'button', textContent: 'Try again' });
+  button.addEventListener('click', () => void mount(figure));
+  const row = document.createElement('p');
+  row.append(button);
+  live.append(row);
 }
 
 const nearing = new IntersectionObserver(

@@ -167,6 +167,20 @@ test('figure 4: the box at 20, 50 lies in six cells, and moves by mouse and by k
   await expect(mapping.locator('.arrays > code')).toHaveCount(3);
 });
 
+test('a figure that could not be fetched can be tried again', async ({ page }) => {
+  const script = /mapping[^/]*\.(js|ts)/;
+  await page.route(script, (route) => route.abort());
+  await page.goto('/article/');
+  const mapping = page.locator('#fig-4');
+  await mapping.scrollIntoViewIfNeeded();
+  await expect(mapping).toContainText('This figure stopped');
+  await page.unroute(script);
+  await mapping.getByRole('button', { name: 'Try again' }).click();
+  await expect(mapping.getByRole('slider', { name: 'Cell size' })).toBeVisible();
+  await expect(mapping).not.toContainText('This figure stopped');
+  faults = []; // those of the first try
+});
+
 for (const width of [1440, 768, 390]) {
   test(`figure 4 stays as high and its slider where it is, whatever the cells: ${width}`, async ({ page }) => {
     await page.setViewportSize({ width, height: 900 });

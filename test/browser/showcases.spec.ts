@@ -83,6 +83,38 @@ test('nodes: 500 are pasted, and come apart frame by frame', async ({ page }) =>
   await section.getByRole('button', { name: 'Untangle' }).click();
   await expect(section.locator('p[role=status]')).toContainText('none overlap', { timeout: 90_000 });
   expect(overlaps(await nodeBoxes(page))).toBe(0);
+  await expectAllInSight(section);
+});
+
+/** Nodes are within the stage, and none is cut off. */
+const expectAllInSight = (section: Locator) =>
+  expect
+    .poll(
+      () =>
+        section.locator('.stage').evaluate((stage) => {
+          const whole = stage.getBoundingClientRect();
+          return [...stage.querySelectorAll('.react-flow__node')].filter((node) => {
+            const { left, top, right, bottom } = node.getBoundingClientRect();
+            return left < whole.left || top < whole.top || right > whole.right || bottom > whole.bottom;
+          }).length;
+        }),
+      patient,
+    )
+    .toBe(0);
+
+test('nodes: untangled at once, 540 are all in sight; the first Tab is at a node, not at an edge', async ({ page }) => {
+  const section = await open(page, 'nodes');
+  await section.getByRole('button', { name: 'Paste 500' }).click();
+  await section.getByRole('button', { name: 'Untangle' }).click();
+  await expect.poll(async () => overlaps(await nodeBoxes(page)), patient).toBe(0);
+  await expectAllInSight(section);
+  await expect(section.locator('.react-flow__edge[tabindex="0"]')).toHaveCount(0);
+  await section.locator('.stage').evaluate((stage) => {
+    stage.tabIndex = -1;
+    stage.focus();
+  });
+  await page.keyboard.press('Tab');
+  await expect(page.locator(':focus')).toHaveClass(/react-flow__node/);
 });
 
 test('nodes: one that is dragged stays with the pointer, and the others make room', async ({ page }) => {
