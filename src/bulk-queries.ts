@@ -185,12 +185,16 @@ function collect(
     if (!(to[name]?.length >= least)) to[name] = new arrays[name](to[name] ? least + (least >> 1) : least);
   }
   const answer = to as unknown as Answer;
-  const { ids, offsets, of } = answer;
+  const { ids, offsets } = answer;
+  // An array that another kind of query left in `out` is not touched.
+  const ranks = names.includes('times') ? answer.times! : answer.distances!;
+  const normals = names.includes('normals') ? answer.normals : undefined;
+  const of = names.includes('of') ? answer.of : undefined;
   const ordered = kind < asks.box || kind === asks.others;
   const first = (ordered ? instance.kernel.many_hits_address() : instance.kernel.many_ids_address()) >>> 2;
   for (let k = 0; k <= count; k++) offsets[k] = words[ends + k]!;
   for (let n = 0; n < total; n++) {
-    if (ordered) copyHit(instance, answer, n, first + 4 * n);
+    if (ordered) copyHit(instance, ids, ranks, normals, n, first + 4 * n);
     else ids[n] = words[first + n]!;
   }
   const all = instance.kernel.answers_address() >>> 2;
@@ -199,14 +203,21 @@ function collect(
 }
 
 /** Copies the hit at a place in the kernel's memory. */
-function copyHit(instance: KernelInstance, to: Answer, n: number, at: number): void {
+function copyHit(
+  instance: KernelInstance,
+  ids: Uint32Array,
+  ranks: Float64Array,
+  normals: Int8Array | undefined,
+  n: number,
+  at: number,
+): void {
   const words = instance.wordView();
-  to.ids[n] = words[at + 2]! & maxId; // the bits above it say whether it was met at a corner
-  (to.distances ?? to.times!)[n] = instance.doubleView()[at >>> 1]!;
-  if (to.normals === undefined) return;
+  ids[n] = words[at + 2]! & maxId; // the bits above it say whether it was met at a corner
+  ranks[n] = instance.doubleView()[at >>> 1]!;
+  if (normals === undefined) return;
   const side = words[at + 3]! | 0;
   for (let axis = 0; axis < instance.dimensions; axis++) {
-    to.normals[n * instance.dimensions + axis] = side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0;
+    normals[n * instance.dimensions + axis] = side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0;
   }
 }
 

@@ -87,8 +87,8 @@ export interface ManyQueries {
 
   /**
    * The `k` boxes nearest to each box, itself left out, by the distance between boxes, then by id: those of box `of[n]` are
-   * `ids[offsets[n]]` up to `ids[offsets[n + 1] - 1]`. Boxes whose ids are 0 … size - 1 come in their order; one
-   * that is off has no answers.
+   * `ids[offsets[n]]` up to `ids[offsets[n + 1] - 1]`. Their order depends on earlier calls: it is ascending if ids came
+   * in ascending order and none was deleted. A box that is off has no answers.
    *
    * @param k an integer from 1 on, or Infinity for all
    * @throws as {@link BroadPhase.nearests}

@@ -98,7 +98,7 @@ export interface Queries<D extends Dimensions> {
    * outside it and yet not behind any single plane: it is among the answers.
    *
    * In a world that wraps around, a box is in view if it is where it stands in the world, its minimum from 0 on, or one
-   * world further along any axes. It is in the answer once, and inside if one of these copies is.
+   * world back or forth along any axes. It is in the answer once, and inside if one of these copies is.
    *
    * @param planes 4 numbers for each plane, its normal, of any length, and its offset: `[nx, ny, nz, d, …]`; in 2D 3:
    *   `[nx, ny, d, …]`. All finite

@@ -42,6 +42,7 @@ const colorsLeftOut: Colors = {
   hot: '#f08c1a',
   rays: '#2ba24c',
 };
+const colorNames = Object.keys(colorsLeftOut) as (keyof Colors)[];
 const optionNames = ['boxes', 'pairs', 'cells', 'hot', 'rays', 'colors', 'lineWidth'];
 /** How much the insides of boxes cover. */
 const inside = 0.15;
@@ -68,7 +69,8 @@ export function drawSpace(
 ): void {
   check(space, options);
   const { boxes = true, pairs = true, cells = false, hot = false, rays = [], lineWidth = 1 } = options;
-  const colors = { ...colorsLeftOut, ...options.colors };
+  const colors = { ...colorsLeftOut };
+  for (const name of colorNames) colors[name] = options.colors?.[name] ?? colorsLeftOut[name];
   const shapes = new Shapes(space);
   const sink: Sink = {
     box(numbers, at) {
@@ -135,10 +137,15 @@ function check(space: BroadPhase<2 | 3>, options: DrawOptions): void {
   if (space.dimensions !== 2) {
     throw new RangeError('drawSpace: got a space of 3 dimensions, expected 2: Lines gives the edges of both');
   }
-  for (const name of Object.keys(options)) {
-    if (!optionNames.includes(name)) {
-      throw new TypeError(`drawSpace: got an option '${name}', expected one of ${optionNames.join(', ')}`);
+  checkNames('an option', options, optionNames);
+  checkNames('a color', options.colors ?? {}, colorNames);
+  for (const ray of options.rays ?? []) checkRay('drawSpace: rays', ray, 2);
+}
+
+function checkNames(what: string, given: object, known: readonly string[]): void {
+  for (const name of Object.keys(given)) {
+    if (!known.includes(name)) {
+      throw new TypeError(`drawSpace: got ${what} '${name}', expected one of ${known.join(', ')}`);
     }
   }
-  for (const ray of options.rays ?? []) checkRay('drawSpace: rays', ray, 2);
 }

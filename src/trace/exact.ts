@@ -1,6 +1,6 @@
 // The exact pairs, computed without the kernel, to check a replay. Sorts along one axis and sweeps, in doubles. A set
 // of pairs is a sorted Float64Array with one number per pair: the smaller id times 2^24, plus the larger.
-import type { Own, World } from '../watch.ts';
+import type { Own } from '../watch.ts';
 import { marks } from './format.ts';
 
 const idLimit = 2 ** 24;
@@ -22,7 +22,7 @@ export function exactPairs(
   ids?: ArrayLike<number>,
   rules?: ArrayLike<number>,
   wrap?: readonly number[],
-  own: Own & Pick<World, 'touching'> = {},
+  own: Own & { touching?: boolean | undefined } = {},
 ): Float64Array {
   const apart = (a: number, b: number) => (rules && !mayMeet(rules, 3 * a, 3 * b)) || areOne(own.groups, a, b);
   const closed = own.touching ?? true;

@@ -104,7 +104,8 @@ export async function openAny(bytes: Uint8Array, options?: OpenOptions): Promise
 
 /**
  * A raw recording of the same frames.
- * @throws RangeError if that layout cannot represent them: ids, rules, doubles, or a changing number of boxes
+ * @throws RangeError if that layout cannot represent them: ids, rules, doubles, a changing number of boxes, a world that
+ *   wraps around, or `touching: false`
  *
  * @example
  * const space = new BroadPhase();
@@ -114,6 +115,8 @@ export async function openAny(bytes: Uint8Array, options?: OpenOptions): Promise
  * importRecording(raw).frames; // → 3
  */
 export function exportRecording(source: FrameSource): Uint8Array<ArrayBuffer> {
+  const lost = source.wrap ? 'that the world wraps around' : 'that boxes which only touch are not pairs';
+  if (source.wrap || source.touching === false) throw new RangeError(`the raw layout cannot say ${lost}`);
   let count = -1;
   let all = new Uint8Array();
   for (const frame of source) {

@@ -126,6 +126,14 @@ export async function* readTrace(
   chunks: AsyncIterable<Uint8Array> | ReadableStream<Uint8Array>,
 ): AsyncGenerator<StreamedFrame> {
   const queue = new ChunkQueue('getReader' in chunks ? chunksOf(chunks) : chunks);
+  try {
+    yield* framesIn(queue);
+  } finally {
+    await queue.close();
+  }
+}
+
+async function* framesIn(queue: ChunkQueue): AsyncGenerator<StreamedFrame> {
   const head = await queue.take(headerBytes);
   if (!head) throw truncatedHeader(queue.bytesLeft);
   let { dimensions, version, world, checksum } = readHeader(head);
@@ -218,6 +226,11 @@ class ChunkQueue {
     this.#source = source[Symbol.asyncIterator]();
   }
 
+  /** Tells the source that no more is wanted. */
+  async close(): Promise<void> {
+    await this.#source.return?.();
+  }
+
   /**
    * Returns `length` bytes, or `undefined` if the stream ends before. Allocates memory only for bytes that have
    * arrived.
@@ -262,5 +275,6 @@ export async function* chunksOf(stream: ReadableStream<Uint8Array>): AsyncGenera
     }
   } finally {
     await reader.cancel().catch(() => {}); // errors do not matter: the caller wants no more
+    reader.releaseLock();
   }
 }

@@ -148,7 +148,9 @@ export interface ReplayedFrame {
  * played[2].difference; // → null
  */
 export function* replay(source: FrameSource, options: ReplayOptions = {}, verify = false): Generator<ReplayedFrame> {
-  const space = new BroadPhase({ ...worldOf(source), ...options, dimensions: source.dimensions });
+  const { dimensions } = source;
+  const world: ReplayOptions = { ...worldOf(source), ...options };
+  const space = new BroadPhase({ ...world, dimensions });
   for (const frame of source) {
     if (frame.index === 0) begin(space, frame, true);
     const ms = timeUpdate(space, frame);
@@ -159,8 +161,8 @@ export function* replay(source: FrameSource, options: ReplayOptions = {}, verify
       yield result;
       continue;
     }
-    const { ids, rules } = frame;
-    const expected = exactPairs(frame.boxes, source.dimensions, ids, rules, options.wrap ?? source.wrap, frame);
+    const own = { ...frame, touching: world.touching };
+    const expected = exactPairs(frame.boxes, dimensions, frame.ids, frame.rules, world.wrap, own);
     yield { ...result, difference: differenceOf(pairKeys(space.pairs), expected) ?? null };
   }
   space.dispose();

@@ -266,16 +266,15 @@ const rounded = (value: number) => Number(value.toPrecision(3));
  */
 function keepFrames(source: FrameSource): Frame[] {
   const kept: Frame[] = [];
-  let allowed = source.frames;
+  let largest = 1; // the first frame may come before the level is loaded
+  for (const { boxes } of source) largest = Math.max(largest, boxes.byteLength);
+  const allowed = Math.min(source.frames, Math.max(windows, Math.floor(keptBytes / largest)));
   for (const frame of source) {
-    if (frame.index === 0) {
-      const most = Math.floor(keptBytes / Math.max(1, frame.boxes.byteLength));
-      allowed = Math.max(windows, Math.min(source.frames, most));
-    }
     const windowLength = Math.ceil(allowed / windows);
     if (allowed < source.frames && frame.index % Math.ceil(source.frames / windows) >= windowLength) continue;
     kept.push({
       ...frame,
+      ...worldOf(source),
       boxes: frame.boxes.slice(),
       ids: frame.ids?.slice(),
       rules: frame.rules?.slice(),
