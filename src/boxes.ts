@@ -57,6 +57,15 @@ export function expose(instance: KernelInstance, count: number): Float32Array {
   }
 }
 
+/** Throws if the array that boxes() returned was detached: it may have been written to since. */
+export function checkExposed(instance: KernelInstance, where: string): void {
+  if (instance.exposed?.byteOffset !== 0) return; // the offset is 0 only for detached views
+  throw new Error(
+    `${where}: the array of boxes() was detached when memory grew, and anything written to it since is lost: ` +
+      'call boxes(count) again before you write',
+  );
+}
+
 /** Writes the numbers of a box to an array; false if there is no box of this id. */
 export function readBox(instance: KernelInstance, id: number, out: Float32Array | Float64Array | number[]): boolean {
   const fixed = ArrayBuffer.isView(out);

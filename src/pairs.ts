@@ -1,17 +1,11 @@
 // Updates, and views of the pairs that they find, in the kernel's memory.
-import { badInPlace } from './boxes.ts';
+import { badInPlace, checkExposed } from './boxes.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { readStats, type Stats } from './stats.ts';
 
 /** Finds the pairs of the present boxes, and updates the counters. */
 export function update(instance: KernelInstance, stats: Stats): void {
-  if (instance.exposed?.byteOffset === 0) {
-    // The offset is 0 only for detached views.
-    throw new Error(
-      'update: the array of boxes() was detached when memory grew, and anything written to it since is lost: ' +
-        'call boxes(count) again before you write',
-    );
-  }
+  checkExposed(instance, 'update');
   let bad = -1;
   try {
     bad = instance.kernel.update();

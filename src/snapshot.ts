@@ -1,5 +1,5 @@
 // A space as bytes, and back. The format is in kernel/space/snapshot.hpp; the messages for bad bytes are here.
-import { badInPlace } from './boxes.ts';
+import { badInPlace, checkExposed } from './boxes.ts';
 import type { Dimensions } from './dimensions.ts';
 import { badValue } from './errors.ts';
 import { boxesAt, snapshotFaults, techniques } from './generated/abi.ts';
@@ -12,6 +12,7 @@ const headerBytes = 24;
 const newest = 2;
 
 export function snapshot(instance: KernelInstance): Uint8Array<ArrayBuffer> {
+  checkExposed(instance, 'snapshot');
   let bad = -1;
   try {
     const at = instance.kernel.save() >>> 0;

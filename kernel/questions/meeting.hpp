@@ -31,7 +31,7 @@ inline f64 time_to(f64 lo, f64 hi, f64 face, f64 along, bool stops) {
   f64 gap = larger(0.0, forth ? face - hi : lo - face);
   if (!stops || gap == __builtin_inf()) return gap / speed;
   if (lo < hi && !(is_single(lo) && is_single(hi) && is_single(face))) {
-    f64 error = roundings * (gap + size_of(lo) + size_of(hi) + size_of(face));
+    f64 error = roundings * gap + roundings * size_of(lo) + roundings * size_of(hi) + roundings * size_of(face);
     f64 other = forth ? face - (hi - lo) : face + (hi - lo);
     if (error > touch * larger(size_of(face), size_of(other))) gap = larger(0.0, gap - error);
   }

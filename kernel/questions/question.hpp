@@ -31,10 +31,15 @@ template <int D> struct Question {
   // Instead of a radius: the query is for a box, or only for boxes wholly within it.
   static constexpr f64 no_circle = -1, within = -2;
 
-  /// Sets `length`, without overflow. A ray ranks by distance.
+  /// Sets `length`. A ray ranks by distance, and its direction is scaled by a power of two, which is exact, so that no
+  /// time overflows.
   SMALL void measure_way(bool is_ray) {
     f64 most = 0, sum = 0;
     for (int a = 0; a < D; a++) most = larger(most, __builtin_fabs(along[a]));
+    u64 exponent = smaller(bits<u64>(most) >> 52, u64(2045));
+    f64 scale = is_ray ? bits<f64>((2046 - exponent) << 52) : 1;
+    for (int a = 0; a < D; a++) along[a] *= scale;
+    most *= scale;
     for (int a = 0; a < D && most > 0; a++) sum += (along[a] / most) * (along[a] / most);
     length = is_ray ? most * __builtin_sqrt(sum) : 1;
     stops = !is_ray;

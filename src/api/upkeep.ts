@@ -50,7 +50,8 @@ export interface Upkeep {
    * that a restored space gives them in the same order as the original. `auto` then retains nothing between updates,
    * and `incremental` sorts its pairs.
    *
-   * @throws RangeError that names the first bad box written through `boxes()`
+   * @throws RangeError that names the first bad box written through `boxes()`; Error if that array was detached, as in
+   * {@link BroadPhase.update}
    *
    * @example
    * const space = new BroadPhase();

@@ -100,7 +100,11 @@ export class KernelInstance {
   }
 
   clear(): void {
-    this.kernel.clear();
+    try {
+      this.kernel.clear();
+    } catch (error) {
+      this.recover(error, 'clear'); // queries still see the boxes, so they are copied first
+    }
     this.ring.forget();
     this.exposed = undefined;
   }

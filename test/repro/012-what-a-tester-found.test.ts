@@ -82,3 +82,17 @@ test('options in the place of 3D are refused in 2D', () => {
   expect(() => space.rayCastAll!(0, 0, 1, 0, ...none, {})).toThrow(TypeError);
   expect(() => space.sweep!(0, 0, 1, 1, 1, 0, undefined, undefined, undefined, {})).toThrow(TypeError);
 });
+
+test('a snapshot notices, as an update does, that what was written in place may be lost', () => {
+  const space = new BroadPhase();
+  space.boxes(2);
+  space.update();
+  const view = space.boxes(2);
+  for (let count = 1000; view.length > 0; count *= 2) space.queryBoxes(new Float64Array(4 * count));
+  view[0] = 9; // is lost
+  expect(() => space.snapshot()).toThrow('snapshot: the array of boxes() was detached when memory grew');
+  expect(() => space.update()).toThrow('update: the array of boxes() was detached when memory grew');
+  space.boxes(2)[2] = 9;
+  expect([...space.update().get(0)!]).toEqual([0, 0, 9, 0]);
+  expect(space.snapshot().length).toBeGreaterThan(0);
+});
