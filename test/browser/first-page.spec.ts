@@ -252,9 +252,16 @@ test.describe('by touch', () => {
       };
       await view.scrollIntoViewIfNeeded();
       expect((await drag()).by).toBeGreaterThan(50);
-      await page.getByRole('button', { name: 'Zoom in' }).tap();
+      await expect(async () => {
+        await page.getByRole('button', { name: 'Zoom in' }).tap();
+        await expect(view).toHaveCSS('touch-action', 'none', { timeout: 500 });
+      }).toPass();
       expect(await drag()).toEqual({ by: 0, moved: true });
-      await page.getByRole('button', { name: 'Show everything' }).tap();
+      // A tap right after a drag may still count as part of it.
+      await expect(async () => {
+        await page.getByRole('button', { name: 'Show everything' }).tap();
+        await expect(view).not.toHaveCSS('touch-action', 'none', { timeout: 500 });
+      }).toPass();
       const { by, moved } = await drag();
       expect(by).toBeGreaterThan(50);
       expect(moved).toBe(false);
