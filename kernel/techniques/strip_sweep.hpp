@@ -5,8 +5,8 @@
 // every pair is found once, with no table. If a strip has too many candidates that are not hits, it is divided again,
 // along the same axes, by its own statistics.
 // Cost: build O(n), pairs O(n + candidates); memory about 48 (2D) or 80 (3D) bytes for each entry.
-// Wins nearly always when everything moves: box size costs almost nothing, there is no cell size to choose.
-// Loses when few boxes move: each update is a full rebuild.
+// Wins when boxes move further than their size in a frame: box size costs almost nothing, there is no cell size to
+// choose. Loses otherwise: each update is a full rebuild.
 // From: two-layer partitioning, Tsitsigkos et al., "A Two-layer Partitioning for Non-point Spatial Data",
 // ICDE 2021; the sweep in strips goes back to Güting & Schilling 1987.
 #pragma once
