@@ -132,37 +132,38 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     // V8 inlines up to 460 bytes of bytecode, including what is inlined into it. `arguments` must not be passed on, or
     // each call would allocate it.
     const ring = this.#ring;
-    const { width } = ring;
     if (
       // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
-      arguments.length !== width + 1 ||
+      arguments.length !== ring.step ||
       typeof id !== 'number' ||
       typeof a !== 'number' ||
       typeof b !== 'number' ||
       typeof c !== 'number' ||
       typeof d !== 'number' ||
-      id >>> 0 !== id ||
-      id > maxId ||
-      !(width === 4 ? a <= c && b <= d : typeof e === 'number' && typeof f === 'number' && a <= d && b <= e && c <= f)
+      (id & maxId) !== id ||
+      // biome-ignore lint/complexity/noArguments: the same
+      !(arguments.length === 5
+        ? a <= c && b <= d
+        : typeof e === 'number' && typeof f === 'number' && a <= d && b <= e && c <= f)
     ) {
       // biome-ignore lint/complexity/noArguments: the same
       badSet(arguments.length, id, a, b, c, d, e, f, this.dimensions);
     }
-    const waits = id < ring.dense || ring.mayWait(id);
-    let k = ring.next;
-    if (!waits || k >= ring.numbers.length) k = ring.drain(); // a box that cannot wait is flushed alone
     const { numbers } = ring;
-    numbers[k] = id;
-    numbers[k + 1] = a;
-    numbers[k + 2] = b;
-    numbers[k + 3] = c;
-    numbers[k + 4] = d;
-    if (width === 6) {
-      numbers[k + 5] = e!;
-      numbers[k + 6] = f!;
+    const next = ring.next & 4095;
+    numbers[next] = id;
+    numbers[next + 1] = a;
+    numbers[next + 2] = b;
+    numbers[next + 3] = c;
+    numbers[next + 4] = d;
+    // biome-ignore lint/complexity/noArguments: the same
+    if (arguments.length !== 5) {
+      numbers[next + 5] = e!;
+      numbers[next + 6] = f!;
     }
-    ring.next = k + width + 1;
-    if (!waits) this.#instance.takeNow();
+    // biome-ignore lint/complexity/noArguments: the same
+    ring.next = next + arguments.length;
+    if (id >= ring.limit || next >= ring.last) ring.settle(id);
     return this;
   }
 
@@ -208,10 +209,10 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
 
   setCentred(...box: CentredBoxOfId<D>): this;
   setCentred(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
-    const flat = this.#ring.width === 4;
+    const flat = this.#ring.step === 5;
     if (
       // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
-      arguments.length !== this.#ring.width + 1 ||
+      arguments.length !== this.#ring.step ||
       !isId(id) ||
       !(Number.isFinite(a) && Number.isFinite(b) && (flat || Number.isFinite(c))) ||
       !(flat ? isSize(c) && isSize(d) : isSize(d) && isSize(e) && isSize(f))
@@ -267,7 +268,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
    * space.set(7, 0, 0, 10, 10).get(7, box); // → [0, 0, 10, 10]
    */
   get<Out extends Float32Array | Float64Array | number[]>(id: number, out: Out): Out | undefined;
-  get(id: number, out: Float32Array | Float64Array | number[] = new Float64Array(this.#ring.width)) {
+  get(id: number, out: Float32Array | Float64Array | number[] = new Float64Array(2 * this.dimensions)) {
     checkId('get', id);
     return readBox(this.#instance, id, out) ? out : undefined;
   }

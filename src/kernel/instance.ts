@@ -1,7 +1,7 @@
 // One instance of the kernel, which is one space: its functions, views of its memory, and recovery when memory runs
 // out. Growing memory detaches views: their length is then 0, and they are made again.
 import type { Dimensions } from '../dimensions.ts';
-import { ioLength, type KernelExports, ringHead, statsLength } from '../generated/abi.ts';
+import { ioLength, type KernelExports, statsLength } from '../generated/abi.ts';
 import { instantiate } from './load.ts';
 import { Ring } from './ring.ts';
 
@@ -57,7 +57,7 @@ export class KernelInstance {
 
   /** The kernel's functions, after flushing the ring, so that no caller can forget that. */
   get kernel(): KernelExports {
-    if (this.ring.next !== ringHead) this.ring.flush();
+    if (this.ring.next !== 0) this.ring.close();
     return this.exports;
   }
 
@@ -73,7 +73,7 @@ export class KernelInstance {
   /** Releases the memory at once. Any call after this throws. */
   dispose(): void {
     this.exports = disposed;
-    this.ring.close();
+    this.ring.dispose();
     this.words = new Uint32Array();
     this.#doubles = this.#io = this.#stats = new Float64Array();
     this.exposed = undefined;
@@ -125,7 +125,7 @@ export class KernelInstance {
 
   /** The kernel's memory. */
   wordView(): Uint32Array {
-    if (this.words.length === 0) this.words = new Uint32Array(this.kernel.memory.buffer);
+    if (this.words.length === 0) this.words = new Uint32Array(this.exports.memory.buffer);
     return this.words;
   }
   doubleView(): Float64Array {

@@ -1,6 +1,9 @@
 // Boxes that were set and wait in the kernel's memory until it takes them: see kernel/boxes/ring.hpp. A call into
 // WebAssembly for each box would take several times as long as writing it. A box may wait if taking it cannot fail: its
 // id is in the space, or is the next one that there is room for.
+// `BroadPhase.set` writes a box first and asks afterwards, so that it has nothing left to keep across a call. Since any
+// call of the kernel may grow its memory, which detaches the ring, the ring is closed before each: the next box is
+// written aside and opens it again.
 import { ringCapacity, ringHead } from '../generated/abi.ts';
 import type { KernelInstance } from './instance.ts';
 
@@ -9,12 +12,20 @@ const nowhere = 2 ** 30;
 
 export class Ring {
   readonly #instance: KernelInstance;
-  /** Numbers in a box. */
-  readonly width: number;
-  /** For each box that waits, its id, then its numbers. */
-  numbers = new Float64Array();
-  /** Where the next box goes. */
-  next = ringHead;
+  /** Numbers per entry: the id, then the box. */
+  readonly step: number;
+  /** Where the next box goes while the ring is closed. */
+  readonly #aside: Float64Array;
+  /** The ring in the kernel's memory. */
+  #entries = new Float64Array();
+  /** Where boxes are written: for each its id, then its numbers. */
+  numbers: Float64Array;
+  /** The index of the next box; 0 if the ring is closed. */
+  next = 0;
+  /** Boxes of ids below this may wait. */
+  limit = 0;
+  /** The index of the last box that there is room for. */
+  readonly last: number;
   /** All ids below this are in the space, once waiting boxes are taken; 0 if that is not known. */
   dense = 0;
   #room = 0;
@@ -23,7 +34,9 @@ export class Ring {
 
   constructor(instance: KernelInstance) {
     this.#instance = instance;
-    this.width = instance.width;
+    this.step = instance.width + 1;
+    this.last = ringHead + (ringCapacity - 1) * this.step;
+    this.numbers = this.#aside = new Float64Array(this.step);
   }
 
   /** Whether there is a box of this id; also false if only the kernel knows. */
@@ -33,13 +46,61 @@ export class Ring {
     return page > 0 && this.#instance.words[(page >>> 2) + (id & 4095)]! > 0;
   }
 
-  /**
-   * Whether a box of an id from `dense` on may wait, since taking it cannot fail. Asked once for each box that will.
-   */
-  mayWait(id: number): boolean {
-    if (id !== this.dense || this.#room === 0) {
-      return this.#page(id) > 0;
+  /** Called after the box of this id was written, if it may not wait without asking, or fills the ring. */
+  settle(id: number): void {
+    if (this.numbers === this.#aside) this.#open();
+    const mayWait = id < this.dense || this.#mayWait(id);
+    this.limit = this.dense;
+    if (!mayWait) this.#takeAlone();
+    else if (this.next > this.last) this.flush();
+  }
+
+  /** Flushes the ring and closes it, as the kernel is about to be called. */
+  close(): void {
+    if (this.next > ringHead) this.flush();
+    this.numbers = this.#aside;
+    this.next = this.limit = 0;
+  }
+
+  /** Drops the boxes that wait, with the memory they are in. */
+  dispose(): void {
+    this.next = ringHead;
+    this.close();
+    this.forget();
+    this.#entries = new Float64Array();
+  }
+
+  /** Forgets which boxes may wait: called after anything that adds or removes boxes. */
+  forget(): void {
+    this.limit = this.dense = this.#room = 0;
+    this.#pages = nowhere;
+  }
+
+  /** Lets the kernel take the boxes that wait. */
+  flush(): void {
+    const instance = this.#instance;
+    const count = (this.next - ringHead) / this.step;
+    this.next = ringHead;
+    this.forget();
+    try {
+      instance.exports.take(count);
+    } catch (error) {
+      instance.recover(error, 'set');
     }
+    const told = this.#view();
+    this.numbers = told;
+    // As integers: doubles would be garbage.
+    this.limit = this.dense = told[0]! | 0;
+    this.#room = told[1]! | 0;
+    if (told[2]! > 0) {
+      this.#pages = (told[2]! / 4) | 0;
+      instance.wordView();
+    }
+  }
+
+  /** Whether a box of an id from `dense` on may wait, since taking it cannot fail. */
+  #mayWait(id: number): boolean {
+    if (id !== this.dense || this.#room === 0) return this.#page(id) > 0;
     this.dense++;
     this.#room--;
     return true;
@@ -50,53 +111,32 @@ export class Ring {
     return this.#instance.words[this.#pages + 2 * (id >>> 12)]!;
   }
 
-  /** Forgets which boxes may wait: called after anything that adds or removes boxes. */
-  forget(): void {
-    this.dense = this.#room = 0;
-    this.#pages = nowhere;
-  }
-
-  /** Lets the kernel take the boxes that wait. */
-  flush(): void {
-    const instance = this.#instance;
-    const count = (this.next - ringHead) / (this.width + 1);
-    this.next = ringHead;
-    this.forget();
-    try {
-      instance.exports.take(count);
-    } catch (error) {
-      instance.recover(error, 'set');
+  /** Flushes the box that was written last, after all others. */
+  #takeAlone(): void {
+    const { step } = this;
+    if (this.next > ringHead + step) {
+      this.next -= step;
+      for (let k = 0; k < step; k++) this.#aside[k] = this.numbers[this.next + k]!;
+      this.flush();
+      this.#open();
     }
-    if (this.numbers.length === 0) this.#open();
-    // As integers: doubles would be garbage.
-    this.dense = this.numbers[0]! | 0;
-    this.#room = this.numbers[1]! | 0;
-    if (this.numbers[2]! > 0) {
-      this.#pages = (this.numbers[2]! / 4) | 0;
-      instance.wordView();
-    }
+    this.#instance.takeNow();
   }
 
-  /** Called when the ring is full, or was detached as memory grew; returns where the next box goes. */
-  drain(): number {
-    if (this.next !== ringHead) this.flush();
-    if (this.numbers.length === 0) this.#open();
-    return ringHead;
-  }
-
-  /** Drops the boxes that wait, with the memory they are in. */
-  close(): void {
-    this.next = ringHead;
-    this.numbers = new Float64Array();
-    this.forget();
-  }
-
+  /** Moves the box that was written aside into the ring. */
   #open(): void {
-    const { exports } = this.#instance;
-    this.numbers = new Float64Array(
-      exports.memory.buffer,
-      exports.ring_address(),
-      ringHead + ringCapacity * (this.width + 1),
-    );
+    this.next = 0;
+    this.numbers = this.#view();
+    for (let k = 0; k < this.step; k++) this.numbers[ringHead + k] = this.#aside[k]!;
+    this.next = ringHead + this.step;
+  }
+
+  /** The ring in the kernel's memory. */
+  #view(): Float64Array {
+    if (this.#entries.length === 0) {
+      const { exports } = this.#instance;
+      this.#entries = new Float64Array(exports.memory.buffer, exports.ring_address(), this.last + this.step);
+    }
+    return this.#entries;
   }
 }
