@@ -344,7 +344,7 @@ export function known(where: string, count: number): number {
   if (count !== -1) return count;
   throw new Error(
     `${where}: boxes have changed since the last update, and a space this large keeps no copy of the previous ones until it was ` +
-      'queried; make its first query right after an update',
+      'queried, nor does one without memory for it; make its first query right after an update',
   );
 }
 

@@ -29,7 +29,7 @@ export function setAll(instance: KernelInstance, boxes: Boxes, count: number | u
     else
       view.set(Array.isArray(boxes) ? boxes.slice(0, view.length) : (boxes as Float64Array).subarray(0, view.length));
     instance.ring.forget();
-    const bad = kernel.replace(count, single ? 0 : 1);
+    const bad = instance.kernel.replace(count, single ? 0 : 1);
     if (bad >= 0) badBox(where, bad, view.slice(bad * width, (bad + 1) * width), dimensions);
   } catch (error) {
     instance.recover(error, where);

@@ -161,9 +161,9 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
       numbers[next + 5] = e!;
       numbers[next + 6] = f!;
     }
-    // biome-ignore lint/complexity/noArguments: the same
-    ring.next = next + arguments.length;
     if (id >= ring.limit || next >= ring.last) ring.settle(id);
+    // biome-ignore lint/complexity/noArguments: the same
+    else ring.next = next + arguments.length;
     return this;
   }
 

@@ -64,6 +64,7 @@ namespace heap {
 
 inline constexpr u32 least = 64;  // bytes of the smallest block; all are aligned to 16
 inline size_t used = 0;  // bytes in blocks that are in use
+inline u64 kept = 0;  // bytes that only their owner may take, who sets this to 0 first
 
 /// The size class of a request: class c holds blocks of (4 + c % 4) << (c / 4) times `least` / 4 bytes.
 inline u32 size_class(size_t bytes) {
@@ -100,11 +101,15 @@ inline bool reach(u64 bytes) {
          __builtin_wasm_memory_grow(0, size_t(pages)) != size_t(-1);
 }
 
+/// The same, with what is kept left over.
+inline bool can_spare(u64 bytes) { return reach(bytes + kept); }
+
 /// Frees everything at once, as in a new memory. Returns the largest number of bytes that were ever in use.
 inline size_t forget_all() {
   size_t most = size_t(larger(highest, top) - &__heap_base);
   top = highest = nullptr;
   used = 0;
+  kept = 0;
   for (u8*& block : waiting) block = nullptr;
   return most;
 }
@@ -114,7 +119,7 @@ SMALL inline void* take(u32 c) {
   if (block) {
     waiting[c] = load<u8*>(block);
   } else {
-    if (!reach(class_bytes(c))) fail(Fault::out_of_memory, f64(class_bytes(c)));
+    if (!can_spare(class_bytes(c))) fail(Fault::out_of_memory, f64(class_bytes(c)));
     block = top;
     top += class_bytes(c);
   }
@@ -137,7 +142,7 @@ SMALL inline void give(void* block, u32 c) {
 inline bool extend(void* block, u32 from, u32 to) {
   if (static_cast<u8*>(block) + class_bytes(from) != top) return false;
   u64 more = class_bytes(to) - class_bytes(from);
-  if (!reach(more)) fail(Fault::out_of_memory, f64(class_bytes(to)));
+  if (!can_spare(more)) fail(Fault::out_of_memory, f64(class_bytes(to)));
   top += more;
   used += more;
   return true;
@@ -145,7 +150,7 @@ inline bool extend(void* block, u32 from, u32 to) {
 #else
 inline u64 limit = u64(1) << 32;  // tests lower it to see what happens when memory ends
 inline void* take(u32 c) {
-  if (used + class_bytes(c) > limit) fail(Fault::out_of_memory, f64(class_bytes(c)));
+  if (used + class_bytes(c) + kept > limit) fail(Fault::out_of_memory, f64(class_bytes(c)));
   used += class_bytes(c);
   return std::malloc(class_bytes(c));
 }
@@ -155,6 +160,7 @@ inline void give(void* block, u32 c) {
 }
 inline bool extend(void*, u32, u32) { return false; }
 inline bool reach(u64 bytes) { return used + bytes <= limit; }
+inline bool can_spare(u64 bytes) { return reach(bytes + kept); }
 inline u64 copied = 0;  // bytes copied because arrays outgrew their blocks: tests read it
 #endif
 
@@ -175,6 +181,10 @@ class Block {
     release();
     class_ = to;
     return at_ = heap::take(to);
+  }
+
+  SMALL u64 missing_bytes(u64 wanted) const {
+    return wanted <= bytes() ? 0 : heap::class_bytes(heap::size_class(size_t(wanted)));
   }
 
   /// Makes room for `wanted` bytes and preserves the first `keep`. A block that has to grow does so by at least half.
@@ -224,6 +234,8 @@ template <class T> class Buffer : public Block {
   T* data() const { return static_cast<T*>(at_); }
   T& operator[](size_t i) const { return data()[i]; }
   u64 capacity() const { return bytes() / sizeof(T); }
+  /// Bytes that `reserve` takes from the heap for n values.
+  u64 missing(u64 n) const { return missing_bytes(n * sizeof(T)); }
 
   /// Makes room for n values; the contents are lost if the array has to grow.
   T* reserve(u64 n) { return static_cast<T*>(reserve_bytes(n * sizeof(T))); }

@@ -80,6 +80,16 @@ class Ids {
     return page ? page[id % page_size] - 1 : none;
   }
 
+  /// Room for `count` ids, as far as their pages exist.
+  SMALL void make_room(u64 count) {
+    if (named_) id_of_.grow(count, count_);
+    if (clock_) since_.grow(count, count_);
+  }
+  u64 room() const {
+    u64 all = named_ ? id_of_.capacity() : page_size * page_count;
+    return clock_ ? smaller(all, since_.capacity()) : all;
+  }
+
   /// Adds an id that is not in use; it gets the next slot.
   u32 insert(u32 id) {
     if (!named_ && id != count_) spell_out();

@@ -42,13 +42,12 @@ template <class T> class PerBox {
   u64 room() const { return values_.capacity(); }
   SMALL void insert(u32 slot) { move_in(slot, 0); }
   SMALL void move(u32 from, u32 to) { move_in(to, of(from)); }
+  /// After `stage(count)`.
   SMALL void renumber(const Ids& ids, u32 count) {
     if (!some_) return;
-    Buffer<T>& moved = staged_;
-    moved.reserve(larger(count, 1u));
     for (u32 id = 0; id < count; id++) {
       u32 slot = ids.slot(id);
-      moved[id] = slot == Ids::none ? T(0) : values_[slot];
+      staged_[id] = slot == Ids::none ? T(0) : values_[slot];
     }
     replace();
   }

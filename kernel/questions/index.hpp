@@ -112,6 +112,11 @@ template <int D> class Index {
     }
   }
 
+  /// Whether there is memory for a copy of the boxes of a space.
+  bool fits(const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches, const f64* world) const {
+    return seen_.fits(exact, ids, rules, reaches, world);
+  }
+
   /// Copies the boxes of a space.
   SMALL void see(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
                  const f64* world) {

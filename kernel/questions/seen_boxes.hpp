@@ -19,6 +19,15 @@ template <int D> struct SeenBoxes {
   const f64* world = nullptr;  // if it wraps around: boxes are then in `exact`, and moved into it when rounded
   bool rounded = false, named = false, filtered = false, reached = false;
 
+  /// Whether there is memory for a copy.
+  SMALL bool fits(const f64* doubles, const Ids& names, const Rule* given, const f64* far, const f64* around) const {
+    u64 n = names.count(), more = doubles || around ? exact.missing(n * width) : boxes.missing(n * width + 4);
+    if (given) more += rules.missing(n);
+    if (far) more += reaches.missing(n);
+    if (!names.same()) more += ids.missing(n);
+    return more == 0 || heap::can_spare(more);
+  }
+
   /// Copies the boxes of a space.
   SMALL void see(const f32* floats, const f64* doubles, const Ids& names, const Rule* given, const f64* far,
                  const f64* around) {

@@ -92,21 +92,14 @@ class Filters {
   u64 room() const { return rules_.capacity(); }
   SMALL void insert(u32 slot) { change(slot) = everybody; }
   SMALL void move(u32 from, u32 to) { change(to) = rules_[from]; }
+  /// After `stage(count)`.
   SMALL void renumber(const Ids& ids, u32 count) {
-    u32 had = ids.count();
-    if (ids.same()) {
-      rules_.grow(count, smaller(had, count));
-      for (u32 s = had; s < count; s++) rules_[s] = everybody;
-    } else {
-      Buffer<Rule> moved;
-      moved.reserve(count);
-      for (u32 id = 0; id < count; id++) {
-        u32 slot = ids.slot(id);
-        moved[id] = slot == Ids::none ? everybody : rules_[slot];
-      }
-      rules_.swap(moved);
-      moved.release();
+    for (u32 id = 0; id < count; id++) {
+      u32 slot = ids.slot(id);
+      staged_[id] = slot == Ids::none ? everybody : rules_[slot];
     }
+    rules_.swap(staged_);
+    staged_.release();
     changed_ = true;
   }
 

@@ -39,8 +39,8 @@ template <int D> class Numbers {
     boxes_.grow(count * width + padding, u64(keep) * width);
     if (rounding_) exact_.grow(capacity() * width, u64(keep) * width);
   }
-  /// Whether there is memory to start storing doubles.
-  SMALL bool may_round() const { return rounding_ || heap::reach(2 * capacity() * width * sizeof(f64)); }
+  /// Bytes needed to start storing doubles.
+  u64 bytes_to_round() const { return rounding_ ? 0 : exact_.missing(boxes_.capacity()); }
 
   // One box.
 
@@ -120,6 +120,7 @@ template <int D> class Numbers {
   /// Starts to store the doubles of `n` boxes too.
   SMALL void keep_doubles(u32 n) {
     written.see(boxes_.data(), n);
+    heap::kept = 0;
     exact_.reserve(larger(boxes_.capacity(), u64(width)));
     for (u64 k = 0; k < u64(n) * width; k++) exact_[k] = boxes_[k];
     rounding_ = true;

@@ -42,10 +42,14 @@ struct Own {
     groups.clear();
     reaches.clear();
   }
-  /// The ids become 0 … count - 1; boxes that were there keep their settings.
-  void renumber(const Ids& ids, u32 count) {
+  /// Memory for `renumber`.
+  void stage(u32 count) {
     if (groups.some()) groups.stage(count);
     if (reaches.some()) reaches.stage(count);
+    if (filters.active()) filters.stage(count);
+  }
+  /// The ids become 0 … count - 1; boxes that were there keep their settings. After `stage(count)`.
+  void renumber(const Ids& ids, u32 count) {
     if (filters.active()) filters.renumber(ids, count);
     groups.renumber(ids, count);
     reaches.renumber(ids, count);

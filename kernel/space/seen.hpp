@@ -1,6 +1,6 @@
 // What queries see: the boxes of the last update. While nothing has changed since, these are the boxes themselves; the
-// index takes a copy before the first change. Large spaces that were never queried skip the copy, and then cannot
-// answer.
+// index takes a copy before the first change. Large spaces that were never queried skip the copy, and so do those with
+// no memory for it; they then cannot answer.
 #pragma once
 #include "boxes/changes.hpp"
 #include "questions/index.hpp"
@@ -41,9 +41,10 @@ template <int D> class Seen {
   }
 
   /// Before the first change since an update: keeps what that update saw. `most`: up to this many boxes are copied even
-  /// before the first query.
+  /// before the first query. If there is no memory for a copy, there is none: the change itself may make room.
   void hold(const Standing<D>& now, u32 most) {
-    if (asked_ || now.ids.count() <= most) see(now);
+    if ((asked_ || now.ids.count() <= most) && index.fits(now.exact, now.ids, now.rules, now.reaches, now.world))
+      see(now);
     else lost_ = holds_ = true;  // holds_: so that this is not called again
   }
 

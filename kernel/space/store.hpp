@@ -69,6 +69,7 @@ template <int D> class Store {
   /// Tells JavaScript which boxes may wait in the ring.
   NOINLINE void tell(Ring<D>& ring) {
     ring.dense = ring.room = ring.pages = 0;
+    heap::kept = 0;
     if (numbers.written.in_place()) return;
     if (!ids.same() && room() < ids.count() + Ring<D>::most_entries) {
       u64 more = u64(ids.count()) + Ring<D>::most_entries;
@@ -76,6 +77,7 @@ template <int D> class Store {
       if (!tight_ && more <= max_slots) make_room(more, ids.count());
     }
     if (tight_) return;
+    heap::kept = numbers.bytes_to_round();  // any of them may be the first double
     if (ids.same()) {
       ring.dense = ids.count();
       ring.room = room() - ids.count();
@@ -157,6 +159,7 @@ template <int D> class Store {
       renumber(count);
       numbers.swap_staged();
     } else if (count != had || !numbers.boxes()) {
+      prepare_ids(count);
       numbers.resize(count, had);
       renumber(count);
     }
@@ -224,16 +227,17 @@ template <int D> class Store {
   /// Room for `count` boxes in every array with one entry per box.
   SMALL void make_room(u64 count, u32 keep) {
     if (count > max_slots) fail(Fault::out_of_memory, f64(count) * width * sizeof(f32));
+    ids.make_room(count);
     numbers.make_room(count, keep);
     changes().make_room(numbers.capacity());
     own.make_room(numbers.capacity(), keep);
-    tight_ = !numbers.may_round();
+    tight_ = !heap::reach(numbers.bytes_to_round());
   }
 
   /// The number of boxes there is room for in all of these arrays.
   u32 room() const {
     u64 all = smaller(smaller(u64(max_slots), numbers.room()), u64(numbers.written.changes.room()));
-    return u32(larger(own.room(all), u64(ids.count())));
+    return u32(larger(own.room(smaller(all, ids.room())), u64(ids.count())));
   }
 
   /// Finds the slots of these boxes of the ring; new ids get one.
@@ -292,11 +296,17 @@ template <int D> class Store {
     }
   }
 
+  /// Memory for `renumber`.
+  SMALL void prepare_ids(u32 count) {
+    room_to_forget();
+    own.stage(count);
+  }
+
   /// The ids become 0 … count - 1; boxes that were there keep their filters.
   SMALL void renumber(u32 count) {
+    prepare_ids(count);
     changes().note_all();
     numbers.written.renamed = true;
-    room_to_forget();
     own.renumber(ids, count);
     forget_from(count);
     ids.reset(count);

@@ -184,6 +184,79 @@ template <int D> void check_kept_updates() {
   CHECK(failures > 40);
 }
 
+/// With no memory left, what would be copied for queries is given up, and the change is made.
+template <int D> void check_given_up_copies() {
+  Random random(26);
+  const Boxes<D> boxes = spread<D>(random, 300, 0, 100, 8);
+  for (u32 call = 0; call < 4; call++) {
+    testing::Where where("call " + std::to_string(call));
+    Fixture<D> f;
+    replace(f.space, boxes, true);
+    f.model.replace(boxes);
+    f.works();
+    f.space.store.seen.ask();
+    const u64 limit = heap::limit;
+    heap::limit = heap::used;
+    if (call == 0) {
+      set(f.space, 5, boxes[6].data());
+      f.model.set(5, boxes[6]);
+    } else if (call == 1) {
+      CHECK(f.space.store.remove(299));
+      f.model.remove(299);
+    } else if (call == 2) {
+      f.space.store.expose(0);
+      f.model.expose(0);
+    } else {
+      f.space.store.clear();
+      f.model.expose(0);
+    }
+    heap::limit = limit;
+    CHECK(f.space.store.seen.lost());
+    f.boxes_unchanged();
+    f.works();
+    CHECK(!f.space.store.seen.lost());
+  }
+}
+
+/// All boxes that may wait in the ring can be taken with no memory left but what is kept for that: old and new ones, with
+/// dense ids or gaps, in slots that are in order or not, with settings or without, floats or the first doubles.
+template <int D> void check_waiting() {
+  Random random(27);
+  const Boxes<D> boxes = spread<D>(random, 2000, 0, 900, 8), floats = as_floats<D>(boxes);
+  for (u32 state = 0; state < 16; state++) {
+    testing::Where where("state " + std::to_string(state));
+    const bool gaps = state & 1, settings = state & 4, doubles = state & 8;
+    auto name = [&](u32 k) { return gaps ? 2 * k + 1 : k; };
+    Fixture<D> f;
+    for (u32 k = 0; k < 1200; k++) {
+      set(f.space, name(k), floats[k].data());
+      f.model.set(name(k), floats[k]);
+    }
+    if (settings) f.space.store.exclude(3, is_static, true), f.model.exclude(name(3), is_static, true);
+    if (settings) f.space.store.set_reach(4, 0), f.space.store.put_in_group(5, 9), f.space.store.put_in_group(5, 0);
+    if (state & 2) CHECK(f.space.store.remove(name(gaps ? 8 : 1199))), f.model.remove(name(gaps ? 8 : 1199));
+    auto ring = std::make_unique<Ring<D>>();
+    for (u32 k = 0; k < 60; k++) f.works();
+    f.space.store.take(*ring, 0);
+    u32 known = gaps ? 1200 : u32(ring->dense), room = gaps ? Ring<D>::most_entries : u32(ring->room);
+    CHECK(gaps == (ring->pages > 0) && room > 0);
+    u32 count = smaller(Ring<D>::most_entries, room + 100);
+    const u64 limit = heap::limit;
+    heap::limit = heap::used + heap::kept;
+    for (u32 k = 0; k < count; k++) {
+      u32 number = known - 100 + k;
+      const Box<D>& box = doubles ? boxes[number] : floats[number];
+      ring->entries[k * Ring<D>::step] = name(number);
+      std::copy(box.begin(), box.end(), ring->entries + k * Ring<D>::step + 1);
+      f.model.set(name(number), box);
+    }
+    f.space.store.take(*ring, count);
+    heap::limit = limit;
+    f.boxes_unchanged();
+    f.works();
+  }
+}
+
 /// More pairs than there is memory for, then fewer boxes in the same memory.
 template <int D> void check_too_many_pairs() {
   for (u32 t = 0; t < technique_count; t++) {
@@ -272,6 +345,8 @@ template <int D> void list_memory_tests() {
       {"memory that ends in a change leaves all as it was", D, check_changes<D>},
       {"memory that ends in an update ends it with no pairs", D, check_updates<D>},
       {"memory that ends in an update of techniques that keep things ends it with no pairs", D, check_kept_updates<D>},
+      {"with no memory left, queries lose their copy and changes are made", D, check_given_up_copies<D>},
+      {"with no memory left, what may wait in the ring can be taken", D, check_waiting<D>},
       {"memory suffices again with fewer boxes", D, check_too_many_pairs<D>},
       {"memory for what a huge box may meet is there before it is met", D, check_huge_mover<D>},
       {"memory for settled pairs is there once they are settled", D, check_settled_room<D>},

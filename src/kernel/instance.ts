@@ -110,9 +110,9 @@ export class KernelInstance {
   }
 
   /** Flushes a box that cannot wait: adding it may fail, or an open view of the boxes has to show it. */
-  takeNow(): void {
+  takeNow(end: number): void {
     if (!this.exposedIsOpen) this.exposed = undefined;
-    this.ring.flush();
+    this.ring.flush(end);
   }
 
   /** The kernel's array for numbers in and out. */

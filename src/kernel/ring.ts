@@ -46,26 +46,36 @@ export class Ring {
     return page > 0 && this.#instance.words[(page >>> 2) + (id & 4095)]! > 0;
   }
 
-  /** Called after the box of this id was written, if it may not wait without asking, or fills the ring. */
+  /**
+   * Called after the box of this id was written, if it may not wait without asking, or fills the ring. It counts only at
+   * the end of all that can fail, the end of the stack included.
+   */
   settle(id: number): void {
     if (this.numbers === this.#aside) this.#open();
-    const mayWait = id < this.dense || this.#mayWait(id);
-    this.limit = this.dense;
-    if (!mayWait) this.#takeAlone();
-    else if (this.next > this.last) this.flush();
+    const isNext = id === this.dense && this.#room > 0;
+    if (!isNext && id >= this.dense && !(this.#page(id) > 0)) {
+      this.#takeAlone();
+    } else if (this.next >= this.last) {
+      this.flush(this.next + this.step);
+    } else {
+      this.next += this.step;
+      if (isNext) {
+        this.dense++;
+        this.#room--;
+      }
+      this.limit = this.dense;
+    }
   }
 
   /** Flushes the ring and closes it, as the kernel is about to be called. */
   close(): void {
-    if (this.next > ringHead) this.flush();
-    this.numbers = this.#aside;
-    this.next = this.limit = 0;
+    if (this.next > ringHead) this.flush(this.next);
+    this.#shut();
   }
 
   /** Drops the boxes that wait, with the memory they are in. */
   dispose(): void {
-    this.next = ringHead;
-    this.close();
+    this.#shut();
     this.forget();
     this.#entries = new Float64Array();
   }
@@ -76,34 +86,27 @@ export class Ring {
     this.#pages = nowhere;
   }
 
-  /** Lets the kernel take the boxes that wait. */
-  flush(): void {
+  /** Lets the kernel take the boxes up to this index. */
+  flush(end: number): void {
     const instance = this.#instance;
-    const count = (this.next - ringHead) / this.step;
-    this.next = ringHead;
+    this.#shut();
     this.forget();
     try {
-      instance.exports.take(count);
+      instance.exports.take((end - ringHead) / this.step);
     } catch (error) {
       instance.recover(error, 'set');
     }
     const told = this.#view();
-    this.numbers = told;
     // As integers: doubles would be garbage.
-    this.limit = this.dense = told[0]! | 0;
+    this.dense = told[0]! | 0;
     this.#room = told[1]! | 0;
     if (told[2]! > 0) {
       this.#pages = (told[2]! / 4) | 0;
       instance.wordView();
     }
-  }
-
-  /** Whether a box of an id from `dense` on may wait, since taking it cannot fail. */
-  #mayWait(id: number): boolean {
-    if (id !== this.dense || this.#room === 0) return this.#page(id) > 0;
-    this.dense++;
-    this.#room--;
-    return true;
+    this.numbers = told;
+    this.next = ringHead;
+    this.limit = this.dense;
   }
 
   /** The page of an id. If growing memory has detached the view, nothing is found. */
@@ -113,22 +116,26 @@ export class Ring {
 
   /** Flushes the box that was written last, after all others. */
   #takeAlone(): void {
-    const { step } = this;
-    if (this.next > ringHead + step) {
-      this.next -= step;
-      for (let k = 0; k < step; k++) this.#aside[k] = this.numbers[this.next + k]!;
-      this.flush();
+    if (this.next > ringHead) {
+      for (let k = 0; k < this.step; k++) this.#aside[k] = this.numbers[this.next + k]!;
+      this.flush(this.next);
       this.#open();
     }
-    this.#instance.takeNow();
+    this.#instance.takeNow(ringHead + this.step);
   }
 
   /** Moves the box that was written aside into the ring. */
   #open(): void {
-    this.next = 0;
-    this.numbers = this.#view();
-    for (let k = 0; k < this.step; k++) this.numbers[ringHead + k] = this.#aside[k]!;
-    this.next = ringHead + this.step;
+    const ring = this.#view();
+    for (let k = 0; k < this.step; k++) ring[ringHead + k] = this.#aside[k]!;
+    this.numbers = ring;
+    this.next = ringHead;
+  }
+
+  /** Closes the ring. */
+  #shut(): void {
+    this.numbers = this.#aside;
+    this.next = this.limit = 0;
   }
 
   /** The ring in the kernel's memory. */
