@@ -179,7 +179,9 @@ export function badHit(where: string, out: unknown, far: 'distance' | 'time'): n
 /** Checks an object of options: all must be known, except undefined ones. */
 export function checkOptions(where: string, options: unknown, known: readonly string[]): void {
   if (options === undefined) return;
-  if (typeof options !== 'object' || options === null) badValue(where, options, 'an object of options', true);
+  if (typeof options !== 'object' || options === null || Array.isArray(options)) {
+    badValue(where, options, 'an object of options', true);
+  }
   for (const name in options) {
     if (known.includes(name) || (options as Record<string, unknown>)[name] === undefined) continue;
     const [nearest] = [...known].sort((a, b) => edits(name, a) - edits(name, b));

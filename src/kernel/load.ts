@@ -30,7 +30,7 @@ let techniques = inlined;
  * In a page: `init(await WebAssembly.compileStreaming(fetch(address)))`.
  *
  * @param source the bytes of `broadphase/kernel.wasm`, or a module compiled from them
- * @throws TypeError if it is neither; Error if the bytes cannot be compiled
+ * @throws TypeError if it is neither, or not that kernel; Error if the bytes cannot be compiled
  *
  * @example
  * init('kernel.wasm' as never); // throws TypeError: init: got kernel.wasm, expected a WebAssembly.Module
@@ -39,9 +39,12 @@ export function init(source: WebAssembly.Module | BufferSource): void {
   const bytes = bytesOf(source);
   let module: WebAssembly.Module;
   if (isModule(source)) module = checked(source);
-  else if (bytes)
-    module = checked(compile(bytes.slice())); // a shared or resizable buffer cannot be compiled
-  else throw new TypeError(`init: got ${String(source)}, expected a WebAssembly.Module or the bytes of one`);
+  else if (bytes) {
+    const given = bytes.slice(); // a shared or resizable buffer cannot be compiled
+    const start = String.fromCharCode(...given.subarray(0, 4));
+    if (start !== '\0asm') notKernel(`bytes that begin with ${JSON.stringify(start)}`); // a page that says 404
+    module = checked(compile(given));
+  } else throw new TypeError(`init: got ${String(source)}, expected a WebAssembly.Module or the bytes of one`);
   modules = [undefined, undefined, module, module];
   techniques = 0;
 }
@@ -49,7 +52,11 @@ export function init(source: WebAssembly.Module | BufferSource): void {
 /** Checks that a module is a kernel of this library; if not, the previous one stays. */
 function checked(module: WebAssembly.Module): WebAssembly.Module {
   if (WebAssembly.Module.exports(module).some(({ name }) => name === 'open_space')) return module;
-  throw new TypeError("init: got a module that is not a kernel, expected that of 'broadphase/kernel.wasm'");
+  notKernel('a module that is not a kernel');
+}
+
+function notKernel(what: string): never {
+  throw new TypeError(`init: got ${what}, expected that of 'broadphase/kernel.wasm'`);
 }
 
 /** A fresh kernel with memory of its own, for boxes of this many dimensions. */
