@@ -43,6 +43,7 @@ template <int D> class Space {
 
   /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
   SMALL i32 update() {
+    if (searching_) recover();  // the stack ended in the middle of the last one
     store.see_written();
     i32 bad = store.bad_in_place();
     if (bad >= 0) return bad;

@@ -257,6 +257,32 @@ template <int D> void check_waiting() {
   }
 }
 
+/// An update that was cut off, as by the end of the stack, and nobody recovered: the next one finds all pairs.
+template <int D> void check_cut_off() {
+  Random random(28);
+  const Boxes<D> boxes = spread<D>(random, 400, 0, D == 2 ? 200 : 60, 8);
+  u32 failures = 0;
+  for (u32 t = 0; t < technique_count; t++) {
+    testing::Where where("technique " + std::to_string(t));
+    for (u64 room = 64; room < 1 << 17; room *= 2) {
+      Fixture<D> f;
+      f.space.technique = Technique(t);
+      replace(f.space, boxes, true);
+      f.model.replace(boxes);
+      const u64 limit = heap::limit;
+      heap::limit = heap::used + room;
+      try {
+        f.space.update();
+      } catch (const Failure&) {
+        failures++;
+      }
+      heap::limit = limit;
+      f.works();
+    }
+  }
+  CHECK(failures > 4 * technique_count);
+}
+
 /// More pairs than there is memory for, then fewer boxes in the same memory.
 template <int D> void check_too_many_pairs() {
   for (u32 t = 0; t < technique_count; t++) {
@@ -347,6 +373,7 @@ template <int D> void list_memory_tests() {
       {"memory that ends in an update of techniques that keep things ends it with no pairs", D, check_kept_updates<D>},
       {"with no memory left, queries lose their copy and changes are made", D, check_given_up_copies<D>},
       {"with no memory left, what may wait in the ring can be taken", D, check_waiting<D>},
+      {"an update that was cut off is followed by a whole one", D, check_cut_off<D>},
       {"memory suffices again with fewer boxes", D, check_too_many_pairs<D>},
       {"memory for what a huge box may meet is there before it is met", D, check_huge_mover<D>},
       {"memory for settled pairs is there once they are settled", D, check_settled_room<D>},

@@ -171,8 +171,8 @@ export class KernelInstance {
 
   /** After an exception from the kernel: makes the space usable again, and throws an error that says what was wrong. */
   recover(error: unknown, where: string): never {
+    if (!this.isDisposed) this.exports.__stack_pointer.value = this.#stackTop; // the end of the stack is no RuntimeError
     if ((error as Error | undefined)?.name !== 'RuntimeError') throw error;
-    this.kernel.__stack_pointer.value = this.#stackTop;
     if (this.kernel.recover() === 0) throw error;
     throw new RangeError(
       `${where}: out of memory: ${this.io()[0]} more bytes are needed for ${this.size} boxes and their pairs, which is ` +
