@@ -185,18 +185,21 @@ test('what is there after update() has its time, once something has moved', asyn
 });
 
 test('the time of an answer is not that of building its query', async ({ page }) => {
+  // A clock that a cosine, as each ray of a fan needs, moves on by a second.
   await page.addInitScript(() => {
     const { cos } = Math;
+    const now = performance.now.bind(performance);
+    let more = 0;
+    performance.now = () => now() + more;
     Math.cos = (angle) => {
-      const until = performance.now() + 0.1;
-      while (performance.now() < until);
+      more += 1000;
       return cos(angle);
     };
   });
   for (const name of ['fan', 'spaces']) {
     await open(page, name);
     await expect(time(page)).toHaveText(/^\d/);
-    expect(Number(await time(page).textContent()), name).toBeLessThan(3000); // µs; 36 or 90 calls take more
+    expect(Number(await time(page).textContent()), name).toBeLessThan(1e6); // µs
   }
 });
 
