@@ -66,6 +66,10 @@ inline constexpr u32 least = 64;  // bytes of the smallest block; all are aligne
 inline size_t used = 0;  // bytes in blocks that are in use
 inline u64 kept = 0;  // bytes that only their owner may take, who sets this to 0 first
 
+inline bool reach(u64 bytes);
+/// Whether there is memory for `bytes` bytes besides what is kept.
+inline bool can_spare(u64 bytes) { return reach(bytes + kept); }
+
 /// The size class of a request: class c holds blocks of (4 + c % 4) << (c / 4) times `least` / 4 bytes.
 inline u32 size_class(size_t bytes) {
   size_t quarters = (bytes + least / 4 - 1) / (least / 4);
@@ -100,9 +104,6 @@ inline bool reach(u64 bytes) {
   return __builtin_wasm_memory_grow(0, size_t(pages + (have >> 18) + 16)) != size_t(-1) ||
          __builtin_wasm_memory_grow(0, size_t(pages)) != size_t(-1);
 }
-
-/// The same, with what is kept left over.
-inline bool can_spare(u64 bytes) { return reach(bytes + kept); }
 
 /// Frees everything at once, as in a new memory. Returns the largest number of bytes that were ever in use.
 inline size_t forget_all() {
@@ -150,7 +151,7 @@ inline bool extend(void* block, u32 from, u32 to) {
 #else
 inline u64 limit = u64(1) << 32;  // tests lower it to see what happens when memory ends
 inline void* take(u32 c) {
-  if (used + class_bytes(c) + kept > limit) fail(Fault::out_of_memory, f64(class_bytes(c)));
+  if (!can_spare(class_bytes(c))) fail(Fault::out_of_memory, f64(class_bytes(c)));
   used += class_bytes(c);
   return std::malloc(class_bytes(c));
 }
@@ -160,7 +161,6 @@ inline void give(void* block, u32 c) {
 }
 inline bool extend(void*, u32, u32) { return false; }
 inline bool reach(u64 bytes) { return used + bytes <= limit; }
-inline bool can_spare(u64 bytes) { return reach(bytes + kept); }
 inline u64 copied = 0;  // bytes copied because arrays outgrew their blocks: tests read it
 #endif
 

@@ -103,16 +103,10 @@ export class KernelInstance {
     try {
       this.kernel.clear();
     } catch (error) {
-      this.recover(error, 'clear'); // queries still see the boxes, so they are copied first
+      this.recover(error, 'clear'); // with events, deleted boxes are recorded first
     }
     this.ring.forget();
     this.exposed = undefined;
-  }
-
-  /** Flushes a box that cannot wait: adding it may fail, or an open view of the boxes has to show it. */
-  takeNow(end: number): void {
-    if (!this.exposedIsOpen) this.exposed = undefined;
-    this.ring.flush(end);
   }
 
   /** The kernel's array for numbers in and out. */

@@ -114,14 +114,18 @@ export class Ring {
     return this.#instance.words[this.#pages + 2 * (id >>> 12)]!;
   }
 
-  /** Flushes the box that was written last, after all others. */
+  /**
+   * Flushes the box that was written last, after all others: adding it may fail, or an open view of the boxes has to
+   * show it.
+   */
   #takeAlone(): void {
     if (this.next > ringHead) {
       for (let k = 0; k < this.step; k++) this.#aside[k] = this.numbers[this.next + k]!;
       this.flush(this.next);
       this.#open();
     }
-    this.#instance.takeNow(ringHead + this.step);
+    if (!this.#instance.exposedIsOpen) this.#instance.exposed = undefined;
+    this.flush(ringHead + this.step);
   }
 
   /** Moves the box that was written aside into the ring. */
