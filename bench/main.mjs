@@ -8,35 +8,42 @@
 import { execFileSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { parseArgs } from 'node:util';
 import { bundle } from '../scripts/bundle.mjs';
 import { machineName } from './harness/machine.mjs';
+import { kinds, Mistake, parsed } from './harness/options.mjs';
 import { compare } from './report/compare.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
-/** In the order of a run. */
-const kinds = ['objects', 'cold', 'once', 'movers', 'motions', 'queries', 'scenes', 'native'];
 /** Runs only when it is asked for: what it needs is not everywhere. */
 const onRequest = ['native'];
 
-const { values: options, positionals } = parseArgs({
-  allowPositionals: true,
-  options: {
-    ...Object.fromEntries(kinds.map((kind) => [kind, { type: 'boolean', default: false }])),
-    full: { type: 'boolean', default: false },
-    count: { type: 'string' },
-    dimensions: { type: 'string' },
-    set: { type: 'string' },
-    by: { type: 'string' },
-    frames: { type: 'string' },
-    json: { type: 'string' },
-    compare: { type: 'boolean', default: false },
-    figures: { type: 'boolean', default: false },
-  },
-});
 const list = (text) => text?.split(',').filter(Boolean);
 const numbers = (text) => list(text)?.map(Number);
 const read = (file) => JSON.parse(readFileSync(file, 'utf8'));
+
+try {
+  await main(parsed(process.argv.slice(2)));
+} catch (error) {
+  if (!(error instanceof Mistake)) throw error;
+  console.error(`${error.message}. bench/README.md says what there is.`);
+  process.exitCode = 1;
+}
+
+async function main({ options, names }) {
+  if (options.help) console.log(readFileSync(`${here}README.md`, 'utf8').split('\n## ')[0]);
+  else if (options.compare) console.log(compared(names));
+  else if (options.figures) (await harness()).writeDocuments();
+  else await race(options, names);
+}
+
+function compared(places) {
+  if (places.length < 1 || places.length > 2) {
+    throw new Mistake(
+      `--compare: got ${places.length} names, expected what was before (a file of results, branch or commit), and perhaps what came after`,
+    );
+  }
+  return compare(...[places[0], places[1] ?? `${here}results/${machineName}.json`].map(resultsOf));
+}
 
 /** Results from a file, or those of this machine that a branch or commit has. */
 function resultsOf(place) {
@@ -47,35 +54,20 @@ function resultsOf(place) {
       execFileSync('git', ['show', `${place}:${file}`], { cwd: here, maxBuffer: 2 ** 28, stdio: 'pipe' }),
     );
   } catch {
-    console.error(`--compare: ${place} is no file, and no branch or commit with results of this machine.`);
-    process.exit(1);
+    throw new Mistake(`--compare: ${place} is no file, and no branch or commit with results of this machine`);
   }
 }
 
-if (options.compare) {
-  if (positionals.length < 1 || positionals.length > 2) {
-    console.error('--compare takes what was before, a file of results, branch or commit, and perhaps what came after.');
-    process.exit(1);
-  }
-  console.log(compare(...[positionals[0], positionals[1] ?? `${here}results/${machineName}.json`].map(resultsOf)));
-  process.exit();
-}
-
-if (!existsSync(`${here}node_modules`)) {
-  execFileSync('npm', ['ci', '--no-audit', '--no-fund'], { cwd: here, stdio: ['ignore', 'ignore', 'inherit'] });
-}
-await bundle('bench/library.ts', 'build/bench/library.mjs');
-const { run, writeDocuments } = await import('./harness/run.mjs');
-
-const asked = kinds.filter((kind) => options[kind]);
-if (!options.figures) {
+async function race(options, names) {
+  const asked = kinds.filter((kind) => options[kind]);
   const everything = asked.length === 0;
+  const { run } = await harness();
   await run({
     kinds: everything ? kinds.filter((kind) => !onRequest.includes(kind)) : asked,
     everything,
     json: options.json,
     selection: {
-      names: positionals.length > 0 ? positionals.flatMap(list) : undefined,
+      names: names.length > 0 ? names.flatMap(list) : undefined,
       set: options.set,
       counts: numbers(options.count),
       dimensions: numbers(options.dimensions),
@@ -86,4 +78,12 @@ if (!options.figures) {
     },
   });
 }
-if (options.figures) writeDocuments();
+
+/** What runs rows and writes documents, once its packages are installed and the library is bundled for it. */
+async function harness() {
+  if (!existsSync(`${here}node_modules`)) {
+    execFileSync('npm', ['ci', '--no-audit', '--no-fund'], { cwd: here, stdio: ['ignore', 'ignore', 'inherit'] });
+  }
+  await bundle('bench/library.ts', 'build/bench/library.mjs');
+  return import('./harness/run.mjs');
+}

@@ -7,6 +7,7 @@ import { figuresPage, headlineOf, putFigures, worthOf } from '../report/document
 import { headOf, textOf } from '../report/text.mjs';
 import { whole } from '../report/words.mjs';
 import { machine, machineName } from './machine.mjs';
+import { Mistake } from './options.mjs';
 import { race } from './race.mjs';
 
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
@@ -18,8 +19,10 @@ const mostMinutes = 29;
 /**
  * @param order `kinds` to run, and the `selection` of their rows. `everything` goes into results/, or else into `json` if
  *   that is given; without `full` it ends within half an hour
+ * @throws Mistake if there is no such row
  */
 export async function run({ kinds, everything, json, selection }) {
+  const chosen = await choose(kinds, selection);
   const added = !everything && isWhole(kinds, selection) && existsSync(resultsFile);
   const output = json ?? (everything || added ? resultsFile : undefined);
   const fresh = { date: new Date().toISOString(), commit: commit(), machine, versions: versions(), rows: [] };
@@ -28,14 +31,10 @@ export async function run({ kinds, everything, json, selection }) {
     : fresh;
   const end = everything && !selection.full ? performance.now() + mostMinutes * 60_000 : Infinity;
   console.log(`${machine.cpu}, ${machine.cores} cores, ${machine.system}, Node ${machine.node}; milliseconds.`);
-  for (const kind of kinds) {
-    const { title, rows, play = race, prepare } = await import(`../kinds/${kind}.mjs`);
-    const unable = await prepare?.();
+  for (const { kind, title, play, rows, unable } of chosen) {
     if (unable) console.log(`\n${title}: ${unable}`);
-    const chosen = unable ? [] : shortened(await rows(selection), selection.frames);
-    if (!unable && chosen.length === 0) throw new RangeError(`No row of "${kind}" is of that name.`);
-    console.log(`\n${title}: ${chosen.length} rows\n${headOf(kind)}`);
-    for (const row of chosen) {
+    console.log(`\n${title}: ${rows.length} rows\n${headOf(kind)}`);
+    for (const row of rows) {
       if (performance.now() > end) {
         record.cut = `The run ended before this row: ${kind}, ${row.name}, ${whole(row.count)} boxes.`;
         console.log(record.cut);
@@ -49,6 +48,28 @@ export async function run({ kinds, everything, json, selection }) {
   }
   if (output) console.log(`\nWritten to ${output}`);
   if (output === resultsFile) writeDocuments();
+}
+
+/** What will run of each kind. */
+async function choose(kinds, selection) {
+  const chosen = [];
+  const known = new Set();
+  for (const kind of kinds) {
+    const { title, rows, play = race, prepare } = await import(`../kinds/${kind}.mjs`);
+    const unable = await prepare?.();
+    const all = await rows({ ...selection, names: undefined });
+    for (const { name } of all) known.add(name);
+    const wanted = unable ? [] : shortened(await rows(selection), selection.frames);
+    chosen.push({ kind, title, play, rows: wanted, unable });
+  }
+  const asked = kinds.map((kind) => `--${kind}`).join(', ');
+  for (const name of selection.names ?? []) {
+    if (!known.has(name)) throw new Mistake(`${asked}: got the name ${name}, expected one of ${[...known].join(', ')}`);
+  }
+  if (chosen.every(({ rows, unable }) => rows.length === 0 && !unable)) {
+    throw new Mistake(`${asked}: no row has all that was asked for`);
+  }
+  return chosen;
 }
 
 /** Native libraries are raced separately, if they are installed; their rows are added to existing results. */
