@@ -6,7 +6,8 @@
 // tests the candidates.
 //   - Late: a box that has left its region gets another, with the candidates that this adds. They are searched for in
 //     the strips that were swept to make the list, and among the new regions of other late boxes. Its base, which is
-//     its first region, still determines which candidates are listed.
+//     its first region, still determines which candidates are listed. If it is late again, its region also reaches back
+//     to the one before, so that boxes that jitter are soon held.
 //   - At rest: a box that has not moved since the previous list was made is its own region. Pairs of two such boxes are
 //     settled: they are at the head of the list of pairs and are not tested again.
 // Cost: about 1 ns per box and 2 ns per candidate; 0.3 (2D) to 2 µs per late box; 1.5 to two strip sweeps to make the
@@ -24,7 +25,8 @@ template <int D> class CandidateList {
   static constexpr u32 padding = 4;  // vector loads may read this many floats past the last box
   static constexpr Tuning<D> tuning = {};
   // In a tag, below the exclusion bits:
-  enum : u32 { rests = 1, late = 2, fresh = 4, moved = 8 };  // moved: it has a new region
+  // moved: it has a new region; again: for the second time or more
+  enum : u32 { rests = 1, late = 2, fresh = 4, moved = 8, again = 16 };
 
   StripSweep<D>& anew_;
   u32 count_ = 0;  // boxes in the list; 0: there is no list
@@ -35,7 +37,7 @@ template <int D> class CandidateList {
   Buffer<f32> regions_;
   Buffer<f32> origins_;  // boxes as they were when the list was made; without a list, when the samples were taken
   u32 origin_count_ = 0, origin_age_ = 0;  // number of these boxes; updates since
-  Buffer<u32> tags_;  // exclusion bits, and below them `rests`, `late`, `fresh` and `moved`
+  Buffer<u32> tags_;  // exclusion bits, and below them these marks
   Buffer<u32> groups_;  // while `grouped_`: two boxes of one group are not a candidate
   Buffer<u32> late_;  // slots of late boxes; after them, those that a search finds
   Places<D> places_;  // of late boxes
@@ -55,6 +57,7 @@ template <int D> class CandidateList {
   bool is_empty() const { return count_ == 0; }
   u32 count() const { return count_; }
   u32 resting() const { return resting_; }
+  u32 late_count() const { return late_count_; }
   bool rests_at(u32 slot) const { return slot < count_ && (tags_[slot] & rests); }
   /// Whether the box of this slot, one of the list, will stay in its region if it moves by this much.
   bool stays(const Scene<D>& scene, u32 slot, f32x4 move) const {
@@ -377,7 +380,7 @@ template <int D> class CandidateList {
         if (grouped_) groups_[slot] = scene.group_of(slot);
         places_.forget_base(slot);
       }
-      tags_[slot] = (tag & ~rests) | late | moved;
+      tags_[slot] = (tag & ~rests) | late | moved | (tag & moved ? u32(again) : 0);
     }
     auto filter_listed = [&](u32 a, u32 b) { return b < count_ && !((tags_[a] | tags_[b]) & fresh); };
     if (had > count_ || (were & fresh)) {
@@ -419,6 +422,7 @@ template <int D> class CandidateList {
     u32 tag = tags_[slot];
     shifted(scene.box(slot), box);
     widen(box, aside, f32x4{}, larger_one);
+    if (tag & again) reach(larger_one, region(slot), aside);
     const f32* its_base = base(slot);
     u32 found = 0;
     for (u32 k = 0, all = anew_.near(larger_one, near, met_); k < all; k++) {
@@ -437,6 +441,14 @@ template <int D> class CandidateList {
     extra_.count = Pairs::between(extra_.list.data(), out);
     __builtin_memcpy(region(slot), larger_one, width * sizeof(f32));
     places_.put(larger_one, slot);
+  }
+
+  /// Enlarges a region by up to `most` on each side, as far as another one extends beyond it.
+  static void reach(f32* its, const f32* other, f32 most) {
+    for (u32 k = 0; k < width; k++) {
+      f32 by = other[k] - its[k];
+      if (k < D ? by < 0 : by > 0) its[k] += k < D ? larger(by, -most) : smaller(by, most);
+    }
   }
 
   /// Writes a box without the common motion since the list was made.

@@ -3,8 +3,8 @@
 // Idea: candidate_list.hpp has the list; this file decides when one is made, with which margin, and when it ends.
 //   - The margin comes from measured displacements, not predictions: see watch.hpp. If no margin is expected to pay,
 //     strip sweep runs, and a list is tried again after 8 to 512 updates, from new measurements.
-//   - A list ends when late boxes cost more than a new list would, on average, or much more in one update.
-//     Bounded motion never ends one.
+//   - A list ends when late boxes cost more than a new list would, on average, or much more in one update; and when
+//     new measurements promise a better one. Bounded motion never ends one.
 //   - A new list costs 1.5 rebuilds or more. If the old one has lived long, that is divided between two updates: the
 //     last one that the old list answers puts the regions into strips, the next one sweeps most of them. So the new list
 //     is begun when the sample tells that too many boxes will be late in the next update.
@@ -29,6 +29,7 @@ template <int D> class Incremental {
   f64 made_ = 0;  // work per box: of making the list
   f64 growth_ = 1;  // that was expected of the list
   f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // since then: for late boxes; the running mean of that; in all
+  f64 foretold_ = 0, surplus_ = 0;  // the share of boxes expected to be late; by how much that was too high, at most
   u32 pause_ = 0, pauses_ = tuning.watched;
 
  public:
@@ -147,6 +148,7 @@ template <int D> class Incremental {
     age_ = 0;
     ended_ = false;
     lateness_ = smooth_ = life_ = 0;
+    foretold_ = surplus_ = 0;
     return true;
   }
 
@@ -202,9 +204,10 @@ template <int D> class Incremental {
     life_ += late + least;
     age_++;
     if (least > prospect_.fresh || smooth_ * age_ > made_ + lateness_) return true;
+    f64 foretold = foretell(scene);
     if (age_ < tuning.watched) return false;
-    auto stays = [&](u32 slot, f32x4 move) { return list_.stays(scene, slot, move); };
-    if (is_divided() && watch_.leaving(stays) * tuning.late_among(n) > most_lateness()) return true;
+    if (watch_.is_new() && choose(scene).work < smooth_ + least) return true;
+    if (is_divided() && foretold * tuning.late_among(n) > most_lateness()) return true;
     if (list_.tested() == 0) return false;
     // A new list will not test the pairs of boxes that have come to rest.
     f64 more = watch_.newly_resting([&](u32 slot) { return list_.rests_at(slot); });
@@ -212,6 +215,14 @@ template <int D> class Incremental {
     if (!pays && (more < 1 || list_.resting() == rested_)) return false;
     rested_ = list_.resting();
     return true;
+  }
+
+  /// The share of boxes expected to be late in the next update, less the largest error so far: boxes that jitter turn
+  /// back.
+  f64 foretell(const Scene<D>& scene) {
+    surplus_ = larger(surplus_, foretold_ - f64(list_.late_count()) / scene.count);
+    foretold_ = watch_.leaving([&](u32 slot, f32x4 move) { return list_.stays(scene, slot, move); });
+    return foretold_ - surplus_;
   }
 
   /// Whether the next list will be made in two updates. Among few boxes, most of the time goes into choosing a margin.

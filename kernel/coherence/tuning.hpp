@@ -6,9 +6,9 @@
 /// Work is counted in tests of strip sweep: one box against another in its inner loop. Checking whether a box is in its
 /// region counts as one too.
 template <int D> struct Tuning {
-  f64 entry = D == 2 ? 16 : 20;      // tests: to enter a box into a strip, in order
-  f64 candidate = D == 2 ? 2 : 3;    // tests: to test a candidate
-  f64 planning = 3000;               // tests: to choose a margin
+  f64 entry = D == 2 ? 16 : 20;  // tests: to enter a box into a strip, in order
+  f64 candidate = D == 2 ? 2 : 3;  // tests: to test a candidate
+  f64 planning = 3000;  // tests: to choose a margin
   f64 late = D == 2 ? 350 : 500;  // tests: to give a box that has left its region a new one
   f64 far = D == 2 ? 1e9 : 5e4;  // boxes: among so many, that takes twice as long, since caches do not hold them all
   f64 late_margin = 0.5;  // of a box's size: the margin of that new region, or the list's if larger
