@@ -2,7 +2,7 @@
 import type { Dimensions } from './dimensions.ts';
 import { badBox, badValue, checkBoxCount, checkNumberArray, isBoxCount } from './errors.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-import { isFloat32Array } from './values.ts';
+import { isFloat32Array, isFloat64Array } from './values.ts';
 
 /** Boxes for {@link BroadPhase.setAll}: interleaved, minima then maxima, box after box. */
 export type Boxes = Float32Array | Float64Array | readonly number[];
@@ -68,9 +68,9 @@ export function checkExposed(instance: KernelInstance, where: string): void {
 
 /** Writes the numbers of a box to an array; false if there is no box of this id. */
 export function readBox(instance: KernelInstance, id: number, out: Float32Array | Float64Array | number[]): boolean {
-  const fixed = ArrayBuffer.isView(out);
-  if (!(fixed || Array.isArray(out)) || (fixed && !(out.length >= instance.width))) {
-    badValue('get: out', out, `an array, or a typed array of ${instance.width} numbers`, true);
+  const fits = (isFloat64Array(out) || isFloat32Array(out)) && out.length >= instance.width;
+  if (!fits && !Array.isArray(out)) {
+    badValue('get: out', out, `an array, or a Float64Array or Float32Array of ${instance.width} numbers`, true);
   }
   if (instance.kernel.get(id) === 0) return false;
   const io = instance.io();

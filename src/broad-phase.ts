@@ -69,7 +69,7 @@ type Inspect = (value: unknown, options: unknown) => string;
  * update, or it throws. Everything is decided in double precision. Options are read at each call; to make no garbage,
  * reuse the options object with an `out` in it, with roughly constant numbers of answers. All queries throw RangeError
  * for NaN, a minimum above its maximum, infinite points, motions and directions, negative distances, and masks and ids
- * out of range; TypeError for values other than numbers and for a wrong number of them.
+ * out of range; TypeError for values other than numbers and for a wrong number of arguments.
  *
  * @example
  * const space = new BroadPhase();
@@ -187,10 +187,10 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
       !isId(id) ||
       !(areNumbers(a, b, c, d, e, f) && (flat || areNumbers(g, h, i))) ||
       !(flat ? a <= c && b <= d : a <= d && b <= e && c <= f) ||
-      // x - x is NaN if x is infinite.
-      (flat ? e - e + (f - f) : g! - g! + (h! - h!) + (i! - i!)) !== 0
+      (flat ? e - e + (f - f) : g! - g! + (h! - h!) + (i! - i!)) !== 0 // x - x is NaN if x is infinite
     ) {
-      badSwept(id, [a, b, c, d, e, f, g, h, i], this.dimensions);
+      // biome-ignore lint/complexity/noArguments: the same
+      badSwept(arguments, this.dimensions);
     }
     const space = this as BroadPhase<Dimensions>;
     if (flat) space.set(id, a + Math.min(e, 0), b + Math.min(f, 0), c + Math.max(e, 0), d + Math.max(f, 0));
@@ -249,7 +249,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   /**
    * The numbers that box `id` was given, or `undefined` if there is no such box.
    * @param id an integer from 0 to 2^24 - 1
-   * @throws RangeError for a bad id
+   * @throws RangeError or TypeError for a bad id
    *
    * @example
    * const space = new BroadPhase();
@@ -297,8 +297,8 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   filterOf(id: number): rules.Filter | undefined {
     return rules.filterOf(this.#instance, id);
   }
-  setStatic(id: number, isStatic = true): this {
-    rules.setStatic(this.#instance, id, isStatic);
+  setStatic(id: number, ...given: [isStatic?: boolean]): this {
+    rules.setStatic(this.#instance, id, given.length === 0 || given[0]!);
     return this;
   }
   isStatic(id: number): boolean {
@@ -353,7 +353,8 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     return places.collisionsOf(this.#instance, id, out);
   }
   pairsWith(other: BroadPhase<D>): Uint32Array {
-    if (!(Object(other) === other && #instance in other)) badValue('pairsWith', other, 'another BroadPhase', true);
+    if (!(Object(other) === other && #instance in other))
+      badValue('pairsWith', other, 'another BroadPhase of the same entry point', true);
     return pairsWith(this.#instance, other.#instance, this.#kept);
   }
 
@@ -403,22 +404,22 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   nearest(x: number, y: number, z: number, k?: unknown, options?: NearestOptions): number[] {
     return ahead.nearest(this.#instance, x, y, z, k, options);
   }
-  queryBoxes(boxes: ArrayLike<number>, options?: ManyBoxOptions): ManyIds {
+  queryBoxes(boxes: Boxes, options?: ManyBoxOptions): ManyIds {
     return askMany(this.#instance, 'queryBoxes', boxes, options, 1);
   }
-  queryPoints(points: ArrayLike<number>, options?: ManyAreaOptions): ManyIds {
+  queryPoints(points: Boxes, options?: ManyAreaOptions): ManyIds {
     return askMany(this.#instance, 'queryPoints', points, options, 1);
   }
-  queryCircles(circles: ArrayLike<number>, options?: ManyAreaOptions): ManyIds {
+  queryCircles(circles: Boxes, options?: ManyAreaOptions): ManyIds {
     return askMany(this.#instance, 'queryCircles', circles, options, 1);
   }
-  rayCasts(rays: ArrayLike<number>, options?: ManyFarOptions<ManyRayHits>): ManyRayHits {
+  rayCasts(rays: Boxes, options?: ManyFarOptions<ManyRayHits>): ManyRayHits {
     return askMany(this.#instance, 'rayCasts', rays, options, 1) as ManyRayHits;
   }
-  sweeps(boxes: ArrayLike<number>, options?: ManyOptions<ManySweepHits>): ManySweepHits {
+  sweeps(boxes: Boxes, options?: ManyOptions<ManySweepHits>): ManySweepHits {
     return askMany(this.#instance, 'sweeps', boxes, options, 1) as ManySweepHits;
   }
-  nearests(points: ArrayLike<number>, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest {
+  nearests(points: Boxes, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest {
     return askMany(this.#instance, 'nearests', points, options, k) as ManyNearest;
   }
   nearestsOfAll(k: number, options?: Omit<ManyFarOptions<ManyNearestOfAll>, 'ignoreEach'>): ManyNearestOfAll {
@@ -432,7 +433,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     return techniques[this.#instance.technique]!;
   }
   set technique(name: LeanTechnique) {
-    this.#instance.setTechnique(checkTechnique(name));
+    this.#instance.setTechnique(checkTechnique(name, this.#instance.exports.techniques())); // `init` changes later spaces
   }
   structure(): Float32Array {
     return structure(this.#instance);

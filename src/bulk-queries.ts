@@ -226,7 +226,7 @@ function badNumbers(where: string, numbers: ArrayLike<number>, k: number, names:
   const given = Array.prototype.slice.call(numbers, k * names.length, (k + 1) * names.length);
   const what = `${where}: query ${k}`;
   const round = names.at(-1) === 'radius';
-  if (round && given.every(isNumber)) checkDistance(`${what}: radius`, given.at(-1)!);
+  if (round && given.slice(0, -1).every(isNumber)) checkDistance(`${what}: radius`, given.at(-1)!);
   badQuery(what, given, round ? names.slice(0, -1) : names, number);
 }
 

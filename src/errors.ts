@@ -23,12 +23,19 @@ export const sweep2 = [...corners[2], 'dx', 'dy'];
 export const sweep3 = [...corners[3], 'dx', 'dy', 'dz'];
 
 /** A value as a person would write it. */
-export function show(value: unknown): string {
-  if (typeof value === 'string') return JSON.stringify(value);
+export function show(value: unknown, depth = 0): string {
+  if (typeof value === 'string') return JSON.stringify(value.length > 80 ? `${value.slice(0, 80)}…` : value);
   if (typeof value === 'bigint') return `${value}n`;
-  if (Array.isArray(value)) return `[${value.slice(0, 8).map(show).join(', ')}${value.length > 8 ? ', …' : ''}]`;
-  if (typeof value === 'object' && value !== null) return Object.prototype.toString.call(value);
-  return Object.is(value, -0) ? '-0' : String(value);
+  try {
+    if (Array.isArray(value) && depth < 2) {
+      const shown = value.slice(0, 8).map((each) => show(each, depth + 1));
+      return `[${shown.join(', ')}${value.length > 8 ? ', …' : ''}]`;
+    }
+    if (typeof value === 'object' && value !== null) return Object.prototype.toString.call(value);
+    return Object.is(value, -0) ? '-0' : String(value);
+  } catch {
+    return `a hostile ${typeof value}`; // such as a revoked Proxy
+  }
 }
 
 /** Whether it is an integer in range. */
@@ -80,7 +87,7 @@ function badCount(
   names: readonly string[] = corners[dimensions],
 ): never {
   throw new TypeError(
-    `${where}: got ${got} arguments for box ${id}, expected ${1 + 2 * dimensions} in ${dimensions}D: id, ${names.join(', ')}`,
+    `${where}: got ${got} arguments for box ${id}, expected ${1 + names.length} in ${dimensions}D: id, ${names.join(', ')}`,
   );
 }
 
@@ -150,8 +157,8 @@ export function checkBox(where: string, id: number, box: readonly number[], dime
 export function checkWrap(wrap: readonly number[], dimensions: 2 | 3): void {
   const expected = `${dimensions} numbers above 0 and no more than 1e300`;
   if (!Array.isArray(wrap)) badValue('wrap', wrap, expected, true);
-  const good =
-    wrap.length === dimensions && wrap.every((size) => typeof size === 'number' && size > 0 && size <= 1e300);
+  let good = wrap.length === dimensions;
+  for (const size of wrap) good &&= typeof size === 'number' && size > 0 && size <= 1e300; // also visits holes
   if (!good) badValue('wrap', wrap, expected);
 }
 
@@ -267,7 +274,10 @@ export function badSet(
 }
 
 /** Finds what is wrong with the arguments of `setSwept`. */
-export function badSwept(id: unknown, given: readonly unknown[], dimensions: 2 | 3): never {
+export function badSwept(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
+  const [id, ...box] = Array.from(given);
   if (!isId(id)) badId('setSwept', id);
-  badQuery('setSwept', given, dimensions === 2 ? sweep2 : sweep3, 'a number');
+  const names = dimensions === 2 ? sweep2 : sweep3;
+  if (given.length !== 1 + names.length) badCount('setSwept', id, given.length, dimensions, names);
+  badQuery('setSwept', box, names, 'a number');
 }

@@ -82,7 +82,7 @@ export function rayCastAll(
   for (let k = 0; k < out.length; k++) if (!isHit(out[k])) badHit(`rayCastAll: out[${k}]`, out[k], 'distance');
   const count = order(instance, 'rayCastAll', orderRay, options, everything);
   for (let k = 0; k < count; k++) {
-    const hit = out[k] ?? spare.pop() ?? { id: 0, distance: 0, normal: [] };
+    const hit = out[k] ?? (options?.out && spare.pop()) ?? { id: 0, distance: 0, normal: [] };
     hit.distance = instance.doubleView()[readHit(instance, k, hit)]!;
     out[k] = hit;
   }
@@ -177,7 +177,9 @@ export function nearest(
   const out = options?.out ?? [];
   checkOut('nearest', out);
   const distances = options?.distances;
-  if (distances !== undefined && !Array.isArray(distances)) badValue('nearest: distances', distances, 'an array', true);
+  if (distances !== undefined && (!Array.isArray(distances) || distances === out)) {
+    badValue('nearest: distances', distances, 'an array other than out', true);
+  }
   const count = order(instance, 'nearest', orderNear, options, wanted);
   const words = instance.wordView();
   const first = instance.kernel.hits_address();

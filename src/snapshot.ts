@@ -68,7 +68,8 @@ function placeOf(instance: KernelInstance): number {
 /** What was given to `restore`, as bytes. */
 function snapshotBytes(value: unknown): Uint8Array {
   return (
-    bytesOf(value) ?? badValue('restore', value, 'the bytes of snapshot(), as a Uint8Array or an ArrayBuffer', true)
+    bytesOf(value, 'restore') ??
+    badValue('restore', value, 'the bytes of snapshot(), as a Uint8Array or an ArrayBuffer', true)
   );
 }
 

@@ -9,15 +9,18 @@ export { techniques };
 /** The name of a technique. */
 export type TechniqueName = (typeof techniques)[number];
 
-export const isBuilt = (name: TechniqueName): boolean => (builtTechniques() & (1 << techniques.indexOf(name))) !== 0;
+/** Whether it is one of the `built`, a bit for each. */
+export const isBuilt = (name: TechniqueName, built = builtTechniques()): boolean =>
+  (built & (1 << techniques.indexOf(name))) !== 0;
 
-/** Those of this build, in order. */
-export const builtNames = (): TechniqueName[] => techniques.filter(isBuilt);
+/** Those that are `built`, in order. */
+export const builtNames = (built = builtTechniques()): TechniqueName[] =>
+  techniques.filter((name) => isBuilt(name, built));
 
-/** The kernel's number of a technique that this build has. */
-export function checkTechnique(name: unknown): number {
+/** The kernel's number of a technique that is `built`. */
+export function checkTechnique(name: unknown, built = builtTechniques()): number {
   const technique = techniques.indexOf(name as TechniqueName);
-  if (technique >= 0 && isBuilt(techniques[technique]!)) return technique;
+  if (technique >= 0 && isBuilt(techniques[technique]!, built)) return technique;
   const more = technique < 0 ? '' : ": the others are in 'broadphase/all'";
-  badValue('technique', name, `one of ${builtNames().join(', ')}${more}`, typeof name !== 'string');
+  badValue('technique', name, `one of ${builtNames(built).join(', ')}${more}`, typeof name !== 'string');
 }

@@ -21,10 +21,17 @@ export function isAttached(numbers: ArrayBufferView): boolean {
 
 export const isModule = (value: unknown): value is WebAssembly.Module => tagOf(value) === 'WebAssembly.Module';
 
-/** Any view of bytes, or all of a buffer, as bytes. Undefined for anything else. */
-export function bytesOf(value: unknown): Uint8Array | undefined {
-  if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
-  if (/^(Shared)?ArrayBuffer$/.test(tagOf(value))) return new Uint8Array(value as ArrayBuffer);
+/**
+ * Any view of bytes, or all of a buffer, as bytes. Undefined for anything else.
+ * @throws TypeError if its memory was transferred; `where` names the function
+ */
+export function bytesOf(value: unknown, where = 'a recording'): Uint8Array | undefined {
+  try {
+    if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
+    if (/^(Shared)?ArrayBuffer$/.test(tagOf(value))) return new Uint8Array(value as ArrayBuffer);
+  } catch (cause) {
+    throw new TypeError(`${where}: got detached memory: it was transferred, or has grown`, { cause });
+  }
   return undefined;
 }
 

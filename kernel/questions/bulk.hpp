@@ -58,6 +58,8 @@ template <int D> class Bulk {
   SMALL void answer(const Index<D>& index, Question<D> asked, Asks kind, u32 count, u32 most, Hits& best) {
     offsets_.reserve(u64(count) + 1)[0] = 0;
     looks = 0;
+    for (f64& by : asked.along) by = 0;  // left by an earlier query
+    asked.measure_way(false);
     if (moves(kind) && !index.world()) return cast_all(index, asked, kind, count, best);
     bool may = !index.world() && (kind == Asks::box || kind == Asks::point || kind == Asks::meeting), together = false;
     f64 limit = asked.limit;

@@ -21,7 +21,7 @@ export interface Contents<D extends Dimensions> {
    *
    * @param box an id, which is an integer from 0 to 2^24 - 1: ids from 0 on without gaps are best; the minima, in the
    *   units of your world: any numbers but NaN, infinite ones too; then the maxima, not below the minima
-   * @throws RangeError for a bad id, for NaN, and for a minimum above its maximum; TypeError for values other than
+   * @throws RangeError or TypeError for a bad id, for NaN, and for a minimum above its maximum; TypeError for values other than
    *   numbers and for a wrong number of them. The space is as before.
    *
    * @example
@@ -106,7 +106,7 @@ export interface Contents<D extends Dimensions> {
    * checks what was written, and throws if the array was detached and not requested again since.
    *
    * @param count how many boxes, 0 … 2^24
-   * @throws RangeError for a bad count
+   * @throws RangeError or TypeError for a bad count
    *
    * @example
    * const space = new BroadPhase();
@@ -125,7 +125,7 @@ export interface Contents<D extends Dimensions> {
    * Removes box `id`, with its filter.
    * @param id an integer from 0 to 2^24 - 1, in use or not
    * @returns whether there was one
-   * @throws RangeError for a bad id
+   * @throws RangeError or TypeError for a bad id
    *
    * @example
    * const space = new BroadPhase();
@@ -148,7 +148,7 @@ export interface Contents<D extends Dimensions> {
   /**
    * Whether there is a box `id`.
    * @param id an integer from 0 to 2^24 - 1
-   * @throws RangeError for a bad id
+   * @throws RangeError or TypeError for a bad id
    *
    * @example
    * new BroadPhase().has(7); // → false

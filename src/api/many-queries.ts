@@ -1,4 +1,5 @@
 // Many queries in one call: all their numbers in, all their answers out.
+import type { Boxes } from '../boxes.ts';
 import type {
   ManyAreaOptions,
   ManyBoxOptions,
@@ -29,7 +30,7 @@ export interface ManyQueries {
    * offsets; // → Uint32Array [0, 2, 2, 3]
    * ids[2]; // → 1
    */
-  queryBoxes(boxes: ArrayLike<number>, options?: ManyBoxOptions): ManyIds;
+  queryBoxes(boxes: Boxes, options?: ManyBoxOptions): ManyIds;
 
   /**
    * The boxes at each of many points: as {@link BroadPhase.queryBoxes}.
@@ -38,7 +39,7 @@ export interface ManyQueries {
    * const space = new BroadPhase().set(7, 0, 0, 10, 10).update();
    * space.queryPoints([10, 3, 11, 3]).offsets; // → Uint32Array [0, 1, 1]
    */
-  queryPoints(points: ArrayLike<number>, options?: ManyAreaOptions): ManyIds;
+  queryPoints(points: Boxes, options?: ManyAreaOptions): ManyIds;
 
   /**
    * The boxes in each of many circles, in 3D of many spheres: for each its centre, then its radius. As {@link
@@ -48,7 +49,7 @@ export interface ManyQueries {
    * const space = new BroadPhase().set(7, 0, 0, 10, 10).update();
    * space.queryCircles([13, 14, 5, 14, 14, 5]).offsets; // → Uint32Array [0, 1, 1]
    */
-  queryCircles(circles: ArrayLike<number>, options?: ManyAreaOptions): ManyIds;
+  queryCircles(circles: Boxes, options?: ManyAreaOptions): ManyIds;
 
   /**
    * The first box that each of many rays hits, as `rayCast`: at most one answer per ray. As {@link
@@ -61,7 +62,7 @@ export interface ManyQueries {
    * hits.distances; // → Float64Array [10]
    * hits.normals; // → Int8Array [-1, 0]
    */
-  rayCasts(rays: ArrayLike<number>, options?: ManyFarOptions<ManyRayHits>): ManyRayHits;
+  rayCasts(rays: Boxes, options?: ManyFarOptions<ManyRayHits>): ManyRayHits;
 
   /**
    * The first box that each of many moving boxes hits, as `sweep`: for each its box, then its motion. As {@link
@@ -71,7 +72,7 @@ export interface ManyQueries {
    * const space = new BroadPhase().set(7, 21, -5, 22, 5).update();
    * space.sweeps([0, 0, 1, 1, 40, 0]).times; // → Float64Array [0.5]
    */
-  sweeps(boxes: ArrayLike<number>, options?: ManyOptions<ManySweepHits>): ManySweepHits;
+  sweeps(boxes: Boxes, options?: ManyOptions<ManySweepHits>): ManySweepHits;
 
   /**
    * The `k` boxes nearest to each of many points, the nearest first, as `nearest`. As {@link BroadPhase.queryBoxes}, with
@@ -83,12 +84,13 @@ export interface ManyQueries {
    * ids; // → Uint32Array [9, 7]
    * distances; // → Float64Array [2, 0]
    */
-  nearests(points: ArrayLike<number>, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest;
+  nearests(points: Boxes, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest;
 
   /**
    * The `k` boxes nearest to each box, itself left out, by the distance between boxes, then by id: those of box `of[n]` are
    * `ids[offsets[n]]` up to `ids[offsets[n + 1] - 1]`. Their order depends on earlier calls: it is ascending if ids came
-   * in ascending order and none was deleted. A box that is off has no answers.
+   * in ascending order and none was deleted. A box that is off has no answers. In an `out` that
+   * is longer than needed, only the first places are written: one in `of` for each box of the last update.
    *
    * @param k an integer from 1 on, or Infinity for all
    * @throws as {@link BroadPhase.nearests}

@@ -85,7 +85,7 @@ export interface Pairs<D extends Dimensions> {
   /**
    * Whether boxes `a` and `b` are a pair of the last update, in constant time after the first query.
    * @param a an integer from 0 to 2^24 - 1, in use or not; so is `b`
-   * @throws RangeError for a bad id
+   * @throws RangeError or TypeError for a bad id
    *
    * @example
    * const space = new BroadPhase();
@@ -101,7 +101,7 @@ export interface Pairs<D extends Dimensions> {
    *
    * @param id an integer from 0 to 2^24 - 1, in use or not
    * @param out filled and returned, if given; otherwise a new array
-   * @throws RangeError for a bad id; TypeError if `out` is not an array
+   * @throws RangeError or TypeError for a bad id; TypeError if `out` is not an array
    *
    * @example
    * const space = new BroadPhase();

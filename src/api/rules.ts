@@ -13,7 +13,7 @@ export interface Rules {
    * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param layer what the box is: an integer from 0 to 2^32 - 1, usually one bit
    * @param mask what it meets: the same, usually a few bits. Write `~bits >>> 0` for all but a few
-   * @throws RangeError for a bad id or one without a box, and for more than 32 bits; TypeError for values other than
+   * @throws RangeError or TypeError for a bad id or one without a box, and for more than 32 bits; TypeError for values other than
    *   numbers
    *
    * @example
@@ -31,7 +31,7 @@ export interface Rules {
    * The layer and the mask that `setFilter` gave box `id`: all bits set if it has no filter, `undefined` if there is no
    * such box.
    * @param id an integer from 0 to 2^24 - 1
-   * @throws RangeError for a bad id
+   * @throws RangeError or TypeError for a bad id
    *
    * @example
    * const space = new BroadPhase().set(7, 0, 0, 1, 1).setFilter(7, 1, 6);
@@ -46,7 +46,7 @@ export interface Rules {
    *
    * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param isStatic default true
-   * @throws RangeError for a bad id or one without a box; TypeError for anything but a boolean
+   * @throws RangeError or TypeError for a bad id or one without a box; TypeError for anything but a boolean
    *
    * @example
    * const space = new BroadPhase();
@@ -59,7 +59,7 @@ export interface Rules {
   /**
    * Whether box `id` is static, as set by `setStatic`; false if there is no such box.
    * @param id an integer from 0 to 2^24 - 1
-   * @throws RangeError for a bad id
+   * @throws RangeError or TypeError for a bad id
    *
    * @example
    * new BroadPhase().set(7, 0, 0, 1, 1).setStatic(7).isStatic(7); // → true
@@ -73,7 +73,7 @@ export interface Rules {
    *
    * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param enabled whether it takes part
-   * @throws RangeError for a bad id or one without a box; TypeError for anything but a boolean
+   * @throws RangeError or TypeError for a bad id or one without a box; TypeError for anything but a boolean
    *
    * @example
    * const space = new BroadPhase();
@@ -86,7 +86,7 @@ export interface Rules {
   /**
    * Whether box `id` is on, as set by `setEnabled`; false if there is no such box.
    * @param id an integer from 0 to 2^24 - 1
-   * @throws RangeError for a bad id
+   * @throws RangeError or TypeError for a bad id
    *
    * @example
    * new BroadPhase().set(7, 0, 0, 1, 1).setEnabled(7, false).isEnabled(7); // → false
@@ -100,7 +100,7 @@ export interface Rules {
    *
    * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param group an integer from 0 to 2^32 - 1
-   * @throws RangeError for a bad id or one without a box, and for more than 32 bits; TypeError for values other than
+   * @throws RangeError or TypeError for a bad id or one without a box, and for more than 32 bits; TypeError for values other than
    *   numbers
    *
    * @example
@@ -114,7 +114,7 @@ export interface Rules {
   /**
    * The group of box `id`: 0 if it is in none, `undefined` if there is no such box.
    * @param id an integer from 0 to 2^24 - 1
-   * @throws RangeError for a bad id
+   * @throws RangeError or TypeError for a bad id
    *
    * @example
    * new BroadPhase().set(7, 0, 0, 1, 1).setGroup(7, 3).groupOf(7); // → 3
@@ -129,7 +129,7 @@ export interface Rules {
    * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param distance in units of the world: finite, at least 0. The sides of the enlarged box are sums, each rounded
    *   like any sum of doubles
-   * @throws RangeError for a bad id or one without a box, and for a bad distance; TypeError for values other than
+   * @throws RangeError or TypeError for a bad id or one without a box, and for a bad distance; TypeError for values other than
    *   numbers
    *
    * @example
@@ -142,7 +142,7 @@ export interface Rules {
   /**
    * How far box `id` reaches: 0 unless `setReach` was called, `undefined` if there is no such box.
    * @param id an integer from 0 to 2^24 - 1
-   * @throws RangeError for a bad id
+   * @throws RangeError or TypeError for a bad id
    *
    * @example
    * new BroadPhase().set(7, 0, 0, 1, 1).setReach(7, 0.5).reachOf(7); // → 0.5

@@ -43,8 +43,8 @@ export interface Upkeep {
    * The contents of the space as bytes, to go back to with `restore`, or to save: boxes as they were given, ids, their
    * order, filters, groups, reaches, which boxes are static or off, and the technique. With `events: true` they include the
    * pairs of the last update, and those that began and ended with it. Constructor options are not included. A box takes
-   * 16 bytes in 2D and 24 in 3D, or twice that if any box does not fit float32. Add 4 if ids have gaps, 4 if a box was
-   * deleted before a later one, up to 9 with filters, 1 with boxes that are static or off, 4 with groups, 8 with reaches.
+   * 16 bytes in 2D and 24 in 3D, or twice that if any box does not fit float32. Add 4 if ids have gaps or did not
+   * come in ascending order, 4 if a box was deleted before a later one, up to 9 with filters, 1 with boxes that are static or off, 4 with groups, 8 with reaches.
    * A pair takes 8.
    *
    * From the first call of this or `restore` on, the order of the pairs depends on the contents of the space alone, so

@@ -28,7 +28,10 @@ export function boxesInCells(space: BroadPhase<2 | 3>): Uint32Array {
     if (k % width < dimensions) sizes[Math.floor(k / width)] *= cells[k + dimensions] - cells[k];
   }
 
-  const Space = space.constructor as new (options: { dimensions: 2 | 3 }) => BroadPhase<2 | 3>;
+  // Not the constructor of a class that extends it, which may expect anything.
+  let made: object = space.constructor;
+  while (!Object.hasOwn(made, 'techniques')) made = Object.getPrototypeOf(made);
+  const Space = made as new (options: { dimensions: 2 | 3 }) => BroadPhase<2 | 3>;
   const search = new Space({ dimensions }).setAll(cells).update();
   const corners = new Float64Array(space.size * width);
   let filled = 0;
