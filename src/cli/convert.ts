@@ -13,7 +13,7 @@ export const convertCommand: Command = {
   async run(input, terminal) {
     const source = await openSource(input, terminal);
     const [from, path] = input.operands;
-    await checkWritable('<file>', path, from);
+    await checkWritable('<file>', path, [from]);
     const size = await writeFrames(path, source);
     const { dimensions, frames } = source;
     if (input.has('json')) terminal.out(`${JSON.stringify({ path, dimensions, frames, bytes: size })}\n`);

@@ -52,12 +52,19 @@ export async function write(path: string, data: Uint8Array | string): Promise<vo
 
 /**
  * Checks, before much work is done, whether its result can be written.
- * @throws FileError where it cannot; UsageError where the file is the one that is read
+ * @param read the files that are read: the result is none of them, by any name or link
+ * @param what they are, in words
+ * @throws FileError where it cannot; UsageError where the file is one that is read
  */
-export async function checkWritable(option: string, path: string, read: string): Promise<void> {
-  const [there, source] = await Promise.all([path, read].map((each) => stat(each).catch(() => undefined)));
-  if (there && source && there.dev === source.dev && there.ino === source.ino) {
-    throw new UsageError(`${option} is ${path}, which is the trace itself; expected another file`);
+export async function checkWritable(
+  option: string,
+  path: string,
+  read: readonly string[],
+  what = 'the trace itself',
+): Promise<void> {
+  const [there, ...sources] = await Promise.all([path, ...read].map((each) => stat(each).catch(() => undefined)));
+  if (there && sources.some((source) => source && there.dev === source.dev && there.ino === source.ino)) {
+    throw new UsageError(`${option} is ${path}, which is ${what}; expected another file`);
   }
   try {
     await (await open(path, 'a')).close();

@@ -25,7 +25,7 @@ export const tuneCommand: Command = {
     const [path] = input.operands;
     if (isEmpty(source)) throw new TraceError(`${path}: no frame has boxes to tune on`, -1, 0);
     const report = input.text('report');
-    if (report !== undefined) await checkWritable('--report', report, path);
+    if (report !== undefined) await checkWritable('--report', report, [path]);
     const progress = progressBar(terminal);
     const tuned = tune(source, {
       techniques,

@@ -1,0 +1,54 @@
+// What a stranger found in the command: inputs overwritten, other files read, and messages that mislead.
+import { linkSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { afterAll, describe, expect, test } from 'vitest';
+import { main } from '../../src/cli/main.ts';
+
+const folder = mkdtempSync(join(tmpdir(), 'broadphase-'));
+const file = (name: string) => join(folder, name);
+afterAll(() => rmSync(folder, { recursive: true }));
+
+async function run(...argv: string[]) {
+  let [out, err] = ['', ''];
+  const code = await main(argv, {
+    out: (text) => {
+      out += text;
+    },
+    err: (text) => {
+      err += text;
+    },
+    interactive: false,
+    columns: 80,
+    tableColumns: Infinity,
+    colour: false,
+  });
+  return { code, out, err };
+}
+
+describe('join', () => {
+  test('does not write over an input, whatever its name', async () => {
+    const rows = 'minX,minY,maxX,maxY\n0,0,1,1\n';
+    for (const name of ['boxes.csv', 'other.csv']) writeFileSync(file(name), rows);
+    symlinkSync(file('boxes.csv'), file('soft.csv'));
+    linkSync(file('boxes.csv'), file('hard.csv'));
+    for (const result of ['boxes.csv', './boxes.csv', 'soft.csv', 'hard.csv']) {
+      for (const inputs of [['boxes.csv'], ['other.csv', '--blue', `${folder}/boxes.csv`]]) {
+        const [first, ...blue] = inputs;
+        const given = [file(first), `${folder}/${result}`, ...blue];
+        expect(await run('join', ...given), given.join(' ')).toMatchObject({
+          code: 2,
+          err: expect.stringContaining('which is an input; expected another file'),
+        });
+      }
+    }
+    expect(readFileSync(file('boxes.csv'), 'utf8')).toBe(rows);
+  });
+
+  test('says where its result cannot be written, before the work', async () => {
+    writeFileSync(file('few.csv'), 'minX,minY,maxX,maxY\n0,0,1,1\n');
+    const { code, err } = await run('join', file('few.csv'), file('no/such/pairs.parquet'));
+    expect(code).toBe(4);
+    expect(err).toContain(`cannot write ${file('no/such/pairs.parquet')}: ENOENT`);
+  });
+});
