@@ -3,6 +3,7 @@ import { linkSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { afterAll, describe, expect, test } from 'vitest';
+import { quotedPath } from '../../src/cli/join/duckdb.ts';
 import { main } from '../../src/cli/main.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'broadphase-'));
@@ -43,6 +44,12 @@ describe('join', () => {
       }
     }
     expect(readFileSync(file('boxes.csv'), 'utf8')).toBe(rows);
+  });
+
+  test('reads the file of that name, though it looks like a pattern', () => {
+    // What DuckDB makes of it is in examples/test/join.test.mjs.
+    expect(quotedPath('a[1]*?{b}].csv')).toBe("'a[[]1][*][?]{b}].csv'");
+    expect(quotedPath("it's.csv")).toBe("'it''s.csv'");
   });
 
   test('says where its result cannot be written, before the work', async () => {
