@@ -3,8 +3,12 @@ import { linkSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { afterAll, describe, expect, test } from 'vitest';
+import type { Terminal } from '../../src/cli/arguments.ts';
 import { quotedPath } from '../../src/cli/join/duckdb.ts';
 import { main } from '../../src/cli/main.ts';
+import { linePlot } from '../../src/cli/plots.ts';
+import { reportOf } from '../../src/cli/report.ts';
+import { table } from '../../src/cli/terminal.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'broadphase-'));
 const file = (name: string) => join(folder, name);
@@ -57,5 +61,37 @@ describe('join', () => {
     const { code, err } = await run('join', file('few.csv'), file('no/such/pairs.parquet'));
     expect(code).toBe(4);
     expect(err).toContain(`cannot write ${file('no/such/pairs.parquet')}: ENOENT`);
+  });
+});
+
+describe('a recording of hours', () => {
+  const frames = 300_000; // more arguments than fit the stack
+
+  test('is put in a table', () => {
+    const rows = Array.from({ length: frames }, (_, k) => [String(k), '1']);
+    const text = table({ tableColumns: Infinity, colour: false } as Terminal, ['frame', 'boxes'], rows);
+    expect(text).toContain('\n299999      1\n');
+  });
+
+  test.each([true, false])('is plotted (logarithmic: %s)', (logarithmic) => {
+    const points = Array.from({ length: frames }, (_, x) => ({ x: x + 1, y: 1 + (x % 7) }));
+    expect(linePlot([{ name: 'long', points }], { x: 'frame', y: 'ms', logarithmic })).toContain('<path');
+  });
+
+  test('is reported on', () => {
+    const ms = { min: 1, mean: 1, median: 1, p95: 1, max: 1 };
+    const auto = { technique: 'auto' as const, times: new Array<number>(frames).fill(1), ms };
+    const page = reportOf('long', 2, {
+      best: auto,
+      auto,
+      noise: 0,
+      margin: 1,
+      code: '',
+      finalists: [auto],
+      techniques: [],
+      curves: [],
+      frames: Array.from({ length: frames }, (_, index) => ({ index, boxes: index % 9, changed: 0, pairs: 3 })),
+    });
+    expect(page).toContain('8 boxes, 300,000 frames measured');
   });
 });
