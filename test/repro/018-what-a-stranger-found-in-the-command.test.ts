@@ -1,8 +1,10 @@
 // What a stranger found in the command: inputs overwritten, other files read, and messages that mislead.
-import { linkSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { spawnSync } from 'node:child_process';
+import { existsSync, linkSync, mkdtempSync, openSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { afterAll, describe, expect, test } from 'vitest';
+import { bundle } from '../../scripts/bundle.mjs';
 import type { Terminal } from '../../src/cli/arguments.ts';
 import { quotedPath } from '../../src/cli/join/duckdb.ts';
 import { main } from '../../src/cli/main.ts';
@@ -93,5 +95,18 @@ describe('a recording of hours', () => {
       frames: Array.from({ length: frames }, (_, index) => ({ index, boxes: index % 9, changed: 0, pairs: 3 })),
     });
     expect(page).toContain('8 boxes, 300,000 frames measured');
+  });
+});
+
+describe.skipIf(!existsSync('/dev/full'))('a full disk', () => {
+  test('is said, with the code of files, unless nobody can be told', async () => {
+    const command = await bundle('src/cli/index.ts', 'build/cli/stranger.mjs');
+    const full = openSync('/dev/full', 'w');
+    for (const argv of [['--help'], ['--version', '--json']]) {
+      const { status, stderr } = spawnSync(process.execPath, [command, ...argv], { stdio: ['ignore', full, 'pipe'] });
+      expect(String(stderr)).toMatch(/^broadphase: cannot write to standard output: ENOSPC[^\n]*\n$/);
+      expect(status).toBe(4);
+    }
+    expect(spawnSync(process.execPath, [command, 'info'], { stdio: ['ignore', 'ignore', full] }).status).toBe(4);
   });
 });
