@@ -14,6 +14,7 @@ const codes = [
   ['3', 'broken trace, or a row that is not a box'],
   ['4', 'file trouble'],
   ['5', 'a package is missing'],
+  ['6', 'too little memory'],
   ['70', 'a fault here'],
 ] as const;
 

@@ -110,3 +110,27 @@ describe.skipIf(!existsSync('/dev/full'))('a full disk', () => {
     expect(spawnSync(process.execPath, [command, 'info'], { stdio: ['ignore', 'ignore', full] }).status).toBe(4);
   });
 });
+
+test.each([
+  ['update: out of memory: 9 more bytes are needed for 2 boxes and their pairs', 6],
+  ['Array buffer allocation failed', 6],
+  ['Invalid array length', 70],
+])('%s: code %i, and a stack only for a fault', async (message, expected) => {
+  let err = '';
+  const code = await main(['--help'], {
+    // Stands in for a trace of gigabytes.
+    out: () => {
+      throw new RangeError(message);
+    },
+    err: (text) => {
+      err += text;
+    },
+    interactive: false,
+    columns: 80,
+    tableColumns: Infinity,
+    colour: false,
+  });
+  expect(code).toBe(expected);
+  if (expected === 6) expect(err).toBe(`broadphase: ${message}\n`);
+  else expect(err).toContain('    at ');
+});
