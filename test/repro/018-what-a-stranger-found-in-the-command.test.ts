@@ -3,6 +3,7 @@ import { spawnSync } from 'node:child_process';
 import { existsSync, linkSync, mkdtempSync, openSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { TraceWriter } from 'broadphase/trace';
 import { afterAll, describe, expect, test } from 'vitest';
 import { bundle } from '../../scripts/bundle.mjs';
 import type { Terminal } from '../../src/cli/arguments.ts';
@@ -133,4 +134,33 @@ test.each([
   expect(code).toBe(expected);
   if (expected === 6) expect(err).toBe(`broadphase: ${message}\n`);
   else expect(err).toContain('    at ');
+});
+
+describe('--frames', () => {
+  test('frames have the numbers that they have in the recording', async () => {
+    const trace = file('long.trace');
+    await run('generate', 'crowd', trace, '--count', '30', '--frames', '8');
+    const chosen = ['--frames', '3..5'];
+    const whole = JSON.parse((await run('replay', trace, '--json')).out).frames;
+    const { frames } = JSON.parse((await run('replay', trace, ...chosen, '--verify', '--json')).out);
+    expect(frames.map(({ index }: { index: number }) => index)).toEqual([3, 4, 5]);
+    for (const { index, pairs } of frames) expect(pairs).toBe(whole[index].pairs);
+    expect((await run('replay', trace, ...chosen)).out).toMatch(/^3 +30 /m);
+
+    const report = file('report.html');
+    const { out } = await run('tune', trace, ...chosen, '--seconds', '0', '--report', report, '--json');
+    expect(JSON.parse(out).frames.map(({ index }: { index: number }) => index)).toEqual([4, 5]); // the first is a start
+    expect(readFileSync(report, 'utf8')).toContain('<title>frame 5\n');
+  });
+
+  test('so have those in messages', async () => {
+    const writer = new TraceWriter(2);
+    const header = writer.header();
+    const box = Float32Array.of(0, 0, 1, 1);
+    const frames = [box, box, box, Float64Array.of(0, 0, 1, 0.1)].map((boxes) => writer.frame(boxes));
+    writeFileSync(file('doubles.trace'), Buffer.concat([header, ...frames, writer.end()]));
+    const { code, err } = await run('convert', file('doubles.trace'), file('doubles.bin'), '--frames', '1..3');
+    expect(code).toBe(2);
+    expect(err).toContain('frame 3 cannot be written in the raw layout');
+  });
 });
