@@ -1,10 +1,20 @@
 // What a stranger found in the command: inputs overwritten, other files read, and messages that mislead.
 import { spawnSync } from 'node:child_process';
-import { existsSync, linkSync, mkdtempSync, openSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import {
+  existsSync,
+  linkSync,
+  mkdirSync,
+  mkdtempSync,
+  openSync,
+  readFileSync,
+  rmSync,
+  symlinkSync,
+  writeFileSync,
+} from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { TraceWriter } from 'broadphase/trace';
-import { afterAll, describe, expect, test } from 'vitest';
+import { afterAll, afterEach, describe, expect, test } from 'vitest';
 import { bundle } from '../../scripts/bundle.mjs';
 import type { Terminal } from '../../src/cli/arguments.ts';
 import { quotedPath } from '../../src/cli/join/duckdb.ts';
@@ -162,5 +172,34 @@ describe('--frames', () => {
     const { code, err } = await run('convert', file('doubles.trace'), file('doubles.bin'), '--frames', '1..3');
     expect(code).toBe(2);
     expect(err).toContain('frame 3 cannot be written in the raw layout');
+  });
+});
+
+describe('init', () => {
+  const around = process.cwd();
+  afterEach(() => process.chdir(around));
+
+  test('takes the tarball of the project from any folder in it', async () => {
+    mkdirSync(file('project/some/where'), { recursive: true });
+    writeFileSync(file('project/broadphase.tgz'), '');
+    const manifest = (spec: string) => JSON.stringify({ name: 'around', dependencies: { broadphase: spec } });
+    writeFileSync(file('project/package.json'), manifest('file:broadphase.tgz'));
+    process.chdir(file('project/some/where'));
+    expect(JSON.parse((await run('init', 'game', '--json')).out).broadphase).toBe('file:../../../broadphase.tgz');
+    // The nearest project that names the package decides.
+    writeFileSync(file('project/some/package.json'), manifest('^0.1.0'));
+    expect(JSON.parse((await run('init', 'other', '--json')).out).broadphase).toMatch(/^\^/);
+  });
+
+  test('prints lines that a shell understands', async () => {
+    mkdirSync(file('shell'));
+    process.chdir(file('shell'));
+    for (const [name, word] of [
+      ['game-1', 'game-1'],
+      ['My Game', '"My Game"'],
+      ['my$x', '"my\\$x"'],
+    ]) {
+      expect((await run('init', name)).out).toContain(`  cd ${word}\n`);
+    }
   });
 });
