@@ -1,15 +1,7 @@
 // Reading and writing files: reads any kind of trace, and writes the format that the file name asks for.
 import { open, readFile, stat, unlink, writeFile } from 'node:fs/promises';
 import { gzipSync } from 'node:zlib';
-import {
-  exportRecording,
-  type Frame,
-  type FrameSource,
-  openAny,
-  Trace,
-  TraceError,
-  TraceWriter,
-} from 'broadphase/trace';
+import { exportRecording, type Frame, type FrameSource, openAny, TraceError, TraceWriter } from 'broadphase/trace';
 import { type Input, type Option, type Terminal, UsageError } from './arguments.ts';
 import { complain, counted } from './terminal.ts';
 
@@ -44,7 +36,7 @@ export async function openSource(input: Input, terminal: Terminal): Promise<Sele
     if (error instanceof TraceError) error.message = `${path}: ${error.message}`;
     throw error;
   });
-  const fault: TraceError | undefined = source instanceof Trace ? source.fault : undefined;
+  const { fault } = source;
   if (fault) complain(terminal, `${path}: ${counted(source.frames, 'frame')} salvaged; ${fault.message}`);
   const range = input.text('frames');
   return range === undefined ? { source, first: 0 } : slice(source, range);

@@ -203,3 +203,17 @@ describe('init', () => {
     }
   });
 });
+
+test('--salvage reads what is intact of a gzipped trace, and of a raw recording', async () => {
+  await run('generate', 'crowd', file('intact.trace'), '--count', '300', '--frames', '20');
+  for (const name of ['intact.trace.gz', 'intact.bin', 'intact.bin.gz']) {
+    await run('convert', file('intact.trace'), file(name));
+    const bytes = readFileSync(file(name));
+    writeFileSync(file(`cut-${name}`), bytes.subarray(0, Math.floor(0.6 * bytes.length)));
+    expect((await run('info', file(`cut-${name}`))).code).toBe(3);
+    const { code, out, err } = await run('info', file(`cut-${name}`), '--salvage', '--json');
+    const { frames } = JSON.parse(out);
+    expect([code, frames > 5, frames < 20]).toEqual([0, true, true]);
+    expect(err).toContain(`${frames} frames salvaged; trace: frame ${frames}, byte`);
+  }
+});
