@@ -52,6 +52,12 @@ function addCommand(
 const wordsOf = ({ code, message }: CommanderError): string =>
   code === 'commander.help' ? 'expected a command' : message.replace(/^error: /, '').replaceAll('\n', ' ');
 
+/** For help on an unknown command, as words: that name alone, which the parser refuses with a suggestion. */
+function helpOfNothing(commands: Readonly<Record<string, Command>>, argv: readonly string[]): string[] | undefined {
+  const [help, name] = argv.filter((word) => !word.startsWith('-'));
+  return help === 'help' && name !== undefined && !Object.hasOwn(commands, name) ? [name] : undefined;
+}
+
 /**
  * Runs a command line, given without the program's own name.
  * @returns the exit code
@@ -91,7 +97,7 @@ export async function runLine(
     });
   }
   try {
-    await program.parseAsync(argv, { from: 'user' });
+    await program.parseAsync(helpOfNothing(commands, argv) ?? argv, { from: 'user' });
   } catch (error) {
     if (!(error instanceof CommanderError)) throw error;
     if (error.exitCode !== 0) throw new UsageError(wordsOf(error));
