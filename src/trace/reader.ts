@@ -50,15 +50,15 @@ export class Trace implements FrameSource {
 
   /** @throws TraceError that says what is wrong, in which frame, at which byte */
   constructor(bytes: Uint8Array, options: OpenOptions = {}) {
-    this.#bytes = bytes;
-    const { dimensions, version, world, checksum } = readHeader(bytes);
+    this.#bytes = givenBytes('Trace', bytes);
+    const { dimensions, version, world, checksum } = readHeader(this.#bytes);
     this.dimensions = dimensions;
     this.#version = version;
     this.#world = world;
     let frames = 0;
     const decoder = new FrameDecoder(dimensions, version, world);
     try {
-      const bodies = checkedBodies(bytes, checksum);
+      const bodies = checkedBodies(this.#bytes, checksum);
       // Decoded once here, so that no later iteration meets an error.
       for (const { body, offset } of bodies) if (decoder.decode(body, offset)) frames++;
     } catch (error) {

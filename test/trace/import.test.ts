@@ -7,6 +7,7 @@ import {
   openAny,
   openTrace,
   replay,
+  Trace,
   TraceError,
   TraceWriter,
 } from 'broadphase/trace';
@@ -136,6 +137,7 @@ describe('bytes', () => {
     const message = /: got .*, expected a Uint8Array or an ArrayBuffer/;
     expect(() => openTrace(given as never)).toThrow(TypeError);
     expect(() => openTrace(given as never)).toThrow(message);
+    expect(() => new Trace(given as never)).toThrow(message);
     expect(() => importRecording(given as never)).toThrow(message);
     await expect(openAny(given as never)).rejects.toThrow(message);
     await expect(openAny(given as never, { salvage: true })).rejects.toThrow(TypeError);
