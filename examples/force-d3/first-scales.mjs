@@ -47,7 +47,7 @@ export function firstScales(labels, scales) {
         for (const one of earlier[k]) if (first[one] === scale) cover(one, free[k]);
         if (coveredAt[free[k]] !== scale) first[free[k]] = scale;
       }
-      shown.push(...free.filter((k) => first[k] === scale));
+      for (const k of free) if (first[k] === scale) shown.push(k);
     }
   }
   space.dispose();

@@ -3,6 +3,21 @@
 import { WebSocketServer } from 'ws';
 import { Interest } from './interest.mjs';
 
+/** The code with which a socket is closed whose message is not understood. */
+const notUnderstood = 1007;
+/** The most bytes in a message. */
+const maxPayload = 1024;
+
+/** The place in a message; undefined for anything else, since players may send whatever they like. */
+function placeIn(data) {
+  try {
+    const { x, y } = JSON.parse(data);
+    return Number.isFinite(x) && Number.isFinite(y) ? { x, y } : undefined;
+  } catch {
+    return undefined;
+  }
+}
+
 /**
  * Starts a server; `port` 0 takes any free one. `tick()` updates everyone and returns how many messages were sent.
  * Call it about 20 times per second.
@@ -16,18 +31,20 @@ export function startServer({ port = 0, reach = 50 } = {}) {
     sent++;
     players.get(player)?.socket.send(JSON.stringify(message));
   };
-  const server = new WebSocketServer({ port });
+  const server = new WebSocketServer({ port, maxPayload });
   server.on('connection', (socket) => {
     const id = free.pop() ?? players.size;
     const player = { socket, x: 0, y: 0 };
     players.set(id, player);
     interest.add(id, 0, 0);
     socket.on('message', (data) => {
-      const { x, y } = JSON.parse(data);
-      if (!Number.isFinite(x) || !Number.isFinite(y)) return;
-      Object.assign(player, { x, y });
-      interest.move(id, x, y);
+      const place = placeIn(data);
+      if (!place) return socket.close(notUnderstood, 'expected { x, y }');
+      Object.assign(player, place);
+      interest.move(id, place.x, place.y);
     });
+    // Such as a frame that is no WebSocket frame. The socket closes; without a listener the server would end.
+    socket.on('error', () => {});
     socket.on('close', () => {
       players.delete(id);
       interest.remove(id);

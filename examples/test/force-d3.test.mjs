@@ -121,6 +121,16 @@ describe('firstScales', () => {
     expect(before).toBeLessThan(1500);
   });
 
+  test('shows any number of labels that have room', () => {
+    const labels = Array.from({ length: 600_000 }, (_, k) => ({
+      x: 20 * (k % 1000),
+      y: 0.02 * k,
+      width: 9,
+      height: 9,
+    }));
+    expect(firstScales(labels, [1]).every((scale) => scale === 1)).toBe(true);
+  });
+
   test('labels at one place are shown once, however far one zooms', () => {
     const label = { x: 3, y: 4, width: 20, height: 10 };
     expect([...firstScales([label, { ...label }], scales)]).toEqual([scales[0], Number.POSITIVE_INFINITY]);

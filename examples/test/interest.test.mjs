@@ -93,4 +93,28 @@ describe.skipIf(!installed)('interest management', () => {
     ann.socket.close();
     await server.close();
   });
+
+  test('closes the socket of a player that sends something else, and goes on', async () => {
+    const { startServer } = await import('../server-interest/server.mjs');
+    const { WebSocket } = await import('ws');
+    const server = startServer();
+    const url = `ws://localhost:${server.server.address().port}`;
+    /** Joins, does something, and waits for the end. */
+    const closedBy = (does) =>
+      new Promise((resolve) => {
+        const socket = new WebSocket(url);
+        socket.on('error', () => {});
+        socket.on('open', () => does(socket));
+        socket.on('close', resolve);
+      });
+    for (const text of ['hello', 'null', '[]', '{"x":1}', '{"x":"1","y":2}', '{"x":1e999,"y":0}']) {
+      expect(await closedBy((socket) => socket.send(text)), text).toBe(1007);
+    }
+    expect(await closedBy((socket) => socket.send(' '.repeat(2000)))).toBe(1009);
+    expect(await closedBy((socket) => socket._socket.write(Buffer.from([0xff, 0xff, 0xff, 0xff])))).toBe(1002);
+    for (let turn = 0; turn < 500 && server.players.size > 0; turn++) await new Promise((done) => setTimeout(done, 5));
+    expect(server.players.size).toBe(0);
+    expect(server.tick()).toBe(0);
+    await server.close();
+  });
 });

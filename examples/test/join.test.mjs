@@ -1,7 +1,7 @@
 // `broadphase join` as a process: its pairs are those of the reference, even after it was killed; errors say what is
 // wrong.
 import { spawn } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -85,6 +85,25 @@ describe.skipIf(!installed)('broadphase join', () => {
     const found = (await duck.ask(`select a::double, b::double from '${file('both.parquet')}'`)).flat();
     expect(keysOf(found.map((row, k) => (k % 2 ? row + 3000 : row))).sort()).toEqual(mixed);
     expect(mixed.length).toBeGreaterThan(500);
+  });
+
+  test('reads the file of that name, though it looks like a pattern', async () => {
+    for (const [name, like] of [
+      ['a[1]', 'a1'],
+      ['a*', 'abc'],
+      ['a?', 'ax'],
+      ['[[]*?', '[yz'],
+    ]) {
+      await duck.writeBoxes(file(`${like}.csv`), 20);
+      await duck.writeBoxes(file(`${like}.parquet`), 20);
+      await duck.writeBoxes(file('plain.parquet'), 30);
+      await duck.writeBoxes(file('plain.csv'), 30);
+      for (const end of ['csv', 'parquet']) {
+        copyFileSync(file(`plain.${end}`), file(`${name}.${end}`));
+        const { out } = await run([file(`${name}.${end}`), file('named.parquet'), '--json']);
+        expect(JSON.parse(out).boxes, name).toEqual([30]);
+      }
+    }
   });
 
   test('goes on where it was killed', async () => {

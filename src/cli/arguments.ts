@@ -15,6 +15,8 @@ export const exitCode = {
   files: 4,
   /** A package that the command needs is not installed. */
   missing: 5,
+  /** The boxes of a trace and their pairs need more memory than there is. */
+  memory: 6,
   /** A fault of this program. */
   fault: 70,
 } as const;

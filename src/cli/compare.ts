@@ -18,7 +18,7 @@ export const compareCommand: Command = {
   async run(input, terminal) {
     const techniques = input.names('techniques', BroadPhase.techniques) ?? BroadPhase.techniques;
     const passes = input.number('passes', { least: 1, most: 1000, whole: true }) ?? 3;
-    const source = await openSource(input, terminal);
+    const { source, first } = await openSource(input, terminal);
     const progress = progressBar(terminal);
     const settings = readCellSize(input, source.dimensions);
     const results = compare(source, {
@@ -28,6 +28,7 @@ export const compareCommand: Command = {
       progress: (done, total) => progress.show('frames', done, total),
     });
     progress.end();
+    for (const each of results) if (each.disagrees !== null) each.disagrees += first;
     results.sort((a, b) => a.ms.mean - b.ms.mean);
     const wrong = results.filter(({ disagrees }) => disagrees !== null);
     const code = wrong.length > 0 ? exitCode.different : exitCode.ok;

@@ -11,11 +11,11 @@ export const convertCommand: Command = {
   },
   options: sourceOptions,
   async run(input, terminal) {
-    const source = await openSource(input, terminal);
+    const selected = await openSource(input, terminal);
     const [from, path] = input.operands;
-    await checkWritable('<file>', path, from);
-    const size = await writeFrames(path, source);
-    const { dimensions, frames } = source;
+    await checkWritable('<file>', path, [from]);
+    const size = await writeFrames(path, selected);
+    const { dimensions, frames } = selected.source;
     if (input.has('json')) terminal.out(`${JSON.stringify({ path, dimensions, frames, bytes: size })}\n`);
     else terminal.out(`${path}: ${counted(frames, 'frame')}, ${bytes(size)}\n`);
     return exitCode.ok;

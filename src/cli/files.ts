@@ -1,35 +1,33 @@
 // Reading and writing files: reads any kind of trace, and writes the format that the file name asks for.
 import { open, readFile, stat, unlink, writeFile } from 'node:fs/promises';
 import { gzipSync } from 'node:zlib';
-import {
-  exportRecording,
-  type Frame,
-  type FrameSource,
-  openAny,
-  Trace,
-  TraceError,
-  TraceWriter,
-} from 'broadphase/trace';
+import { exportRecording, type Frame, type FrameSource, openAny, TraceError, TraceWriter } from 'broadphase/trace';
 import { type Input, type Option, type Terminal, UsageError } from './arguments.ts';
 import { complain, counted } from './terminal.ts';
 
 /** A file that cannot be read or written. */
 export class FileError extends Error {}
 
-/** The options of commands that read a trace, to select a part of it. */
 /** The operand that {@link openSource} takes. */
 export const sourceOperand = { trace: 'a file written by record(space), or a raw recording; either may be gzipped' };
 
+/** The options of commands that read a trace, to select a part of it. */
 export const sourceOptions: Record<string, Option> = {
   frames: { value: 'a..b', help: 'only frames a to b, counted from 0' },
   salvage: { help: 'read the intact frames of a trace that was cut off, instead of refusing it' },
 };
 
+/** Frames to play. Sources count from 0, so results add `first` to name frames by their numbers in the recording. */
+export interface Selected {
+  source: FrameSource;
+  first: number;
+}
+
 /**
  * Opens the trace or recording that the first operand names.
  * @throws FileError, TraceError or UsageError
  */
-export async function openSource(input: Input, terminal: Terminal): Promise<FrameSource> {
+export async function openSource(input: Input, terminal: Terminal): Promise<Selected> {
   const [path] = input.operands;
   const bytes = await readFile(path).catch((error: Error) => {
     throw new FileError(`cannot read ${path}: ${error.message}`);
@@ -38,10 +36,10 @@ export async function openSource(input: Input, terminal: Terminal): Promise<Fram
     if (error instanceof TraceError) error.message = `${path}: ${error.message}`;
     throw error;
   });
-  const fault: TraceError | undefined = source instanceof Trace ? source.fault : undefined;
+  const { fault } = source;
   if (fault) complain(terminal, `${path}: ${counted(source.frames, 'frame')} salvaged; ${fault.message}`);
   const range = input.text('frames');
-  return range === undefined ? source : slice(source, range);
+  return range === undefined ? { source, first: 0 } : slice(source, range);
 }
 
 export async function write(path: string, data: Uint8Array | string): Promise<void> {
@@ -52,12 +50,19 @@ export async function write(path: string, data: Uint8Array | string): Promise<vo
 
 /**
  * Checks, before much work is done, whether its result can be written.
- * @throws FileError where it cannot; UsageError where the file is the one that is read
+ * @param read the files that are read: the result is none of them, by any name or link
+ * @param what they are, in words
+ * @throws FileError where it cannot; UsageError where the file is one that is read
  */
-export async function checkWritable(option: string, path: string, read: string): Promise<void> {
-  const [there, source] = await Promise.all([path, read].map((each) => stat(each).catch(() => undefined)));
-  if (there && source && there.dev === source.dev && there.ino === source.ino) {
-    throw new UsageError(`${option} is ${path}, which is the trace itself; expected another file`);
+export async function checkWritable(
+  option: string,
+  path: string,
+  read: readonly string[],
+  what = 'the trace itself',
+): Promise<void> {
+  const [there, ...sources] = await Promise.all([path, ...read].map((each) => stat(each).catch(() => undefined)));
+  if (there && sources.some((source) => source && there.dev === source.dev && there.ino === source.ino)) {
+    throw new UsageError(`${option} is ${path}, which is ${what}; expected another file`);
   }
   try {
     await (await open(path, 'a')).close();
@@ -68,20 +73,20 @@ export async function checkWritable(option: string, path: string, read: string):
 }
 
 /** Writes frames in the format of the file name: `.bin` is the raw layout, any other a trace; with `.gz`, gzipped. */
-export async function writeFrames(path: string, source: FrameSource): Promise<number> {
+export async function writeFrames(path: string, { source, first }: Selected): Promise<number> {
   const zipped = path.endsWith('.gz');
-  const plain = /\.bin(\.gz)?$/.test(path) ? exportRaw(source) : exportTrace(source);
+  const plain = /\.bin(\.gz)?$/.test(path) ? exportRaw(source, first) : exportTrace(source);
   const data = zipped ? gzipSync(plain, { level: 9 }) : plain;
   await write(path, data);
   return data.length;
 }
 
-function exportRaw(source: FrameSource): Uint8Array {
+function exportRaw(source: FrameSource, first: number): Uint8Array {
   try {
     return exportRecording(source);
   } catch (error) {
-    if (error instanceof RangeError) throw new UsageError(error.message);
-    throw error;
+    if (!(error instanceof RangeError)) throw error;
+    throw new UsageError(error.message.replace(/^frame (\d+)/, (_, index) => `frame ${Number(index) + first}`));
   }
 }
 
@@ -93,14 +98,14 @@ function exportTrace(source: FrameSource): Uint8Array {
   return Buffer.concat(pieces);
 }
 
-function slice(source: FrameSource, range: string): FrameSource {
+function slice(source: FrameSource, range: string): Selected {
   const [, first, last] = /^(\d+)\.\.(\d+)$/.exec(range) ?? [];
   const from = Number(first);
   const to = Number(last);
   if (!(from <= to && to < source.frames)) {
     throw new UsageError(`--frames is ${range}, expected two numbers from 0 to ${source.frames - 1}, such as 0..9`);
   }
-  return {
+  const chosen: FrameSource = {
     dimensions: source.dimensions,
     wrap: source.wrap,
     touching: source.touching,
@@ -114,4 +119,5 @@ function slice(source: FrameSource, range: string): FrameSource {
       }
     },
   };
+  return { source: chosen, first: from };
 }

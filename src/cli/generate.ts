@@ -48,7 +48,7 @@ export const generateCommand: Command = {
         }
       },
     };
-    const size = await writeFrames(path, source);
+    const size = await writeFrames(path, { source, first: 0 });
     progress.end();
     if (input.has('json')) {
       terminal.out(`${JSON.stringify({ path, scene: name, dimensions, count, frames, bytes: size })}\n`);

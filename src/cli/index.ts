@@ -1,6 +1,7 @@
 #!/usr/bin/env node
 // The executable; also a thread of `broadphase join`.
 import { isMainThread, workerData } from 'node:worker_threads';
+import { exitCode } from './arguments.ts';
 import { serve, workerMark } from './join/worker.ts';
 import { main } from './main.ts';
 
@@ -8,13 +9,15 @@ if (!isMainThread && workerData?.mark === workerMark) serve();
 else await command();
 
 async function command(): Promise<void> {
-  // A reader that closes the pipe early, such as `head`, is not an error.
-  for (const stream of [process.stdout, process.stderr]) {
-    stream.on('error', (error: NodeJS.ErrnoException) => {
-      if (error.code === 'EPIPE') process.exit(0);
-      throw error;
-    });
-  }
+  process.stdout.on('error', (error: NodeJS.ErrnoException) => {
+    // A reader that closes the pipe early, such as `head`, is not an error.
+    if (error.code === 'EPIPE') process.exit(0);
+    const message = `broadphase: cannot write to standard output: ${error.message}\n`;
+    process.stderr.write(message, () => process.exit(exitCode.files));
+  });
+  process.stderr.on('error', (error: NodeJS.ErrnoException) =>
+    process.exit(error.code === 'EPIPE' ? 0 : exitCode.files),
+  );
 
   process.exitCode = await main(process.argv.slice(2), {
     out: (text) => void process.stdout.write(text),

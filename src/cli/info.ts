@@ -9,7 +9,7 @@ export const infoCommand: Command = {
   operands: sourceOperand,
   options: sourceOptions,
   async run(input, terminal) {
-    const source = await openSource(input, terminal);
+    const { source } = await openSource(input, terminal);
     const progress = progressBar(terminal);
     const found = survey(source, (done, total) => progress.show('frames', done, total));
     progress.end();

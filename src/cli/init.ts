@@ -1,7 +1,7 @@
 // `broadphase init`: copies starter/, a small game to start from, into a new folder.
 import { existsSync } from 'node:fs';
 import { cp, mkdir, readdir, readFile } from 'node:fs/promises';
-import { basename, join, relative, resolve } from 'node:path';
+import { basename, dirname, join, relative, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { devDependencies, version } from '../../package.json' with { type: 'json' };
 import { type Command, exitCode, UsageError } from './arguments.ts';
@@ -28,12 +28,24 @@ const manifestOf = (folder: string, spec: string) => ({
   devDependencies: { typescript: devDependencies.typescript, vite: devDependencies.vite },
 });
 
-/** The tarball that the surrounding project has installed, if any: for a package that is not on npm. */
+/**
+ * The tarball that the surrounding project has installed, if any: for a package that is not on npm. The project is the
+ * nearest folder, from the current one up, whose package.json names the package.
+ */
 async function tarballHere(): Promise<string | undefined> {
-  const manifest = await readFile('package.json', 'utf8').catch(() => '{}');
-  const [, path] = /"broadphase": "file:(.+\.tgz)"/.exec(manifest) ?? [];
-  return path !== undefined && existsSync(path) ? path : undefined;
+  for (let folder = process.cwd(); ; folder = dirname(folder)) {
+    const manifest = await readFile(join(folder, 'package.json'), 'utf8').catch(() => '');
+    const [, spec] = /"broadphase"\s*:\s*"([^"]+)"/.exec(manifest) ?? [];
+    if (spec !== undefined) {
+      const [, path] = /^file:(.+\.tgz)$/.exec(spec) ?? [];
+      return path !== undefined && existsSync(resolve(folder, path)) ? resolve(folder, path) : undefined;
+    }
+    if (dirname(folder) === folder) return undefined;
+  }
 }
+
+/** A path as a word of a shell. */
+const shellWord = (path: string) => (/^[\w./\\:~@%+-]+$/.test(path) ? path : `"${path.replace(/["$`]/g, '\\$&')}"`);
 
 export const initCommand: Command = {
   summary: 'create a small game to start from, with Vite and TypeScript',
@@ -62,7 +74,7 @@ export const initCommand: Command = {
     await write(join(folder, 'package.json'), `${JSON.stringify(manifestOf(folder, spec), null, 2)}\n`);
     await write(join(folder, '.gitignore'), 'node_modules\ndist\n'); // npm does not pack files of this name
     if (input.has('json')) terminal.out(`${JSON.stringify({ folder, broadphase: spec })}\n`);
-    else terminal.out(`${name} is ready. Now:\n\n  cd ${name}\n  npm install\n  npm start\n`);
+    else terminal.out(`${name} is ready. Now:\n\n  cd ${shellWord(name)}\n  npm install\n  npm start\n`);
     return exitCode.ok;
   },
 };

@@ -4,7 +4,7 @@ import { stat } from 'node:fs/promises';
 import { availableParallelism } from 'node:os';
 import { Worker } from 'node:worker_threads';
 import { type Command, exitCode, type Input, UsageError } from './arguments.ts';
-import { FileError } from './files.ts';
+import { checkWritable, FileError } from './files.ts';
 import { loadDuckDB } from './join/duckdb.ts';
 import { DataError, openSource, type Source } from './join/source.ts';
 import { type Plan, type TileStore, Work } from './join/work.ts';
@@ -68,11 +68,11 @@ export const joinCommand: Command = {
     const tile = input.number('tile', { least: 1, most: 2 ** 24, whole: true }) ?? mostPerTile;
     const [path, result] = input.operands;
     const paths = [path, ...(input.has('blue') ? [input.text('blue')!] : [])];
-    if (paths.includes(result)) throw new UsageError(`${result} is an input; expected another file for the pairs`);
     const fit = Math.floor((memory * (1 - databaseShare) - nodeBytes - threads * threadBytes) / threads / boxBytes);
     if (fit < 1000)
       throw new UsageError(`--memory is too little for ${threads} threads; expected more memory or fewer threads`);
     for (const each of paths) await mustExist(each);
+    await checkWritable('<pairs>', result, paths, 'an input');
 
     const work = await Work.open(loadDuckDB(), `${result}.join`, memory * databaseShare, threads);
     const progress = progressBar(terminal);

@@ -50,5 +50,10 @@ function codeOf(error: unknown): number {
   if (error instanceof TraceError || error instanceof DataError) return exitCode.badTrace;
   if (error instanceof FileError) return exitCode.files;
   if (error instanceof MissingPackage) return exitCode.missing;
+  if (isOutOfMemory(error)) return exitCode.memory;
   return exitCode.fault;
 }
+
+/** Whether the library, or Node itself, could not allocate what a trace needs. */
+const isOutOfMemory = (error: unknown): boolean =>
+  error instanceof RangeError && /out of memory|allocation failed/i.test(error.message);

@@ -14,6 +14,7 @@ const codes = [
   ['3', 'broken trace, or a row that is not a box'],
   ['4', 'file trouble'],
   ['5', 'a package is missing'],
+  ['6', 'too little memory'],
   ['70', 'a fault here'],
 ] as const;
 
@@ -50,6 +51,12 @@ function addCommand(
 /** An error of the parser, in the form of all other errors: on one line. */
 const wordsOf = ({ code, message }: CommanderError): string =>
   code === 'commander.help' ? 'expected a command' : message.replace(/^error: /, '').replaceAll('\n', ' ');
+
+/** For help on an unknown command, as words: that name alone, which the parser refuses with a suggestion. */
+function helpOfNothing(commands: Readonly<Record<string, Command>>, argv: readonly string[]): string[] | undefined {
+  const [help, name] = argv.filter((word) => !word.startsWith('-'));
+  return help === 'help' && name !== undefined && !Object.hasOwn(commands, name) ? [name] : undefined;
+}
 
 /**
  * Runs a command line, given without the program's own name.
@@ -90,7 +97,7 @@ export async function runLine(
     });
   }
   try {
-    await program.parseAsync(argv, { from: 'user' });
+    await program.parseAsync(helpOfNothing(commands, argv) ?? argv, { from: 'user' });
   } catch (error) {
     if (!(error instanceof CommanderError)) throw error;
     if (error.exitCode !== 0) throw new UsageError(wordsOf(error));

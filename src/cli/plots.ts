@@ -1,5 +1,6 @@
 // Plots as SVG text: bars, and lines over common axes. Titles show the numbers, without a script. Colours are the
 // page's variables --c0 … --c5.
+import { leastOf, mostOf } from './extremes.ts';
 import { number, time } from './terminal.ts';
 
 const width = 900;
@@ -9,8 +10,8 @@ const lineHeight = 24;
 /** A bar for each, on a logarithmic scale that begins below the smallest: techniques differ by factors. */
 export function barPlot(bars: readonly { name: string; value: number }[], title: string): string {
   const values = bars.map(({ value }) => value).filter((value) => value > 0);
-  const low = Math.log10(Math.min(...values)) - 0.3;
-  const high = Math.log10(Math.max(...values)) + 0.001;
+  const low = Math.log10(leastOf(values)) - 0.3;
+  const high = Math.log10(mostOf(values)) + 0.001;
   const labels = 260;
   const room = width - labels - 80;
   const rows = bars.map(({ name, value }, k) => {
@@ -46,14 +47,14 @@ export function linePlot(lines: readonly Line[], axes: Axes): string {
   const all = lines.flatMap(({ points }) => points);
   const place = axes.logarithmic ? Math.log2 : (value: number) => value;
   const scale = (values: readonly number[], from: number, to: number) => {
-    const low = place(Math.min(...values));
-    const span = place(Math.max(...values)) - low || 1;
+    const low = place(leastOf(values));
+    const span = place(mostOf(values)) - low || 1;
     return (value: number) => from + ((place(value) - low) / span) * (to - from);
   };
   const xs = [...new Set(all.map(({ x }) => x))].sort((a, b) => a - b);
   const ys = all.map(({ y }) => y).filter((y) => y > 0 || !axes.logarithmic);
-  const most = Math.max(...ys) || 1;
-  const marked = axes.logarithmic ? ticksAround(Math.min(...ys), most) : ticks(most);
+  const most = mostOf(ys) || 1;
+  const marked = axes.logarithmic ? ticksAround(leastOf(ys), most) : ticks(most);
   const heights = [marked[0], marked.at(-1)!];
   const places = axes.logarithmic ? ticksAround(xs[0], xs.at(-1)!) : some(xs, mostMarks);
   const across = scale(places, left, width - right);

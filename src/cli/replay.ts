@@ -36,12 +36,12 @@ export const replayCommand: Command = {
     const names: TechniqueName[] = input.names('technique', BroadPhase.techniques) ?? ['auto'];
     if (names.length !== 1) throw new UsageError('--technique: expected one name; `compare` takes several');
     const [technique] = names;
-    const source = await openSource(input, terminal);
+    const { source, first } = await openSource(input, terminal);
     const progress = progressBar(terminal);
     const frames: ReplayedFrame[] = [];
     const settings = { technique, ...readCellSize(input, source.dimensions) };
     for (const frame of replay(source, settings, input.has('verify'))) {
-      frames.push(frame);
+      frames.push({ ...frame, index: frame.index + first });
       progress.show('frames', frames.length, source.frames);
     }
     progress.end();
@@ -68,8 +68,10 @@ export const replayCommand: Command = {
     );
     for (const { index, difference } of wrong) {
       const { missing, extra, pair } = difference!;
-      const first = pair.join(', ');
-      complain(terminal, `frame ${index}: ${counted(missing, 'pair')} missing, ${extra} too many, first [${first}]`);
+      complain(
+        terminal,
+        `frame ${index}: ${counted(missing, 'pair')} missing, ${extra} too many, first [${pair.join(', ')}]`,
+      );
     }
     if (input.has('verify') && wrong.length === 0)
       terminal.out(

@@ -2,6 +2,7 @@
 // content security policy that forbids loading.
 import type { Candidate, Parameter, Tuned } from 'broadphase/trace';
 import { isLean, timesNoise } from '../trace/tune.ts';
+import { mostOf } from './extremes.ts';
 import { barPlot, htmlText, linePlot } from './plots.ts';
 import { number, percent, time } from './terminal.ts';
 
@@ -30,7 +31,7 @@ export function reportOf(name: string, dimensions: 2 | 3, tuned: Tuned): string 
     ({ ms, ...candidate }) =>
       `<tr><td>${htmlText(nameOf(candidate))}</td>${[ms.mean, ms.median, ms.p95, ms.max].map((each) => `<td>${time(each)}</td>`).join('')}</tr>`,
   );
-  const boxes = Math.max(...frames.map((frame) => frame.boxes));
+  const boxes = mostOf(frames.map((frame) => frame.boxes));
   const shares = frames.slice(1).map(({ boxes, changed }) => (boxes === 0 ? 0 : changed / boxes));
   const moving = shares.reduce((sum, share) => sum + share, 0) / Math.max(1, shares.length);
   const perFrame = (values: readonly number[]) => values.map((y, k) => ({ x: frames[k].index, y }));

@@ -1,6 +1,7 @@
 // Terminal output: numbers, tables, histograms, and a progress bar if a person is watching.
 import type { Bin } from '../trace/statistics.ts';
 import type { Terminal } from './arguments.ts';
+import { mostOf } from './extremes.ts';
 
 /** Three or four digits, with thousands separators. */
 export function number(value: number): string {
@@ -74,7 +75,7 @@ export function table(
   rows: readonly (readonly string[])[],
   best?: number,
 ): string {
-  const widths = head.map((title, k) => Math.max(title.length, ...rows.map((row) => row[k].length)));
+  const widths = head.map((title, k) => Math.max(title.length, mostOf(rows.map((row) => row[k].length))));
   let shown = 1;
   for (let wide = widths[0]; shown < head.length; shown++) {
     wide += gap + widths[shown];

@@ -21,11 +21,11 @@ export const tuneCommand: Command = {
   async run(input, terminal) {
     const techniques = input.names('techniques', BroadPhase.techniques) ?? BroadPhase.techniques;
     const seconds = input.number('seconds', { least: 0, most: 3600 }) ?? 8;
-    const source = await openSource(input, terminal);
+    const { source, first } = await openSource(input, terminal);
     const [path] = input.operands;
     if (isEmpty(source)) throw new TraceError(`${path}: no frame has boxes to tune on`, -1, 0);
     const report = input.text('report');
-    if (report !== undefined) await checkWritable('--report', report, path);
+    if (report !== undefined) await checkWritable('--report', report, [path]);
     const progress = progressBar(terminal);
     const tuned = tune(source, {
       techniques,
@@ -34,6 +34,7 @@ export const tuneCommand: Command = {
       progress: (what, done, total) => progress.show(what, done, total),
     });
     progress.end();
+    for (const frame of tuned.frames) frame.index += first;
     const writeReport = async () => {
       if (report !== undefined) await write(report, reportOf(basename(path), source.dimensions, tuned));
     };

@@ -1,5 +1,11 @@
 // A growing buffer to write bytes to, and a cursor that reads bytes within their bounds.
+import { badValue } from '../errors.ts';
+import { bytesOf } from '../values.ts';
 import { TraceError } from './format.ts';
+
+/** What a caller gave as bytes. @throws TypeError if it is anything else */
+export const givenBytes = (where: string, given: unknown): Uint8Array =>
+  bytesOf(given) ?? badValue(where, given, 'a Uint8Array or an ArrayBuffer', true);
 
 export class ByteWriter {
   bytes = new Uint8Array(1024);

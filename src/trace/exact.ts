@@ -82,10 +82,10 @@ function wrappedPairs(
 
 /** Whether the two overlap if one is shifted by some whole number of worlds. A box that covers the world meets all. */
 function wrapsOver(aMin: number, aMax: number, bMin: number, bMax: number, size: number, closed: boolean): boolean {
+  if (![aMin, aMax, bMin, bMax].every(Number.isFinite)) return true; // it covers the world
   const most = (bMax - aMin) / size;
   const least = (bMin - aMax) / size;
-  if (!(Number.isFinite(most) && Number.isFinite(least))) return true; // infinite: it covers the world
-  // Whether an integer lies between the two; computed exactly if rounding may have crossed one.
+  // Whether an integer lies between the two; computed exactly if rounding may have crossed one, or if they overflow.
   const rounded = 1e-12 + 1e-15 * ((Math.abs(aMin) + Math.abs(aMax) + Math.abs(bMin) + Math.abs(bMax)) / size);
   const sure = (x: number) => Math.abs(x - Math.round(x)) > rounded && Math.abs(x) < 1e9;
   if (sure(most) && sure(least)) return Math.ceil(least) <= Math.floor(most);

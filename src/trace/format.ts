@@ -93,6 +93,8 @@ export interface FrameSource extends Iterable<Frame>, World {
   readonly dimensions: 2 | 3;
   /** How many frames there are. */
   readonly frames: number;
+  /** If it was salvaged: what is wrong with the file after its last intact frame. */
+  readonly fault?: TraceError | undefined;
 }
 
 /** As options of a space. */

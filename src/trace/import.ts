@@ -1,7 +1,7 @@
 // Opens whatever holds frames: traces, and recordings of physics engines in the raw layout, each gzipped or not.
 
 import { isFloat64Array } from '../values.ts';
-import { uint32At } from './bytes.ts';
+import { givenBytes, uint32At } from './bytes.ts';
 import { type Frame, type FrameSource, headerBytes, maxBoxes, TraceError } from './format.ts';
 import { type RawRecording, rawMagic, readRecording } from './raw.ts';
 import { type OpenOptions, openTrace } from './reader.ts';
@@ -23,29 +23,63 @@ const maxEmptyFrames = 1e6;
  * new TextDecoder().decode(bytes); // → 'boxes'
  */
 export async function gunzip(bytes: Uint8Array, most = maxUnpackedBytes): Promise<Uint8Array> {
-  const unpacked = new Blob([bytes as Uint8Array<ArrayBuffer>]).stream().pipeThrough(new DecompressionStream('gzip'));
+  const given = givenBytes('gunzip', bytes) as Uint8Array<ArrayBuffer>;
+  const { plain, fault } = await collect(new Blob([given]).stream().pipeThrough(new DecompressionStream('gzip')), most);
+  if (fault) throw fault;
+  return plain;
+}
+
+/** What was unpacked, and what is wrong with the rest. */
+interface Unpacked {
+  plain: Uint8Array;
+  fault: TraceError | undefined;
+}
+
+async function collect(unpacked: ReadableStream<Uint8Array>, most: number): Promise<Unpacked> {
   const reader = unpacked.getReader();
   const pieces: Uint8Array[] = [];
   let length = 0;
-  for (;;) {
-    const { done, value } = await reader.read().catch((error: Error) => {
-      throw new TraceError(`its gzip data is broken: ${error.message}`, -1, length);
+  let fault: TraceError | undefined;
+  while (!fault) {
+    const read = await reader.read().catch((error: Error) => {
+      fault = new TraceError(`its gzip data is broken: ${error.message}`, -1, length);
     });
-    if (done) break;
-    pieces.push(value);
-    length += value.length;
+    if (!read || read.done) break;
+    pieces.push(read.value);
+    length += read.value.length;
     if (length > most) {
       await reader.cancel();
       throw new TraceError(`unpacked, it exceeds the limit of ${most} bytes`, -1, length);
     }
   }
-  const all = new Uint8Array(length);
+  const plain = new Uint8Array(length);
   let at = 0;
   for (const piece of pieces) {
-    all.set(piece, at);
+    plain.set(piece, at);
     at += piece.length;
   }
-  return all;
+  return { plain, fault };
+}
+
+/** Bytes that are unpacked at once when salvaging. */
+const pieceBytes = 2 ** 14;
+
+/**
+ * Unpacks as far as the data goes. A stream that fails drops what nobody has read yet, so that is read before more is
+ * given: nothing is lost of a file that was cut off, and at most a piece before a place that is damaged.
+ */
+async function salvageGzip(bytes: Uint8Array): Promise<Unpacked> {
+  const { readable, writable } = new DecompressionStream('gzip');
+  const writer = writable.getWriter();
+  const give = async () => {
+    for (let at = 0; at < bytes.length; at += pieceBytes) {
+      await writer.write(bytes.subarray(at, at + pieceBytes) as Uint8Array<ArrayBuffer>);
+      await new Promise((resolve) => setTimeout(resolve));
+    }
+    await writer.close();
+  };
+  give().catch(() => {}); // the reader meets the same error
+  return collect(readable, maxUnpackedBytes);
 }
 
 /** Whether bytes are a raw recording. */
@@ -58,20 +92,24 @@ const isRecording = (bytes: Uint8Array) => bytes.length >= 4 && uint32At(bytes, 
  * @example
  * importRecording(new Uint8Array(2)); // throws TraceError
  */
-export function importRecording(bytes: Uint8Array): FrameSource {
+export function importRecording(bytes: Uint8Array, { salvage = false }: OpenOptions = {}): FrameSource {
+  const given = givenBytes('importRecording', bytes);
   let recording: RawRecording;
   try {
-    recording = readRecording(bytes);
+    recording = readRecording(given, salvage);
   } catch (error) {
     throw new TraceError((error as Error).message, -1, 0);
   }
-  const { dimensions, count, frames } = recording;
+  const { dimensions, count } = recording;
   if (count > maxBoxes) throw new TraceError(`${count} boxes, expected at most ${maxBoxes}`, -1, 8);
-  if (count === 0 && frames > maxEmptyFrames) throw new TraceError(`${frames} frames without boxes`, -1, 12);
-  for (let k = 0; k < frames; k++) checkFrame(recording, k);
+  if (count === 0 && recording.frames > maxEmptyFrames) {
+    throw new TraceError(`${recording.frames} frames without boxes`, -1, 12);
+  }
+  const { frames, fault } = intactFrames(recording, salvage);
   return {
     dimensions,
     frames,
+    fault,
     *[Symbol.iterator](): Generator<Frame> {
       for (let index = 0; index < frames; index++) {
         const boxes = recording.frame(index);
@@ -82,13 +120,28 @@ export function importRecording(bytes: Uint8Array): FrameSource {
   };
 }
 
+/** How many frames hold nothing but boxes, and what is wrong after them, which is thrown unless `salvage`. */
+function intactFrames(recording: RawRecording, salvage: boolean): { frames: number; fault: TraceError | undefined } {
+  const { dimensions, count, frames, wrong } = recording;
+  for (let k = 0; k < frames; k++) {
+    try {
+      checkFrame(recording, k);
+    } catch (error) {
+      if (!salvage) throw error;
+      return { frames: k, fault: error as TraceError };
+    }
+  }
+  const end = headerBytes + 8 * dimensions * count * frames;
+  return { frames, fault: wrong === undefined ? undefined : new TraceError(wrong, frames, end) };
+}
+
 /** Opens a trace or a recording that is not gzipped. */
 export const openPlain = (bytes: Uint8Array, options?: OpenOptions): FrameSource =>
-  isRecording(bytes) ? importRecording(bytes) : openTrace(bytes, options);
+  isRecording(bytes) ? importRecording(bytes, options) : openTrace(bytes, options);
 
 /**
  * Opens a trace or a raw recording, gzipped or not.
- * @throws TraceError if it is damaged
+ * @throws TraceError if it is damaged; TypeError if it is no bytes
  *
  * @example
  * const space = new BroadPhase();
@@ -97,9 +150,14 @@ export const openPlain = (bytes: Uint8Array, options?: OpenOptions): FrameSource
  * const source = await openAny(recording.bytes());
  * source.frames; // → 3
  */
-export async function openAny(bytes: Uint8Array, options?: OpenOptions): Promise<FrameSource> {
-  const plain = bytes[0] === 0x1f && bytes[1] === 0x8b ? await gunzip(bytes) : bytes;
-  return openPlain(plain, options);
+export async function openAny(bytes: Uint8Array | ArrayBuffer, options?: OpenOptions): Promise<FrameSource> {
+  const given = givenBytes('openAny', bytes);
+  if (given[0] !== 0x1f || given[1] !== 0x8b) return openPlain(given, options);
+  if (!options?.salvage) return openPlain(await gunzip(given), options);
+  const { plain, fault } = await salvageGzip(given);
+  const source = openPlain(plain, options);
+  // A trace has checksums of its own; a raw recording has none but that of gzip.
+  return fault && !source.fault && isRecording(plain) ? { ...source, fault } : source;
 }
 
 /**

@@ -7,6 +7,8 @@ export interface RawRecording {
   readonly dimensions: 2 | 3;
   readonly count: number;
   readonly frames: number;
+  /** With `salvage`: why there are fewer frames than it should have, or what else is wrong with its length. */
+  readonly wrong: string | undefined;
   /** A view, not a copy, of the boxes of frame `k`. */
   frame(k: number): Float32Array;
 }
@@ -14,8 +16,8 @@ export interface RawRecording {
 export const rawMagic = 0x424f5841;
 const headerBytes = 16;
 
-/** Reads a recording from its bytes, gunzipped. */
-export function readRecording(bytes: ArrayBuffer | Uint8Array): RawRecording {
+/** Reads a recording from its bytes, gunzipped; with `salvage` the whole frames of one of another length. */
+export function readRecording(bytes: ArrayBuffer | Uint8Array, salvage = false): RawRecording {
   const source = bytesOf(bytes) ?? new Uint8Array();
   if (source.byteLength < headerBytes) {
     throw new RangeError(`Not a recording: ${source.byteLength} bytes, fewer than the ${headerBytes} of the header.`);
@@ -32,19 +34,22 @@ export function readRecording(bytes: ArrayBuffer | Uint8Array): RawRecording {
   if (count < 0 || frames < 0) throw new RangeError(`A recording of ${count} boxes and ${frames} frames.`);
   const stride = 2 * dimensions * count;
   const expected = headerBytes + 4 * stride * frames;
-  if (source.byteLength !== expected) {
-    throw new RangeError(
-      `A recording of ${frames} frames of ${count} boxes in ${dimensions}D takes ${expected} bytes, not ${source.byteLength}.`,
-    );
-  }
-  const numbers = asFloats(source.subarray(headerBytes));
+  const wrong =
+    source.byteLength === expected
+      ? undefined
+      : `A recording of ${frames} frames of ${count} boxes in ${dimensions}D takes ${expected} bytes, not ${source.byteLength}.`;
+  if (wrong && !salvage) throw new RangeError(wrong);
+  const whole = wrong && stride > 0 ? Math.floor((source.byteLength - headerBytes) / (4 * stride)) : frames;
+  const there = Math.min(frames, whole);
+  const numbers = asFloats(source.subarray(headerBytes, headerBytes + 4 * stride * there));
   return {
     dimensions,
     count,
-    frames,
+    frames: there,
+    wrong,
     frame(k) {
-      if (!Number.isInteger(k) || k < 0 || k >= frames) {
-        throw new RangeError(`Frame ${k} of a recording of ${frames}: expected 0 to ${frames - 1}.`);
+      if (!Number.isInteger(k) || k < 0 || k >= there) {
+        throw new RangeError(`Frame ${k} of a recording of ${there}: expected 0 to ${there - 1}.`);
       }
       return numbers.subarray(k * stride, (k + 1) * stride);
     },

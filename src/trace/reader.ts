@@ -1,6 +1,5 @@
 // Reads traces: whole ones from bytes, or as a stream while they arrive.
-import { bytesOf } from '../values.ts';
-import { uint32At } from './bytes.ts';
+import { givenBytes, uint32At } from './bytes.ts';
 import { crc32 } from './crc32.ts';
 import { FrameDecoder } from './decoder.ts';
 import {
@@ -51,15 +50,15 @@ export class Trace implements FrameSource {
 
   /** @throws TraceError that says what is wrong, in which frame, at which byte */
   constructor(bytes: Uint8Array, options: OpenOptions = {}) {
-    this.#bytes = bytes;
-    const { dimensions, version, world, checksum } = readHeader(bytes);
+    this.#bytes = givenBytes('Trace', bytes);
+    const { dimensions, version, world, checksum } = readHeader(this.#bytes);
     this.dimensions = dimensions;
     this.#version = version;
     this.#world = world;
     let frames = 0;
     const decoder = new FrameDecoder(dimensions, version, world);
     try {
-      const bodies = checkedBodies(bytes, checksum);
+      const bodies = checkedBodies(this.#bytes, checksum);
       // Decoded once here, so that no later iteration meets an error.
       for (const { body, offset } of bodies) if (decoder.decode(body, offset)) frames++;
     } catch (error) {
@@ -90,7 +89,7 @@ export class Trace implements FrameSource {
 
 /**
  * Opens a trace: checks the file, and gives its frames any number of times.
- * @throws TraceError if it is truncated, corrupted, newer than this reader, or not a trace
+ * @throws TraceError if it is truncated, corrupted, newer than this reader, or not a trace; TypeError if it is no bytes
  *
  * @example
  * const space = new BroadPhase();
@@ -101,7 +100,7 @@ export class Trace implements FrameSource {
  * for (const { index, boxes } of trace) console.assert(boxes[0] === index);
  */
 export function openTrace(bytes: Uint8Array | ArrayBuffer, options?: OpenOptions): Trace {
-  return new Trace(bytesOf(bytes) ?? new Uint8Array(), options);
+  return new Trace(givenBytes('openTrace', bytes), options);
 }
 
 /** A frame of a stream, with its dimensions. */

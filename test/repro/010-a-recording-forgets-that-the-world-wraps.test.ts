@@ -9,6 +9,7 @@ import { expect, test } from 'vitest';
 import { main } from '../../src/cli/main.ts';
 import { createRandom } from '../../src/scenes/random.ts';
 import { pairKeys } from '../../src/trace/exact.ts';
+import { wrappedPairs } from '../support/wrapped-reference.ts';
 
 function recorded(dimensions: 2 | 3, wrap: number[] | undefined, boxes = 60) {
   const space = new BroadPhase(wrap ? { dimensions, wrap } : { dimensions });
@@ -87,4 +88,24 @@ test('the kind of world is recorded, and readers refuse unknown kinds', () => {
   expect(recorded(2, undefined).bytes[11]).toBe(0);
   expect(recorded(2, [32, 20]).bytes[11]).toBe(1); // they expect a 0 there
   expect(openTrace(recorded(2, undefined).bytes).wrap).toBeUndefined();
+});
+
+test('only an infinite box covers the world: boxes whose distance overflows are compared exactly', () => {
+  const far = [-1e308, 0, -1e308, 1, 1e308, 0, 1e308, 1];
+  expect(exactPairs(far, 2, undefined, undefined, [50, 50])).toEqual(new Float64Array());
+  expect(exactPairs([-Infinity, 0, 0, 1, 1e308, 0, 1e308, 1], 2, undefined, undefined, [50, 50])).toEqual(
+    Float64Array.of(1),
+  );
+  const places = [-Number.MAX_VALUE, -1e308, -7e307, -3, 0, 1e-320, 2.5, 9e307, 1e308, Number.MAX_VALUE];
+  for (const wrap of [
+    [50, 50],
+    [1e-310, 3],
+    [1e300, 7e-5],
+  ]) {
+    for (const touching of [true, false]) {
+      const boxes = places.flatMap((x, k) => places.slice(k).map((end) => [x, 0, end, 1]));
+      const expected = wrappedPairs(new Map(boxes.entries()), wrap, touching);
+      expect(exactPairs(boxes.flat(), 2, undefined, undefined, wrap, { touching })).toEqual(expected);
+    }
+  }
 });

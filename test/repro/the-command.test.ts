@@ -113,6 +113,8 @@ describe('its own words', () => {
     [['info', small, '--frames', '--json'], "option '--frames <a..b>' argument missing"],
     [['info', small, '--frame', '0..1'], '(Did you mean --frames?)'],
     [['tunes', small], "unknown command 'tunes' (Did you mean tune?)"],
+    [['help', 'nosuch'], "unknown command 'nosuch'"],
+    [['help', 'tunes'], "unknown command 'tunes' (Did you mean tune?)"],
     [['info', small, '--json=yes'], "unknown option '--json=yes'"],
     [['info', small, small, small], 'Expected 1 argument but got 3.'],
     [['convert', small], "missing required argument 'file'"],

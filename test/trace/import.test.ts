@@ -7,10 +7,11 @@ import {
   openAny,
   openTrace,
   replay,
+  Trace,
   TraceError,
   TraceWriter,
 } from 'broadphase/trace';
-import { expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { concat } from '../support/random-frames.ts';
 import { traceFile, traceNames } from '../support/recordings.ts';
 
@@ -72,4 +73,73 @@ test('bad recordings are refused, with the place of the error', () => {
   expect(() => importRecording(raw(2, 0, 2 ** 30))).toThrow('frames without boxes');
   expect(() => importRecording(raw(2, 2 ** 30, 0))).toThrow('1073741824 boxes');
   expect(() => importRecording(raw(5, 1, 1))).toThrow(TraceError);
+});
+
+describe('salvage', () => {
+  const frames = 40;
+  const numbers = (k: number) =>
+    Float32Array.from({ length: 400 }, (_, at) => ((at * 37 + k * at) % 101) + (at & 2) * 99);
+  const writer = new TraceWriter(2);
+  const trace = concat([
+    writer.header(),
+    ...Array.from({ length: frames }, (_, k) => writer.frame(numbers(k)).slice()),
+    writer.end(),
+  ]);
+  const raw = exportRecording(openTrace(trace));
+
+  test.each([
+    ['a raw recording', raw, false],
+    ['a gzipped raw recording', raw, true],
+    ['a gzipped trace', trace, true],
+  ])('reads the intact frames of %s, wherever it was cut off', async (_, plain, zipped) => {
+    const whole = zipped ? gzipSync(plain) : plain;
+    let before = -1;
+    for (const share of [0.1, 0.3, 0.5, 0.77, 0.999]) {
+      const cut = Uint8Array.from(whole.subarray(0, Math.floor(share * whole.length)));
+      await expect(openAny(cut)).rejects.toThrow(TraceError);
+      const source = await openAny(cut, { salvage: true });
+      expect(source.frames).toBeGreaterThan(before);
+      expect(source.frames).toBeLessThan(frames + (share === 0.999 ? 1 : 0));
+      before = source.frames;
+      expect(source.fault).toBeInstanceOf(TraceError);
+      for (const { index, boxes } of source) expect(boxes).toEqual(numbers(index));
+    }
+    expect(before).toBeGreaterThan(frames - 3);
+    const intact = await openAny(whole, { salvage: true });
+    expect([intact.frames, intact.fault]).toEqual([frames, undefined]);
+  });
+
+  test('ends before the first frame with something that is not a box, and names it', () => {
+    const broken = raw.slice();
+    new DataView(broken.buffer).setFloat32(16 + 4 * (400 * 7 + 8), Number.NaN, true);
+    const source = importRecording(broken, { salvage: true });
+    expect([source.frames, source.fault?.frame]).toEqual([7, 7]);
+    expect([...source].length).toBe(7);
+    expect(() => importRecording(raw.subarray(0, 9), { salvage: true })).toThrow('fewer than the 16 of the header');
+    const more = importRecording(concat([raw, Uint8Array.of(1, 2, 3)]), { salvage: true });
+    expect([more.frames, more.fault?.message]).toEqual([frames, expect.stringContaining('bytes, not')]);
+  });
+});
+
+describe('bytes', () => {
+  const writer = new TraceWriter(2);
+  const trace = concat([writer.header(), writer.frame(Float32Array.of(0, 0, 1, 1)).slice(), writer.end()]);
+  const raw = exportRecording(openTrace(trace));
+
+  test('may be in an ArrayBuffer', async () => {
+    for (const bytes of [raw, gzipSync(raw), trace, gzipSync(trace)]) {
+      const { buffer } = Uint8Array.from(bytes);
+      expect((await openAny(buffer)).frames).toBe(1);
+    }
+  });
+
+  test.each([[undefined], [null], ['x'], [7], [{}]])('%j is named, if it is none', async (given) => {
+    const message = /: got .*, expected a Uint8Array or an ArrayBuffer/;
+    expect(() => openTrace(given as never)).toThrow(TypeError);
+    expect(() => openTrace(given as never)).toThrow(message);
+    expect(() => new Trace(given as never)).toThrow(message);
+    expect(() => importRecording(given as never)).toThrow(message);
+    await expect(openAny(given as never)).rejects.toThrow(message);
+    await expect(openAny(given as never, { salvage: true })).rejects.toThrow(TypeError);
+  });
 });

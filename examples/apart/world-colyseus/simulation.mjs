@@ -54,7 +54,7 @@ export class Simulation {
       this.entities.delete(id);
       return { entity, to: this.#zones.ownerOf(boxOf(entity)), tick, until: tick + remembered };
     });
-    this.#handedOver.push(...given);
+    for (const one of given) this.#handedOver.push(one);
     return { deltas, given };
   }
 

@@ -55,5 +55,8 @@ export function loadDuckDB(): DuckDB {
 /** A text as an SQL literal. */
 export const quoted = (text: string): string => `'${text.replaceAll("'", "''")}'`;
 
+/** A path as an SQL literal: DuckDB takes `*`, `?` and `[` in it for patterns, unless each is a class of its own. */
+export const quotedPath = (path: string): string => quoted(path.replace(/[*?[]/g, '[$&]'));
+
 /** The name of a column as an SQL identifier. */
 export const named = (column: string): string => `"${column.replaceAll('"', '""')}"`;

@@ -3,7 +3,7 @@ import { stat } from 'node:fs/promises';
 import { corners } from '../../errors.ts';
 import { UsageError } from '../arguments.ts';
 import { FileError } from '../files.ts';
-import { type Connection, named, quoted } from './duckdb.ts';
+import { type Connection, named, quotedPath } from './duckdb.ts';
 
 /** The contents of a file are wrong. */
 export class DataError extends Error {}
@@ -43,7 +43,7 @@ export async function openSource(db: Connection, path: string, columns: string[]
   if (!parquet && !/\.(csv|tsv)(\.gz)?$/i.test(path)) {
     throw new UsageError(`${path}: expected a name that ends in .parquet, .csv or .tsv (these also with .gz)`);
   }
-  const plain = parquet ? `read_parquet(${quoted(path)}` : `read_csv(${quoted(path)}`;
+  const plain = `${parquet ? 'read_parquet' : 'read_csv'}(${quotedPath(path)}`;
   const { names } = await reading(path, async () => {
     const rows = (await db.runAndReadAll(`describe select * from ${plain})`)).getRows();
     return { names: rows.map(([name]) => String(name)) };

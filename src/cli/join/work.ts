@@ -72,7 +72,7 @@ export class Work {
     const total = counts.reduce((sum, count) => sum + count, 0);
     for (const [k, source] of sources.entries()) {
       const size = Math.ceil((sampleSize * counts[k]) / Math.max(1, total));
-      if (size > 0) sample.push(...(await sampleSource(this.db, source, size)));
+      if (size > 0) for (const value of await sampleSource(this.db, source, size)) sample.push(value);
     }
     const tiles = chooseTiles(sample, dimensions, Math.max(1, Math.ceil(total / perTile)));
     say('sorting boxes into tiles');
