@@ -190,7 +190,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
       (flat ? e - e + (f - f) : g! - g! + (h! - h!) + (i! - i!)) !== 0 // x - x is NaN if x is infinite
     ) {
       // biome-ignore lint/complexity/noArguments: the same
-      badSwept(arguments, this.dimensions);
+      badSwept(arguments.length, id, [a, b, c, d, e, f, g, h, i], this.dimensions);
     }
     const space = this as BroadPhase<Dimensions>;
     if (flat) space.set(id, a + Math.min(e, 0), b + Math.min(f, 0), c + Math.max(e, 0), d + Math.max(f, 0));
@@ -218,7 +218,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
       !(flat ? isSize(c) && isSize(d) : isSize(d) && isSize(e) && isSize(f))
     ) {
       // biome-ignore lint/complexity/noArguments: the same
-      badCentred('setCentred', arguments, this.dimensions);
+      badCentred(arguments.length, id, [a, b, c, d, e, f], this.dimensions);
     }
     const space = this as BroadPhase<Dimensions>;
     if (flat) space.set(id, a - c, b - d, a + c, b + d);

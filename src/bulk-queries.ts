@@ -127,13 +127,14 @@ export function askMany(
   checkFar(instance, where, kind, numbers, maxDistance);
   if (ignoreEach !== undefined) checkIgnored(where, ignoreEach, count);
   if (out !== undefined) checkAnswer(where, out, parts);
+  const ignored = kept(instance, ignoreEach);
   try {
     const at = instance.kernel.stage_questions(length + count) >>> 3;
     if (numbers.length < length) checkNumberArray(where, numbers); // it was this space's memory, which has grown
     const doubles = instance.doubleView();
     doubles.set(numbers, at);
     if (ignoreEach === undefined) doubles.fill(nobody, at + length, at + length + count);
-    else doubles.set(ignoreEach, at + length);
+    else doubles.set(ignored!, at + length);
     const bad = instance.kernel.bad_question(kind, count);
     if (bad >= 0) badNumbers(where, numbers, bad, names);
     instance.io()[limitAt] = kind === asks.way ? 1 : maxDistance;
@@ -236,6 +237,11 @@ function checkIgnored(where: string, ids: ArrayLike<number>, count: number): voi
   if (!isTypedArray(ids, 'Uint32Array') && !Array.isArray(ids)) badValue(where, ids, 'a Uint32Array or an array', true);
   if (ids.length !== count) badValue(`${where}: length`, ids.length, `${count}, one id for each query`);
   for (let k = 0; k < count; k++) if (!isId(ids[k])) badId(`${where}[${k}]`, ids[k]);
+}
+
+/** Copies ids in this space's memory, such as `pairs`, which growing memory would detach. */
+function kept(instance: KernelInstance, ids: Options['ignoreEach']): Options['ignoreEach'] {
+  return ArrayBuffer.isView(ids) && ids.buffer === instance.exports.memory.buffer ? ids.slice() : ids;
 }
 
 /** The answer of an earlier call of the same kind. */

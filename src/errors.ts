@@ -92,13 +92,13 @@ function badCount(
 }
 
 /** A bad box by centre and half size: says which of its numbers is wrong. */
-export function badCentred(where: string, given: ArrayLike<unknown>, dimensions: 2 | 3): never {
-  const id = given[0];
+export function badCentred(got: number, id: unknown, given: readonly unknown[], dimensions: 2 | 3): never {
+  const where = 'setCentred';
   checkId(where, id);
   const names = centred[dimensions];
-  if (given.length !== 1 + names.length) badCount(where, id, given.length, dimensions, names);
+  if (got !== 1 + names.length) badCount(where, id, got, dimensions, names);
   for (const [k, name] of names.entries()) {
-    const value = given[1 + k];
+    const value = given[k];
     const what = `${where}: ${name} of box ${id}`;
     const expected = k < dimensions ? 'a finite number' : 'a number, at least 0';
     if (!(k < dimensions ? Number.isFinite(value) : isSize(value))) badNumber(what, value, expected);
@@ -274,10 +274,9 @@ export function badSet(
 }
 
 /** Finds what is wrong with the arguments of `setSwept`. */
-export function badSwept(given: ArrayLike<unknown>, dimensions: 2 | 3): never {
-  const [id, ...box] = Array.from(given);
+export function badSwept(got: number, id: unknown, given: readonly unknown[], dimensions: 2 | 3): never {
   if (!isId(id)) badId('setSwept', id);
   const names = dimensions === 2 ? sweep2 : sweep3;
-  if (given.length !== 1 + names.length) badCount('setSwept', id, given.length, dimensions, names);
-  badQuery('setSwept', box, names, 'a number');
+  if (got !== 1 + names.length) badCount('setSwept', id, got, dimensions, names);
+  badQuery('setSwept', given, names, 'a number');
 }

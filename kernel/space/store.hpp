@@ -89,9 +89,9 @@ template <int D> class Store {
   /// Removes a box; false if there is none.
   SMALL bool remove(u32 id) {
     see_written();
-    before_change();
     u32 slot = ids.slot(id);
     if (slot == Ids::none) return false;
+    before_change();
     if (keeps_events) events.make_room(id);
     changed.remove(id);
     ids.erase(id);

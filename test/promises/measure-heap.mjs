@@ -112,6 +112,7 @@ function askFlat(space) {
   space.rayCast(0, 0, 1, 1, ray);
   space.rayCastAll(0, 0, 1, 1, rays);
   space.setSwept(7, 0, 0, 9, 9, 900, 900);
+  space.setCentred(8, 50, 50, 9, 9);
   space.sweep(0, 0, 9, 9, 900, 900, swept);
   space.queryPlanes(planes[2], view);
   space.isColliding(7, 8);
@@ -126,6 +127,7 @@ function askSolid(space) {
   space.rayCast(0, 0, 0, 1, 1, 1, ray);
   space.rayCastAll(0, 0, 0, 1, 1, 1, rays);
   space.setSwept(7, 0, 0, 0, 9, 9, 9, 900, 900, 900);
+  space.setCentred(8, 50, 50, 50, 9, 9, 9);
   space.sweep(0, 0, 0, 9, 9, 9, 900, 900, 900, swept);
   space.isColliding(7, 8);
 }
@@ -183,6 +185,7 @@ for (const dimensions of [2, 3]) {
     const bad = Array(2 * dimensions).fill(k % 2 ? Number.NaN : '1');
     refused(() => space.set(1, ...bad));
     refused(() => space.setSwept(1, ...bad, ...bad.slice(dimensions)));
+    refused(() => space.setCentred(1, ...bad));
   }
 }
 

@@ -31,6 +31,22 @@ test('the ids of the last answer can be those to ignore, in the same array', () 
   );
 });
 
+test('deleting a box that is not there changes nothing for queries', () => {
+  const space = new BroadPhase();
+  for (let id = 0; id < 20_000; id++) space.set(id, 2 * id, 0, 2 * id + 1, 1);
+  space.update();
+  expect(space.delete(99_999)).toBe(false);
+  expect(space.queryPoint(0, 0)).toEqual([0]);
+});
+
+test('the pairs of a space can be the ids that its queries ignore, even if memory grows', () => {
+  const space = new BroadPhase();
+  for (let id = 0; id < 300; id++) space.set(id, 0, 0, 1, 1);
+  const { pairs } = space.update();
+  const rays = new Float64Array(4 * pairs.length).fill(1);
+  expect(space.rayCasts(rays, { ignoreEach: pairs }).offsets.length).toBe(300 * 299 + 1);
+});
+
 test('a call without out returns no objects that the caller was given before', () => {
   const space = new BroadPhase();
   for (let id = 0; id < 3; id++) space.set(id, 10 * id, 0, 10 * id + 1, 1);
