@@ -35,4 +35,4 @@ export function bytesOf(value: unknown, where = 'a recording'): Uint8Array | und
   return undefined;
 }
 
-const tagOf = (value: unknown): string => Object.prototype.toString.call(value).slice('[object '.length, -1);
+export const tagOf = (value: unknown): string => Object.prototype.toString.call(value).slice('[object '.length, -1);

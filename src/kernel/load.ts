@@ -3,10 +3,9 @@
 // without waiting; `init` is for hosts that forbid that or want to load the bytes themselves. Builds of the library
 // with all techniques take the other text (scripts/every-technique.mjs).
 import type { Dimensions } from '../dimensions.ts';
-import { show } from '../errors.ts';
 import type { KernelExports } from '../generated/abi.ts';
 import { dimensions as builtDimensions, decoder, techniques as inlined, text } from '../generated/kernel-lean.ts';
-import { bytesOf, isModule } from '../values.ts';
+import { bytesOf, isModule, tagOf } from '../values.ts';
 
 /** The exported functions of kernel/decoder.cpp. */
 interface DecoderExports {
@@ -34,7 +33,7 @@ let techniques = inlined;
  * @throws TypeError if it is neither, or not that kernel; Error if the bytes cannot be compiled
  *
  * @example
- * init('kernel.wasm' as never); // throws TypeError: init: got "kernel.wasm", expected a WebAssembly.Module
+ * init('kernel.wasm' as never); // throws TypeError: init: got kernel.wasm, expected a WebAssembly.Module
  */
 export function init(source: WebAssembly.Module | BufferSource): void {
   const bytes = bytesOf(source, 'init');
@@ -45,7 +44,10 @@ export function init(source: WebAssembly.Module | BufferSource): void {
     const start = String.fromCharCode(...given.subarray(0, 4));
     if (start !== '\0asm') notKernel(`bytes that begin with ${JSON.stringify(start)}`); // a page that says 404
     module = checked(compile(given));
-  } else throw new TypeError(`init: got ${show(source)}, expected a WebAssembly.Module or the bytes of one`);
+  } else
+    throw new TypeError(
+      `init: got ${typeof source === 'object' ? tagOf(source) : String(source)}, expected a WebAssembly.Module or the bytes of one`,
+    );
   modules = [undefined, undefined, module, module];
   techniques = 0;
 }
