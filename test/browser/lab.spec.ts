@@ -338,6 +338,22 @@ test('what is recorded is a trace of the frames shown', async ({ page }) => {
   expect(Array.from(trace, ({ count }) => count)).toEqual([150, 150, 150, 150, 150]);
 });
 
+test('another scene, or a race, ends a recording and saves it', async ({ page }) => {
+  await openStill(page, 'scene=crowd&boxes=150');
+  const record = page.locator('#record');
+  for (const act of [
+    () => page.getByRole('combobox', { name: 'Scene' }).selectOption('dense2d'),
+    () => page.getByRole('button', { name: 'Race' }).click(),
+  ]) {
+    await record.click();
+    await expect(record).toHaveText('Stop and save');
+    const [file] = await Promise.all([page.waitForEvent('download'), act()]);
+    expect(openTrace(readFileSync((await file.path())!)).frames).toBe(1);
+    await expect(record).toHaveText('Record');
+    await expect(page.locator('#recording')).toContainText('Something else was opened. Saved.');
+  }
+});
+
 test('a link shows the same: scene, technique, cells, frame, view and box', async ({ page }) => {
   const query = 'scene=crowd&boxes=640&technique=quadtree&show=heat,pairs&frame=30&view=0.4,0.6,3&box=7';
   await openStill(page, query);
