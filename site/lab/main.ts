@@ -319,6 +319,8 @@ async function setUp(): Promise<void> {
 
 function choose(id: number | undefined): void {
   state.box = id;
+  const hides = id === undefined && find('chosen').contains(document.activeElement);
+  if (hides) view.element.focus({ preventScroll: true }); // the focus would be lost with the button that was pressed
   void playback.show(0).then(report);
   remember();
 }

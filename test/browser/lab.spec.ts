@@ -157,6 +157,19 @@ test('a click on a box shows its pairs and cells, and its partners can be follow
   await expect(chosen).toBeHidden();
 });
 
+test('what is told of a box is written in place while it moves, and Escape closes it', async ({ page }) => {
+  await page.goto('/lab/?scene=dense2d&boxes=100&technique=spatial-grid&box=7');
+  const chosen = page.locator('#chosen');
+  const close = chosen.getByRole('button', { name: 'Close the box' });
+  await close.focus();
+  const told = await chosen.locator('p').first().textContent();
+  await expect(chosen.locator('p').first()).not.toHaveText(told!);
+  await expect(close).toBeFocused();
+  await page.keyboard.press('Escape');
+  await expect(chosen).toBeHidden();
+  await expect(page.locator('#flat')).toBeFocused();
+});
+
 test('pans and zooms, keeps the view in the address, and shows everything again', async ({ page }) => {
   await openStill(page, 'boxes=300');
   const view = page.locator('#flat');
