@@ -196,6 +196,8 @@ for (const [id, things] of [
     await section.locator('.stage').focus();
     await page.keyboard.press('ArrowRight');
     await expect.poll(look, patient).not.toBe(before);
+    await page.setViewportSize({ width: 600, height: 720 });
+    await expect(() => expectWithin(canvas)).toPass(patient);
   });
 
   for (const width of [1440, 390]) {
