@@ -13,6 +13,8 @@ const padding = 2;
 /** Iterations per tick. With fewer, words that are attracted to one point still overlap at the end. */
 const iterations = 5;
 const [few, many] = [300, 2000];
+/** How long the stage keeps a new size before its rectangles are laid out again, in milliseconds. */
+const settled = 150;
 const hues = [262, 225, 190, 150, 310];
 /** How far an arrow key moves the pointer's rectangle, in pixels. */
 const keyStep = 24;
@@ -140,6 +142,9 @@ export const rectanglesDemo =
     let key = 'broadphase';
     let simulation;
     let took = 0;
+    /** The size of the stage for which there is a layout. */
+    let size = '';
+    let resized = 0;
     const guest = { label: '', group: 0, width: 0, height: 0, guest: true };
     const redraw = canvasIn(stage, (context, _width, _height, colours) => {
       context.textAlign = 'center';
@@ -154,6 +159,7 @@ export const rectanglesDemo =
 
     function start() {
       const [width, height] = [stage.clientWidth, stage.clientHeight];
+      size = `${width} ${height}`;
       Object.assign(guest, { x: width / 2, y: -1e4, fx: width / 2, fy: -1e4, width: 0, height: 0 });
       nodes = [...makeNodes(kind, count, width, height, seed), guest];
       raceNodes = nodes.map((node) => ({ ...node, vx: 0, vy: 0 }));
@@ -222,6 +228,12 @@ export const rectanglesDemo =
       seed++;
     });
     const actions = { Shuffle: shuffle, ...countTo(few), ...countTo(many) };
+    new ResizeObserver(() => {
+      clearTimeout(resized);
+      // Without a layout for the new size, much would be outside the stage.
+      const look = () => size !== `${stage.clientWidth} ${stage.clientHeight}` && start();
+      if (simulation) resized = setTimeout(look, settled);
+    }).observe(stage);
     requestAnimationFrame(start); // then the stage has its size
     return {
       legend: 'The force, once, by',

@@ -67,6 +67,8 @@ export function nodesDemo(stage, { wake, say }) {
   let heap = withHeap(nodes);
   let work = separate;
   let relaxing = false;
+  /** Nothing moves after other nodes were given, until someone moves one or asks for it. */
+  let resting = true;
   /** Until none overlap; then all of them are brought into view, which dragging a node does not do. */
   let untangling = false;
   let flow;
@@ -93,9 +95,13 @@ export function nodesDemo(stage, { wake, say }) {
     }
     say(`${nodes.length} nodes; this step took ${taken.toFixed(2)} ms${apart ? '; none overlap' : ''}`);
   };
+  const run = () => {
+    resting = false;
+    wake();
+  };
   const changed = (changes) => {
     show(applyNodeChanges(changes, nodes));
-    if (changes.some(({ type }) => type === 'position')) wake();
+    if (changes.some(({ type }) => type === 'position')) run();
   };
 
   function Canvas() {
@@ -123,6 +129,7 @@ export function nodesDemo(stage, { wake, say }) {
   const fit = () => requestAnimationFrame(() => flow?.fitView({ padding: 0.08 }));
   const start = (given) => {
     relaxing = untangling = false;
+    resting = true; // a frame of before may be on its way
     show(given);
     say(`${given.length} nodes`);
     fit();
@@ -144,7 +151,7 @@ export function nodesDemo(stage, { wake, say }) {
     actions: {
       Untangle: () => {
         untangling = true;
-        wake();
+        run();
       },
       'Paste 500': () => {
         heap = withHeap(nodes.slice(0, first.nodes.length));
@@ -153,10 +160,13 @@ export function nodesDemo(stage, { wake, say }) {
       'Start over': () => start(first.nodes),
     },
     step() {
+      if (resting) return false;
       make(2);
       return relaxing;
     },
-    settle: () => make(enough),
+    settle() {
+      if (!resting) make(enough);
+    },
     get nodes() {
       return nodes;
     },

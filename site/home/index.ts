@@ -94,6 +94,11 @@ async function show(): Promise<void> {
   slider.style.setProperty('--filled', `${(100 * slider.valueAsNumber) / Number(slider.max)}%`);
   slider.setAttribute('aria-valuetext', `${formatCount(scene.count)} boxes`);
   figure.show(scene);
+  if (!figure.loop.playing) {
+    // A paused page shows one update: of moved boxes, as all others are, not the first of a scene.
+    figure.timings.clear();
+    figure.step();
+  }
   describe(scene, recorded);
   movingSince = performance.now();
   report();

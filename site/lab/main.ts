@@ -8,7 +8,7 @@ import type { RendererKind } from '../shared/renderer.ts';
 import { Timings } from '../shared/timings.ts';
 import { Address } from './address.ts';
 import { isTrace, mostBoxes, traces } from './catalog.ts';
-import { save, takeFiles } from './files.ts';
+import { takeFiles } from './files.ts';
 import { createCellSize } from './panels/cell-size.ts';
 import { createCharts } from './panels/charts.ts';
 import {
@@ -24,6 +24,7 @@ import { createCountSlider } from './panels/count-slider.ts';
 import { createInspector } from './panels/inspector.ts';
 import { describeParts } from './panels/parts.ts';
 import { Playback } from './panels/playback.ts';
+import { createRecorder } from './panels/recorder.ts';
 import { createRace, type Race } from './race.ts';
 import { defaults, type LabState, type Layer, latestFrame, type Rate, readState, writeState } from './state.ts';
 import { type LabView, onClick } from './views/view.ts';
@@ -53,12 +54,17 @@ let ownFile: File | undefined;
 let view: LabView;
 let picture: Picture | undefined;
 let race: Race | undefined;
-let recording = false;
 
 const pilot = new Pilot(patience);
 const playback = new Playback(makeFrame);
 const timings = new Timings();
 const charts = createCharts(find('charts'));
+const recorder = createRecorder({
+  begin: () => ask('record'),
+  bytes: () => ask('recording'),
+  name: () => (ownFile ? 'recording' : state.scene),
+  failed: (error) => say(`The recording stopped: ${reasonOf(error)}`, true),
+});
 const inspect = createInspector(find('chosen'), choose);
 const slider = createCountSlider(find('count'), state.boxes, (count) => {
   state.boxes = count;
@@ -189,7 +195,9 @@ async function openAt(frame: number, look: readonly number[] | undefined, signal
     picture = spare = undefined; // its arrays may be on the way to a racer, and cannot be sent twice
   }
   race = undefined;
-  recording = false;
+  // The worker forgets it when it opens something; not by ask(), which would open again if that takes too long.
+  await recorder.end('Something else was opened. ', () => pilot.ask('recording'));
+  signal.throwIfAborted();
   if (source.kind !== 'scene') say('Loading the recording.');
   const now = await pilot.ask('open', source, frame);
   signal.throwIfAborted();
@@ -311,6 +319,8 @@ async function setUp(): Promise<void> {
 
 function choose(id: number | undefined): void {
   state.box = id;
+  const hides = id === undefined && find('chosen').contains(document.activeElement);
+  if (hides) view.element.focus({ preventScroll: true }); // the focus would be lost with the button that was pressed
   void playback.show(0).then(report);
   remember();
 }
@@ -354,10 +364,7 @@ function report(): void {
     inspect(picture, state.box);
     charts.draw();
   }
-  if (recording && recorded) {
-    find('recording').textContent =
-      `${formatCount(recorded.frames)} frames, ${(recorded.bytes / 1e6).toFixed(1)} MB${recorded.full ? ': full' : ''}`;
-  }
+  recorder.show(recorded);
 }
 
 function play(playing: boolean): void {
@@ -378,24 +385,6 @@ function caption(): void {
       'aria-label',
       `${formatCount(picture.boxes)} boxes, ${playback.playing ? 'moving' : 'paused'}, with ${formatCount(picture.stats.pairs)} overlapping pairs. Boxes that touch share a colour.`,
     );
-}
-
-async function toggleRecording(): Promise<void> {
-  const button = find('record');
-  try {
-    if (!recording) {
-      await ask('record');
-      recording = true;
-    } else {
-      recording = false;
-      save(await ask('recording'), `${ownFile ? 'recording' : state.scene}.trace`);
-      find('recording').textContent = 'Saved. Next: npx broadphase tune on that file.';
-    }
-  } catch (error) {
-    recording = false;
-    say(`The recording stopped: ${reasonOf(error)}`, true);
-  }
-  button.textContent = recording ? 'Stop and save' : 'Record';
 }
 
 async function share(): Promise<void> {
@@ -470,7 +459,6 @@ find('fit').addEventListener('click', () => {
   view.look = undefined;
   remember();
 });
-find('record').addEventListener('click', () => void toggleRecording());
 find('share').addEventListener('click', () => void share());
 find('controls').addEventListener('submit', (event) => event.preventDefault());
 takeFiles(find('choose'), find<HTMLInputElement>('file'), (chosen) => void change({ scene: state.scene, own: chosen }));

@@ -267,8 +267,14 @@ view.addEventListener('keydown', (event) => {
   event.preventDefault();
   const { aim, world } = desk;
   desk.aimed = true;
-  for (let k = event.shiftKey ? 2 : 0; k < 4; k++) {
-    aim[k] = Math.min(world, Math.max(0, aim[k] + way[k % 2] * keyStep * world));
+  const first = event.shiftKey ? 2 : 0;
+  for (let axis = 0; axis < 2; axis++) {
+    // Both points move equally far, also at the border, so that what was aimed keeps its shape.
+    const [low, high] = [Math.min(aim[first + axis], aim[2 + axis]), Math.max(aim[first + axis], aim[2 + axis])];
+    const wish = way[axis] * keyStep * world;
+    // What a pointer has aimed outside stays there, and can come back.
+    const by = wish < 0 ? Math.max(wish, Math.min(0, -low)) : Math.min(wish, Math.max(0, world - high));
+    for (let k = first + axis; k < 4; k += 2) aim[k] += by;
   }
   answerSoon();
 });

@@ -242,6 +242,8 @@ test('figure 13: numbers are handed out in turn and never twice', async ({ page 
   }
   await press(ids, 'Take out entity 1');
   await expect(ids.locator('.chips li')).toHaveText(['0', '2']);
+  await expect(ids.getByRole('status')).toContainText('Entity 1 is gone');
+  await expect(ids.getByRole('button', { name: 'Back' })).toBeDisabled(); // nothing is told of who is gone
   await press(ids, 'Add an entity');
   await track(ids).press('End');
   await expect(ids.locator('.chips li')).toHaveText(['0', '2', '3']);

@@ -90,6 +90,7 @@ test('shows 100,000 boxes, still, to those who ask for less motion; what they ch
   await expect(shown(page, 'boxes')).toHaveText('100,000');
   await expect(page.locator('.lede')).toContainText('100,000 boxes move');
   expect(await number(page, 'pairs')).toBeGreaterThan(40_000);
+  expect(await number(page, 'tests')).toBeGreaterThan(0); // of an update in which boxes have moved
   await expect(page).not.toHaveURL(/boxes=/);
   await page.waitForTimeout(2500);
   await expect(shown(page, 'boxes')).toHaveText('100,000');
@@ -218,6 +219,23 @@ test('at no width is a link of the navigation alone below the name: all are besi
     const below = links.filter(({ middle }) => middle > home.middle + 10);
     expect([0, links.length], `${width} pixels wide`).toContain(below.length);
     if (below.length > 0) expect(below[0].left, `${width} pixels wide`).toBe(home.left);
+  }
+});
+
+test('in a low window every control can be reached', async ({ page }) => {
+  await openStill(page, '/?boxes=100');
+  for (const [width, height] of [
+    [1366, 625],
+    [1100, 500],
+  ]) {
+    await page.setViewportSize({ width, height });
+    await page.evaluate(() => scrollTo(0, 0));
+    for (const name of ['Play', 'Show everything']) {
+      await expect(page.getByRole('button', { name }), `${width} by ${height}`).toBeInViewport({ ratio: 1 });
+    }
+    await page.mouse.move(200, 200);
+    await page.mouse.wheel(0, 500);
+    await expect(page.locator('#technique'), `${width} by ${height}`).toBeInViewport({ ratio: 1 });
   }
 });
 

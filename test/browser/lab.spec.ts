@@ -157,6 +157,19 @@ test('a click on a box shows its pairs and cells, and its partners can be follow
   await expect(chosen).toBeHidden();
 });
 
+test('what is told of a box is written in place while it moves, and Escape closes it', async ({ page }) => {
+  await page.goto('/lab/?scene=dense2d&boxes=100&technique=spatial-grid&box=7');
+  const chosen = page.locator('#chosen');
+  const close = chosen.getByRole('button', { name: 'Close the box' });
+  await close.focus();
+  const told = await chosen.locator('p').first().textContent();
+  await expect(chosen.locator('p').first()).not.toHaveText(told!);
+  await expect(close).toBeFocused();
+  await page.keyboard.press('Escape');
+  await expect(chosen).toBeHidden();
+  await expect(page.locator('#flat')).toBeFocused();
+});
+
 test('pans and zooms, keeps the view in the address, and shows everything again', async ({ page }) => {
   await openStill(page, 'boxes=300');
   const view = page.locator('#flat');
@@ -336,6 +349,22 @@ test('what is recorded is a trace of the frames shown', async ({ page }) => {
   const trace = openTrace(readFileSync((await file.path())!));
   expect(trace.frames).toBe(5);
   expect(Array.from(trace, ({ count }) => count)).toEqual([150, 150, 150, 150, 150]);
+});
+
+test('another scene, or a race, ends a recording and saves it', async ({ page }) => {
+  await openStill(page, 'scene=crowd&boxes=150');
+  const record = page.locator('#record');
+  for (const act of [
+    () => page.getByRole('combobox', { name: 'Scene' }).selectOption('dense2d'),
+    () => page.getByRole('button', { name: 'Race' }).click(),
+  ]) {
+    await record.click();
+    await expect(record).toHaveText('Stop and save');
+    const [file] = await Promise.all([page.waitForEvent('download'), act()]);
+    expect(openTrace(readFileSync((await file.path())!)).frames).toBe(1);
+    await expect(record).toHaveText('Record');
+    await expect(page.locator('#recording')).toContainText('Something else was opened. Saved.');
+  }
 });
 
 test('a link shows the same: scene, technique, cells, frame, view and box', async ({ page }) => {

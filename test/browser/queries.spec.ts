@@ -227,6 +227,11 @@ test('keys move what is asked, and with shift its end', async ({ page }) => {
   await expect.poll(corners).toEqual([minX + 8, minY, maxX + 8, maxY]);
   await page.keyboard.press('Shift+ArrowUp');
   await expect.poll(corners).toEqual([minX + 8, minY, maxX + 8, maxY + 8]);
+  // At the border it stops, and keeps its shape.
+  for (let press = 0; press < 60; press++) await page.keyboard.press('ArrowLeft');
+  await expect.poll(async () => (await corners())[0]).toBe(0);
+  const [left, bottom, right, top] = await corners();
+  expect([right - left, top - bottom]).toEqual([maxX - minX, maxY + 8 - minY]);
   await page.keyboard.press('Tab');
   expect(await page.evaluate(() => document.activeElement?.id)).toBe('play');
 });

@@ -86,6 +86,18 @@ test('nodes: 500 are pasted, and come apart frame by frame', async ({ page }) =>
   await expectAllInSight(section);
 });
 
+test('nodes: who starts over while they come apart gets the first ones as they were', async ({ page }) => {
+  const section = await open(page, 'nodes', 'no-preference');
+  const before = await nodeBoxes(page);
+  await section.getByRole('button', { name: 'Paste 500' }).click();
+  await section.getByRole('button', { name: 'Untangle' }).click();
+  await expect(section.locator('p[role=status]')).toContainText('this step took');
+  await section.getByRole('button', { name: 'Start over' }).click();
+  await page.waitForTimeout(500);
+  await expect(section.locator('p[role=status]')).toHaveText('40 nodes');
+  expect(await nodeBoxes(page)).toEqual(before);
+});
+
 /** Nodes are within the stage, and none is cut off. */
 const expectAllInSight = (section: Locator) =>
   expect
@@ -184,6 +196,8 @@ for (const [id, things] of [
     await section.locator('.stage').focus();
     await page.keyboard.press('ArrowRight');
     await expect.poll(look, patient).not.toBe(before);
+    await page.setViewportSize({ width: 600, height: 720 });
+    await expect(() => expectWithin(canvas)).toPass(patient);
   });
 
   for (const width of [1440, 390]) {

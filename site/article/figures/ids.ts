@@ -5,9 +5,12 @@ import { prefersStill } from '../kit/attend.ts';
 import { button, columns, counters, createStepper, element, excerpt, listing, row, sayer } from '../kit/index.ts';
 import { type AddingOperation, recordAdding } from '../record.ts';
 
+/** What is told: of adding an entity, or that it was taken out. */
+type Step = AddingOperation | 'out';
+
 const most = 8;
 const pace = 450;
-const lights: Readonly<Record<AddingOperation, string>> = {
+const lights: Readonly<Record<Step, string | null>> = {
   asked: 'if (entity.world !== null)',
   aabb: 'entity.updateAABB()',
   id: 'entity._roId = this.uniq',
@@ -15,6 +18,7 @@ const lights: Readonly<Record<AddingOperation, string>> = {
   uniq: 'this.uniq++',
   world: 'entity.world = this',
   done: 'this.#entities.add(',
+  out: null,
 };
 
 export function mount(root: HTMLElement): () => void {
@@ -45,21 +49,19 @@ export function mount(root: HTMLElement): () => void {
   };
 
   const takeOut = (entity: Entity) => {
-    stepper.stop();
     world.removeEntity(entity);
-    source.light(null);
-    say(`Entity ${entity._roId} is gone. Its number is not reused; the next entity gets ${world.uniq}.`);
-    show();
+    current = { entity, steps: ['out'] }; // no way back into adding an entity that may be gone
+    stepper.load(current.steps);
     add.focus();
   };
 
-  const begin = (): { entity: Entity; steps: AddingOperation[] } => {
+  const begin = (): { entity: Entity; steps: Step[] } => {
     const entity = new Entity(0, 0, 10, 10);
     return { entity, steps: recordAdding(world, entity) };
   };
 
   let current = begin();
-  const words: Readonly<Record<AddingOperation, (id: number) => string>> = {
+  const words: Readonly<Record<Step, (id: number) => string>> = {
     asked: () => 'Is it in a world already? No: it may be added.',
     aabb: () => 'Its AABB is updated.',
     id: (id) => `It gets the next number: ${id}.`,
@@ -67,6 +69,7 @@ export function mount(root: HTMLElement): () => void {
     uniq: (id) => `The next number is raised to ${id + 1}.`,
     world: (id) => `Entity ${id} remembers which world it is in.`,
     done: (id) => `Entity ${id} is in the list. That is all.`,
+    out: (id) => `Entity ${id} is gone. Its number is not reused; the next entity gets ${world.uniq}.`,
   };
 
   const add = button(tools, 'Add an entity', () => {
@@ -83,6 +86,7 @@ export function mount(root: HTMLElement): () => void {
       const { entity, steps } = current;
       source.light(lights[operation]);
       say(words[operation](entity._roId));
+      if (operation === 'out') return show();
       show(index === steps.length - 1 ? undefined : entity, index >= steps.indexOf('id'));
       count('uniq', index >= steps.indexOf('uniq') ? entity._roId + 1 : entity._roId);
       count('entities', world.entities.length - (index === steps.length - 1 ? 0 : 1));
