@@ -3,7 +3,7 @@ import { badId, badNumber, badValue, checkBits, isId, isSize } from './errors.ts
 
 /** Options of every query, each of which adds an `out` or a `visit` of its own. */
 export interface QueryOptions {
-  /** Only boxes with a layer in it: 32 bits, as for `setFilter`. Default: all boxes. */
+  /** Only boxes with a layer in it: 32 bits, as for `setFilter`. All bits, the default: all boxes, even one without a layer. */
   mask?: number | undefined;
   /** A box to leave out, usually the one that asks, or a few: each is compared with each answer. */
   ignore?: number | readonly number[] | undefined;
@@ -152,7 +152,7 @@ export interface ManySweepHits extends ManyIds {
 
 /** Options of many queries. */
 export interface ManyOptions<Answer = ManyIds> {
-  /** Only boxes with a layer in it: 32 bits, as for `setFilter`. Default: all boxes. */
+  /** Only boxes with a layer in it: 32 bits, as for `setFilter`. All bits, the default: all boxes, even one without a layer. */
   mask?: number | undefined;
   /** For each query a box to leave out of its answers, usually the one that asks; any id, in use or not. */
   ignoreEach?: Uint32Array | readonly number[] | undefined;
