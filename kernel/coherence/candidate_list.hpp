@@ -58,6 +58,7 @@ template <int D> class CandidateList {
   u32 count() const { return count_; }
   u32 resting() const { return resting_; }
   u32 late_count() const { return late_count_; }
+  bool rests_at(u32 slot) const { return slot < count_ && (tags_[slot] & rests); }
   /// Whether the box of this slot, one of the list, will stay in its region if it moves by this much.
   bool stays(const Scene<D>& scene, u32 slot, f32x4 move) const {
     f32 box[width + padding];

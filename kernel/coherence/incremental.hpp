@@ -23,6 +23,7 @@ template <int D> class Incremental {
   Watch<D> watch_;
   Prospect<D> prospect_ = {};
   PairOrder order_;
+  u32 rested_ = 0;  // boxes at rest when a list last ended since more of them rest
   u32 age_ = 0;  // of the list, in updates
   bool ended_ = false;  // a new list is due
   f64 made_ = 0;  // work per box: of making the list
@@ -206,7 +207,14 @@ template <int D> class Incremental {
     f64 foretold = foretell(scene);
     if (age_ < tuning.watched) return false;
     if (watch_.is_new() && choose(scene).work < smooth_ + least) return true;
-    return is_divided() && foretold * tuning.late_among(n) > most_lateness();
+    if (is_divided() && foretold * tuning.late_among(n) > most_lateness()) return true;
+    if (list_.tested() == 0) return false;
+    // A new list will not test the pairs of boxes that have come to rest.
+    f64 more = watch_.newly_resting([&](u32 slot) { return list_.rests_at(slot); });
+    bool pays = 2 * more * tuning.candidate * list_.tested() / n * age_ > made_;
+    if (!pays && (more < 1 || list_.resting() == rested_)) return false;
+    rested_ = list_.resting();
+    return true;
   }
 
   /// The share of boxes expected to be late in the next update, less the largest error so far: boxes that jitter turn

@@ -135,6 +135,19 @@ template <int D> class Watch {
     return f64(last.still) / last.many;
   }
 
+  /// The share of boxes that have come to rest without being `known` to rest; 1 if no box moves. 0 in most updates: it is
+  /// looked for 8, 16 and 32 updates after samples were taken.
+  template <class Known> SMALL f64 newly_resting(Known known) const {
+    if (age_ < 8 || (age_ & (age_ - 1)) != 0 || common_) return 0;
+    u32 still = 0, found = 0;
+    for (u32 k = 0; k < many_; k++) {
+      const Sample& sample = samples_[k];
+      still += sample.rests();
+      found += sample.rests() && !known(sample.slot);
+    }
+    return still == many_ ? 1 : f64(found) / many_;
+  }
+
   /// The share of boxes that will not stay where they are if they move on as in the last update. `stays`: whether the
   /// box of a slot does if it moves by so much.
   template <class Stays> SMALL f64 leaving(Stays stays) const {

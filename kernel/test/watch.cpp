@@ -62,17 +62,30 @@ template <int D> void check_planning() {
   CHECK(world.plan().work == __builtin_inf());
 }
 
-/// Boxes are known to rest once they have not moved for as long as is known, until that is measured again.
+/// Boxes that were at rest for as long as is known, but move now, have not come to rest.
 template <int D> void check_rest() {
   World<D> world;
+  auto nobody = [](u32) { return false; };
+  auto everybody = [](u32) { return true; };
   world.run(65, 0);
   CHECK(world.watch.resting() == 1);
   world.run(8, 0.5);
   CHECK(world.watch.resting() == 1);
+  CHECK(world.watch.newly_resting(nobody) == 0);
   world.run(56, 0.5);
   CHECK(world.watch.resting() == 0);
-  world.run(64, 0);
-  CHECK(world.watch.resting() == 1);
+  world.run(7, 0);
+  CHECK(world.watch.newly_resting(nobody) == 0);  // too early to tell
+  world.update(0);
+  CHECK(world.watch.newly_resting(nobody) == 1);
+  CHECK(world.watch.newly_resting(everybody) == 1);
+  world.velocities.assign(world.velocities.size(), 0);
+  for (u32 a = 0; a < D; a++) world.velocities[a] = 1;  // the first box is in every sample
+  world.run(64, 0.5);
+  f64 others = world.watch.newly_resting(nobody);
+  CHECK(others > 0.5);
+  CHECK(others < 1);
+  CHECK(world.watch.newly_resting(everybody) == 0);
 }
 
 /// A box is expected to move on as in the last update, unless it has jumped.
@@ -96,8 +109,8 @@ template <int D> void check_leaving() {
 
 TEST("the choice of a margin is counted, 2D") { check_planning<2>(); }
 TEST("the choice of a margin is counted, 3D") { check_planning<3>(); }
-TEST("boxes are at rest if they do not move for as long as is known, 2D") { check_rest<2>(); }
-TEST("boxes are at rest if they do not move for as long as is known, 3D") { check_rest<3>(); }
+TEST("boxes come to rest only if they move no longer, 2D") { check_rest<2>(); }
+TEST("boxes come to rest only if they move no longer, 3D") { check_rest<3>(); }
 TEST("boxes are expected to move on as they have, 2D") { check_leaving<2>(); }
 TEST("boxes are expected to move on as they have, 3D") { check_leaving<3>(); }
 
