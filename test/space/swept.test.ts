@@ -49,7 +49,9 @@ test.each([2, 3] as const)('bad boxes and ways are refused in %d dimensions', (d
   }
   expect(() => setSwept(space, 1, ...good.with(0, 2))).toThrow('setSwept: minX: got 2');
   expect(() => setSwept(space, 1, ...good.with(2 * dimensions, Infinity))).toThrow('setSwept: dx: got Infinity');
-  expect(() => setSwept(space, 1, ...good, 1)).toThrow(`setSwept: got ${2 + good.length} arguments for box 1, expected`);
+  expect(() => setSwept(space, 1, ...good, 1)).toThrow(
+    `setSwept: got ${2 + good.length} arguments for box 1, expected`,
+  );
   expect(() => setSwept(space, 1, ...good.slice(1))).toThrow(TypeError);
   expect(space.size).toBe(0);
 });
