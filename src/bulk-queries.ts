@@ -133,8 +133,8 @@ export function askMany(
     if (numbers.length < length) checkNumberArray(where, numbers); // it was this space's memory, which has grown
     const doubles = instance.doubleView();
     doubles.set(numbers, at);
-    if (ignoreEach === undefined) doubles.fill(nobody, at + length, at + length + count);
-    else doubles.set(ignored!, at + length);
+    if (ignored === undefined) doubles.fill(nobody, at + length, at + length + count);
+    else doubles.set(ignored, at + length);
     const bad = instance.kernel.bad_question(kind, count);
     if (bad >= 0) badNumbers(where, numbers, bad, names);
     instance.io()[limitAt] = kind === asks.way ? 1 : maxDistance;

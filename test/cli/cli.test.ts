@@ -7,8 +7,8 @@ import { BroadPhase } from 'broadphase';
 import { openTrace, type Tuned } from 'broadphase/trace';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { version } from '../../package.json';
-import { main } from '../../src/cli/main.ts';
 import { sceneNames } from '../../src/scenes/index.ts';
+import { runCommand } from '../support/command.ts';
 import { traceFile } from '../support/recordings.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'broadphase-'));
@@ -16,23 +16,7 @@ const file = (name: string) => join(folder, name);
 const small = file('small.trace');
 
 /** Runs a command line. */
-async function run(...argv: string[]) {
-  let out = '';
-  let err = '';
-  const code = await main(argv, {
-    out: (text) => {
-      out += text;
-    },
-    err: (text) => {
-      err += text;
-    },
-    interactive: false,
-    tableColumns: Infinity,
-    colour: false,
-    columns: 80,
-  });
-  return { code, out, err };
-}
+const run = (...argv: string[]) => runCommand(argv);
 
 async function json(...argv: string[]) {
   const { code, out, err } = await run(...argv, '--json');

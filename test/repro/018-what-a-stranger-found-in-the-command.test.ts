@@ -18,31 +18,16 @@ import { afterAll, afterEach, describe, expect, test } from 'vitest';
 import { bundle } from '../../scripts/bundle.mjs';
 import type { Terminal } from '../../src/cli/arguments.ts';
 import { quotedPath } from '../../src/cli/join/duckdb.ts';
-import { main } from '../../src/cli/main.ts';
 import { linePlot } from '../../src/cli/plots.ts';
 import { reportOf } from '../../src/cli/report.ts';
 import { table } from '../../src/cli/terminal.ts';
+import { runCommand } from '../support/command.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'broadphase-'));
 const file = (name: string) => join(folder, name);
 afterAll(() => rmSync(folder, { recursive: true }));
 
-async function run(...argv: string[]) {
-  let [out, err] = ['', ''];
-  const code = await main(argv, {
-    out: (text) => {
-      out += text;
-    },
-    err: (text) => {
-      err += text;
-    },
-    interactive: false,
-    columns: 80,
-    tableColumns: Infinity,
-    colour: false,
-  });
-  return { code, out, err };
-}
+const run = (...argv: string[]) => runCommand(argv);
 
 describe('join', () => {
   test('does not write over an input, whatever its name', async () => {
@@ -127,20 +112,11 @@ test.each([
   ['Array buffer allocation failed', 6],
   ['Invalid array length', 70],
 ])('%s: code %i, and a stack only for a fault', async (message, expected) => {
-  let err = '';
-  const code = await main(['--help'], {
-    // Stands in for a trace of gigabytes.
-    out: () => {
-      throw new RangeError(message);
-    },
-    err: (text) => {
-      err += text;
-    },
-    interactive: false,
-    columns: 80,
-    tableColumns: Infinity,
-    colour: false,
-  });
+  // Stands in for a trace of gigabytes.
+  const out = () => {
+    throw new RangeError(message);
+  };
+  const { code, err } = await runCommand(['--help'], { out });
   expect(code).toBe(expected);
   if (expected === 6) expect(err).toBe(`broadphase: ${message}\n`);
   else expect(err).toContain('    at ');

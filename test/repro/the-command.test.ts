@@ -4,31 +4,17 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
-import { main } from '../../src/cli/main.ts';
 import { moreOfAll, verdictOf } from '../../src/cli/report.ts';
 import { progressBar } from '../../src/cli/terminal.ts';
+import { runCommand } from '../support/command.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'broadphase-'));
 const file = (name: string) => join(folder, name);
 const small = file('small.trace');
 const commands = ['info', 'replay', 'compare', 'tune', 'convert', 'generate'];
 
-async function run(argv: string[], columns = 80, tableColumns = Infinity, colour = false) {
-  let [out, err] = ['', ''];
-  const code = await main(argv, {
-    out: (text) => {
-      out += text;
-    },
-    err: (text) => {
-      err += text;
-    },
-    interactive: false,
-    columns,
-    tableColumns,
-    colour,
-  });
-  return { code, out, err };
-}
+const run = (argv: string[], columns = 80, tableColumns = Infinity, colour = false) =>
+  runCommand(argv, { columns, tableColumns, colour });
 
 beforeAll(async () => {
   expect(await run(['generate', 'crowd', small, '--count', '40', '--frames', '3'])).toMatchObject({ code: 0 });
