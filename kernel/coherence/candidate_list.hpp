@@ -41,7 +41,7 @@ template <int D> class CandidateList {
   Buffer<u32> groups_;  // while `grouped_`: two boxes of one group are not a candidate
   Buffer<u32> late_;  // slots of late boxes; after them, those that a search finds
   Places<D> places_;  // of late boxes
-  bool finished_ = false;  // whether all candidates were found
+  bool finished_ = false;  // whether the candidates were found
   u32 late_count_ = 0, resting_ = 0;
   u64 met_ = 0;  // regions that the searches for late boxes have tested in this update
   Pairs candidates_, extra_, settled_;  // extra: those added by late boxes
@@ -144,12 +144,9 @@ template <int D> class CandidateList {
     met_ = 0;
   }
 
-  /// Finds this share of the candidates of a list that has begun.
-  SMALL void sweep(f64 share) { anew_.sweep(share, candidates_); }
-
-  /// Finds the candidates that are left.
+  /// Finds the candidates of a list that has begun.
   SMALL void finish() {
-    sweep(1);
+    anew_.sweep(candidates_);
     if (grouped_) filter(candidates_, [&](u32 a, u32 b) { return !one_group(groups_[a], groups_[b]); });
     built_.candidates = f64(candidates_.count);
     if (resting_ > 0) settle();

@@ -6,8 +6,8 @@
 //   - A list ends when late boxes cost more than a new list would, on average, or much more in one update; and when
 //     new measurements promise a better one. Bounded motion never ends one.
 //   - A new list costs 1.5 rebuilds or more. If the old one has lived long, that is divided between two updates: the
-//     last one that the old list answers puts the regions into strips, the next one sweeps most of them. So the new list
-//     is begun when the sample tells that too many boxes will be late in the next update.
+//     last one that the old list answers puts the regions into strips, the next one sweeps them. So the new list is
+//     begun when the sample tells that too many boxes will be late in the next update.
 // Nothing here reads a clock: work is counted, so the order of the pairs depends on the calls alone.
 // Wins when boxes are at rest, jitter, turn, or move by less than a tenth of their size. Equals strip sweep when they
 // jump.
@@ -97,7 +97,7 @@ template <int D> class Incremental {
     }
     list_.report(scene, pairs, stats);
     ended_ = account(scene);
-    if (ended_ && is_divided() && begin(scene, margin)) list_.sweep(tuning.at_once);
+    if (ended_ && is_divided()) begin(scene, margin);
     return true;
   }
 
@@ -205,9 +205,9 @@ template <int D> class Incremental {
     age_++;
     if (least > prospect_.fresh || smooth_ * age_ > made_ + lateness_) return true;
     f64 foretold = foretell(scene);
+    if (is_divided() && foretold * tuning.late_among(n) > most_lateness()) return true;
     if (age_ < tuning.watched) return false;
     if (watch_.is_new() && choose(scene).work < smooth_ + least) return true;
-    if (is_divided() && foretold * tuning.late_among(n) > most_lateness()) return true;
     if (list_.tested() == 0) return false;
     // A new list will not test the pairs of boxes that have come to rest.
     f64 more = watch_.newly_resting([&](u32 slot) { return list_.rests_at(slot); });
@@ -226,7 +226,7 @@ template <int D> class Incremental {
   }
 
   /// Whether the next list will be made in two updates. Among few boxes, most of the time goes into choosing a margin.
-  bool is_divided() const { return age_ >= tuning.watched && 2 * prospect_.planning < prospect_.fresh; }
+  bool is_divided() const { return age_ >= tuning.divided && 2 * prospect_.planning < prospect_.fresh; }
 
   /// Whether the list has cost less than rebuilds would have.
   bool has_paid() const { return life_ + made_ <= prospect_.fresh * age_; }

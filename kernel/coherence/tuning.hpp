@@ -16,7 +16,7 @@ template <int D> struct Tuning {
   f64 spike = 2;  // of an update's mean work, making the list included: if late boxes take more in one, the list ends
   f64 ahead = 0.85;  // of a plan with a margin alone: one that reaches ahead must promise to cost less
   f64 build = 2;  // of a rebuild: a list that would cost more is not made
-  f64 at_once = 0.25;  // of the strips of a list: those swept in the update in which it begins
+  u32 divided = 5;  // updates: a list that has lived so long is followed by one that is made in two updates
   u32 watched = 8;  // updates, after which it is known whether a list pays; the first pause is as long
   f64 smoothing = 0.4;  // weight of an update in the running mean of the work for late boxes
   f64 apart = 8;  // boxes count as no smaller than their spacing divided by this

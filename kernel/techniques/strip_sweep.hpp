@@ -53,9 +53,9 @@ template <int D> class StripSweep {
     f64 low[D], high[D];
   };
 
-  /// Some strips of a cut, beginning with number `next`, and their entries; deeper cuts put theirs behind these.
+  /// The entries of the strips of a cut; deeper cuts put theirs behind these.
   struct Strips {
-    u32 next, begin, end, depth;
+    u32 begin, end, depth;
   };
 
   /// First and last strip of an item along each binned axis, packed to 4 bytes.
@@ -90,7 +90,7 @@ template <int D> class StripSweep {
   bool searched_ = false;
   AxisOrder<D> order_ = {};
   Cut cut_ = {};  // the outermost one
-  Strips left_ = {};  // of that, what is not yet swept
+  Strips strips_ = {};
   u32 boxes_ = 0;
   Stats* stats_ = nullptr;
 
@@ -99,7 +99,7 @@ template <int D> class StripSweep {
 
   SMALL void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     fill(scene, stats, false);
-    sweep(1, pairs);
+    sweep(pairs);
   }
 
   /// Puts boxes into strips. Until they are swept, `stats` must stay where it is. `searched`: `near` will be called.
@@ -107,23 +107,23 @@ template <int D> class StripSweep {
     stats_ = &stats;
     searched_ = searched;
     boxes_ = scene.count;
-    left_ = {};
+    strips_ = {};
     if (scene.count < 2) return;
     bool cuts = cut_up(scene);
     SceneItems<D> items{scene, order_};
-    if (!cuts || !fill(items, scene.count, cut_, 0, left_)) {
+    if (!cuts || !fill(items, scene.count, cut_, 0, strips_)) {
       leave_whole();
-      if (cuts) left_.depth = deepest;
+      if (cuts) strips_.depth = deepest;
       entries_.grow(scene.count, 0);
       ItemsAt<D> all(entries_, 0);
       for (u32 k = 0; k < scene.count; k++) all.put(k, items[k]);
-      stats.entries = left_.end = offsets_[left_.depth].reserve(1)[0] = scene.count;
+      stats.entries = strips_.end = offsets_[strips_.depth].reserve(1)[0] = scene.count;
     }
-    if (searched) index_.reserve(cut_.rows(), left_.end);
+    if (searched) index_.reserve(cut_.rows(), strips_.end);
   }
 
-  /// Finds the pairs in the strips that were filled, until this share of them is swept.
-  SMALL void sweep(f64 share, Pairs& pairs) { sweep(cut_, everywhere(), left_, u32(share * left_.end), pairs); }
+  /// Finds the pairs in the strips that were filled.
+  SMALL void sweep(Pairs& pairs) { sweep(cut_, everywhere(), strips_, pairs); }
 
   /// The number of boxes that were swept.
   u32 count() const { return boxes_; }
@@ -136,8 +136,8 @@ template <int D> class StripSweep {
     for (u32 s = range.first(1); s <= range.last(1); s++) {
       for (u32 t = first; t <= last; t++) {
         u32 marks = (s > range.first(1) ? u32(continues_1) : 0) | (t > first ? u32(continues_2) : 0);
-        u32 l = s * cut_.across() + t, begin = l ? offsets_[left_.depth][l - 1] : 0;
-        u32 count = offsets_[left_.depth][l] - begin;  // filling has moved offsets to the ends of their strips
+        u32 l = s * cut_.across() + t, begin = l ? offsets_[strips_.depth][l - 1] : 0;
+        u32 count = offsets_[strips_.depth][l] - begin;  // filling has moved offsets to the ends of their strips
         found += index_.near(l, begin, ItemsAt<D>(entries_, begin), count, item, marks, out + found, met);
       }
     }
@@ -359,11 +359,10 @@ template <int D> class StripSweep {
     }
   }
 
-  /// Sweeps these strips of a cut, except those whose entries begin at `until` or later.
-  SMALL void sweep(const Cut& cut, const Region& region, Strips& strips, u32 until, Pairs& pairs) {
-    u32 across = cut.across(), depth = strips.depth;
-    for (; strips.begin < until; strips.next++) {
-      u32 l = strips.next, begin = strips.begin;
+  /// Sweeps the strips of a cut.
+  SMALL void sweep(const Cut& cut, const Region& region, const Strips& strips, Pairs& pairs) {
+    u32 across = cut.across(), depth = strips.depth, begin = strips.begin;
+    for (u32 l = 0; begin < strips.end; l++) {
       u32 end = offsets_[depth][l];  // filling the strip has moved it from the beginning to the end
       if (end == begin) continue;
       Region part = region;
@@ -371,9 +370,9 @@ template <int D> class StripSweep {
       if constexpr (D == 3) narrow(part, 2, cut, l % across);
       ItemsAt<D> items(entries_, begin);
       u64 tests = swept_.order(items, end - begin);
-      if (searched_ && &strips == &left_) note_order(l, begin, end);
+      if (searched_ && &strips == &strips_) note_order(l, begin, end);
       list(items, end - begin, tests, part, strips.end, depth + 1, pairs);
-      strips.begin = end;
+      begin = end;
     }
   }
 
@@ -413,8 +412,8 @@ template <int D> class StripSweep {
       }
       Cut cut = choose(part, count);
       bool again = depth < deepest && tests > again_factor * count && cut.lists() > 1;
-      Strips strips = {0, 0, 0, depth};
-      if (again && fill(items, count, cut, base, strips)) return sweep(cut, region, strips, strips.end, pairs);
+      Strips strips = {0, 0, depth};
+      if (again && fill(items, count, cut, base, strips)) return sweep(cut, region, strips, pairs);
     }
     stats_->tests += f64(tests);
     stats_->cells++;
