@@ -18,8 +18,13 @@ export * from './index.ts';
 /** Options of {@link BroadPhase}, all optional. */
 export interface BroadPhaseOptions<D extends Dimensions = 2> extends Options<D, TechniqueName> {}
 
+/** The class of `broadphase` without its list of techniques, which is shorter. */
+declare const Common: new <D extends Dimensions>(...options: ConstructorOptions<D, TechniqueName>) => Lean<D>;
+
 /** As in `broadphase`, with every technique. */
-export declare class BroadPhase<D extends Dimensions = 2> extends Lean<D> {
+export declare class BroadPhase<D extends Dimensions = 2> extends Common<D> {
+  /** The names of all techniques, in order. */
+  static get techniques(): readonly TechniqueName[];
   constructor(...options: ConstructorOptions<D, TechniqueName>);
   override get technique(): TechniqueName;
   override set technique(name: TechniqueName);

@@ -84,8 +84,8 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
    * @example
    * BroadPhase.techniques.includes('auto'); // → true
    */
-  static get techniques(): readonly TechniqueName[] {
-    return builtNames();
+  static get techniques(): readonly LeanTechnique[] {
+    return builtNames() as LeanTechnique[];
   }
 
   /** How many axes the boxes have: an option of the constructor. */

@@ -134,6 +134,7 @@ export function sweep(
   }
   checkOptions('sweep', options, sweepOptions);
   if (options?.visit !== undefined) {
+    if (options.accept !== undefined) throw new TypeError('sweep: got both visit and accept, expected one of them');
     visitOrder(instance, 'sweep', orderWay, options, everything, options.visit as Visitor);
     return undefined;
   }

@@ -111,7 +111,7 @@ export interface SweepOptions extends QueryOptions {
   out?: SweepHit | undefined;
   /**
    * Called for each box on the path, by time, instead of returning the first; `false` ends the search. The hit is the
-   * same object each time.
+   * same object each time. Without `accept`: a visitor sees all hits.
    */
   visit?: ((id: number, time: number, hit: Readonly<SweepHit>) => unknown) | undefined;
 }

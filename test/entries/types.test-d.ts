@@ -4,7 +4,7 @@ import type { BroadPhase as Flat } from '../../src/2d.ts';
 import * as flat from '../../src/2d.ts';
 import * as solid from '../../src/3d.ts';
 import * as all from '../../src/all.ts';
-import { BroadPhase, type BroadPhaseOptions, findPairs } from '../../src/index.ts';
+import { BroadPhase, type BroadPhaseOptions, findPairs, type TechniqueName } from '../../src/index.ts';
 import { record } from '../../src/trace/index.ts';
 
 /** Compiles where both types are the same. */
@@ -97,6 +97,9 @@ space2.technique = 'quadtree';
 // @ts-expect-error: it is in broadphase/all
 findPairs([], { technique: 'quadtree' });
 space2.technique = 'strip-sweep';
+for (const technique of BroadPhase.techniques) new BroadPhase({ technique });
+for (const technique of all.BroadPhase.techniques) new all.BroadPhase({ technique });
+same<(typeof all.BroadPhase.techniques)[number], TechniqueName>();
 const every = new all.BroadPhase({ technique: 'quadtree', dimensions: 3 });
 same<typeof every.dimensions, 3>();
 every.technique = 'r-tree';

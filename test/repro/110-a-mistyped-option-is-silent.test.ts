@@ -32,6 +32,10 @@ describe('an option that there is not', () => {
     [() => ask().rayCast(0, 0, 1, 1, { visit: () => 1 }), 'rayCast: there is no option "visit"'],
     [() => ask().rayCastAll(0, 0, 1, 1, { max: 3 }), 'rayCastAll: there is no option "max"'],
     [() => ask().sweep(0, 0, 1, 1, 1, 1, { maxDistance: 3 }), 'sweep: there is no option "maxDistance"'],
+    [
+      () => ask().sweep(0, 0, 1, 1, 1, 1, { visit: () => true, accept: () => true }),
+      'sweep: got both visit and accept, expected one of them',
+    ],
     [() => ask().nearest(0, 0, 1, { radius: 3 }), 'nearest: there is no option "radius"'],
   ])('%s', (call, message) => {
     expect(call).toThrow(TypeError);
