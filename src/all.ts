@@ -4,13 +4,13 @@
  *
  * @module broadphase/all
  */
-import {
-  type Boxes,
-  type ConstructorOptions,
-  type Dimensions,
+import type {
+  Boxes,
+  ConstructorOptions,
+  Dimensions,
   BroadPhase as Lean,
-  type BroadPhaseOptions as Options,
-  type TechniqueName,
+  BroadPhaseOptions as Options,
+  TechniqueName,
 } from './index.ts';
 
 export * from './index.ts';
