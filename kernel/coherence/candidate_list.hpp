@@ -26,7 +26,7 @@ template <int D> class CandidateList {
   static constexpr Tuning<D> tuning = {};
   // In a tag, below the exclusion bits:
   // moved: it has a new region; again: for the second time or more
-  enum : u32 { rests = 1, late = 2, fresh = 4, moved = 8, again = 16 };
+  enum : u32 { rests = 1, fresh = 2, moved = 4, again = 8 };
 
   StripSweep<D>& anew_;
   u32 count_ = 0;  // boxes in the list; 0: there is no list
@@ -40,6 +40,7 @@ template <int D> class CandidateList {
   Buffer<u32> tags_;  // exclusion bits, and below them these marks
   Buffer<u32> groups_;  // while `grouped_`: two boxes of one group are not a candidate
   Buffer<u32> late_;  // slots of late boxes; after them, those that a search finds
+  Buffer<u32> marks_;  // a bit per slot: late, while late boxes are served. Few enough bytes to stay in the cache.
   Places<D> places_;  // of late boxes
   bool finished_ = false;  // whether the candidates were found
   u32 late_count_ = 0, resting_ = 0;
@@ -97,6 +98,7 @@ template <int D> class CandidateList {
     tags_.release();
     groups_.release();
     late_.release();
+    marks_.release();
     places_.release();
     candidates_.list.release();
     extra_.list.release();
@@ -205,6 +207,7 @@ template <int D> class CandidateList {
 
  private:
   f32* region(u32 slot) const { return regions_.data() + u64(slot) * width; }
+  u32 is_late(u32 slot) const { return marks_[slot / 32] >> slot % 32 & 1; }
 
   // --- making a list ---
 
@@ -363,10 +366,12 @@ template <int D> class CandidateList {
   /// Gives new regions to the late boxes; those from slot `had` on had none. Returns false if that means testing more
   /// regions than `enough`.
   SMALL bool serve(const Scene<D>& scene, u32* list, u32 had, u64 enough, f32 margin) {
-    u32 many = 0, were = 0;
+    u32 many = 0, were = 0, words = larger(had, count_) / 32 + 1;
+    __builtin_memset(marks_.reserve(words), 0, words * sizeof(u32));
     for (u32 k = 0; k < late_count_; k++) {
       u32 slot = list[k], tag = tags_[slot];
-      if (tag & late) continue;
+      if (is_late(slot)) continue;
+      marks_[slot / 32] |= 1u << slot % 32;
       list[many++] = slot;
       were |= tag;
       resting_ -= tag & rests;
@@ -377,7 +382,7 @@ template <int D> class CandidateList {
         if (grouped_) groups_[slot] = scene.group_of(slot);
         places_.forget_base(slot);
       }
-      tags_[slot] = (tag & ~rests) | late | moved | (tag & moved ? u32(again) : 0);
+      tags_[slot] = (tag & ~rests) | moved | (tag & moved ? u32(again) : 0);
     }
     auto filter_listed = [&](u32 a, u32 b) { return b < count_ && !((tags_[a] | tags_[b]) & fresh); };
     if (had > count_ || (were & fresh)) {
@@ -386,9 +391,9 @@ template <int D> class CandidateList {
       filter(settled_, filter_listed);
     }
     if (were & rests) unsettle();
-    filter(extra_, [&](u32 a, u32 b) { return b < count_ && !((tags_[a] | tags_[b]) & late); });
+    filter(extra_, [&](u32 a, u32 b) { return b < count_ && !(is_late(a) | is_late(b)); });
     for (u32 k = 0; k < many && met_ <= enough; k++) enlarge(scene, list[k], larger(margin_, margin), list + many);
-    for (u32 k = 0; k < many; k++) tags_[list[k]] &= ~(late | fresh);
+    for (u32 k = 0; k < many; k++) tags_[list[k]] &= ~fresh;
     late_count_ = many + had - smaller(had, count_);
     return met_ <= enough;
   }
@@ -401,7 +406,7 @@ template <int D> class CandidateList {
     for (u64 k = 0; k < many; k++) {
       u64 pair = list[k];
       list[left] = pair;
-      if (tags_[u32(pair)] & tags_[u32(pair >> 32)] & rests) {
+      if (!(is_late(u32(pair)) | is_late(u32(pair >> 32)))) {
         left++;
         continue;
       }
