@@ -146,19 +146,19 @@ template <int D> class CandidateList {
     met_ = 0;
   }
 
-  /// Finds the candidates of a list that has begun.
-  SMALL void finish() {
-    anew_.sweep(candidates_);
+  /// Finds the candidates of a list that has begun. Gives up and returns false if that takes more than `most` tests.
+  SMALL bool finish(f64 most) {
+    if (!anew_.sweep(candidates_, most)) return false;
     if (grouped_) filter(candidates_, [&](u32 a, u32 b) { return !one_group(groups_[a], groups_[b]); });
     built_.candidates = f64(candidates_.count);
     if (resting_ > 0) settle();
-    finished_ = true;
+    return finished_ = true;
   }
   bool is_finished() const { return finished_; }
 
   /// Gives new regions to boxes that have left theirs. Returns false if that would take more than `most` work per box:
-  /// then a new list is due. `size`: the size of boxes.
-  SMALL bool follow(const Scene<D>& scene, const Shift& common, f64 most, f32 size) {
+  /// then a new list is due. `size`, `spacing`: of boxes.
+  SMALL bool follow(const Scene<D>& scene, const Shift& common, f64 most, f32 size, f64 spacing) {
     u32 n = scene.count, had = count_, both = smaller(n, had);
     // A search may find as many slots as there were boxes when the list was made.
     u32* list = late_.reserve(u64(n) + larger(n, anew_.count()) + 4);
@@ -174,7 +174,7 @@ template <int D> class CandidateList {
     if (late_count_ + (n - both) > enough) return false;
     met_ = 0;
     if (late_count_ == 0 && n == had) return true;
-    if (!places_.has_room()) place();
+    if (!places_.has_room()) places_.clear(count_, spacing);
     for (u32 slot = n; slot < had; slot++) {
       resting_ -= tags_[slot] & rests;
       if (tags_[slot] & moved) places_.remove(region(slot), slot);
@@ -340,13 +340,6 @@ template <int D> class CandidateList {
       tags_[slot] |= fresh;
       list[late_count_++] = slot;  // perhaps for the second time: `serve` skips it then
     }
-  }
-
-  /// Makes room for late boxes.
-  SMALL void place() {
-    f64 low[D], high[D], sizes[D];
-    anew_.bounds(low, high, sizes);
-    places_.clear(count_, low, high);
   }
 
   /// The base of a box: the region that it had first.

@@ -58,7 +58,7 @@ template <int D> class Incremental {
   }
 
   SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) {
-    if (!list_.is_empty() && !list_.is_finished()) finish();
+    if (!list_.is_empty() && !list_.is_finished()) finish(__builtin_inf());
     anew_.structure(boxes, count, list_.is_empty() ? stats : list_.built());
   }
 
@@ -90,15 +90,19 @@ template <int D> class Incremental {
     list_.pass();
     if (list_.is_empty() && watch_.is_new()) list_.remember(scene, watch_.common());
     if (prospect_.fresh == 0) return false;
-    if (!list_.is_empty() && !list_.is_finished()) finish();
-    if (list_.is_empty() || ended_ || !list_.follow(scene, watch_.common(), most_lateness(), size())) {
-      if (!begin(scene, margin)) return false;
-      finish();
+    f64 most = tuning.build * prospect_.fresh * n;
+    if (!list_.is_empty() && !list_.is_finished() && !finish(most)) return false;
+    if (list_.is_empty() || ended_ || !follow(scene)) {
+      if (!begin(scene, margin) || !finish(most)) return false;
     }
     list_.report(scene, pairs, stats);
     ended_ = account(scene);
     if (ended_ && is_divided()) begin(scene, margin);
     return true;
+  }
+
+  bool follow(const Scene<D>& scene) {
+    return list_.follow(scene, watch_.common(), most_lateness(), size(), prospect_.least * tuning.apart);
   }
 
   /// What late boxes may cost in one update: no more than making the list, nor than `spike` times the mean cost of an
@@ -152,9 +156,13 @@ template <int D> class Incremental {
     return true;
   }
 
-  /// Finishes a list, and learns from its work.
-  SMALL void finish() {
-    list_.finish();
+  /// Finishes a list, and learns from its work. Gives it up and returns false if that takes more than `most` tests: then
+  /// it has far more candidates than was expected.
+  SMALL bool finish(f64 most) {
+    if (!list_.finish(most)) {
+      give_up();
+      return false;
+    }
     f64 n = list_.count(), growth = growth_;
     made_ = prospect_.planning + list_.made_work() / n;
     prospect_.rest = list_.resting() / n;
@@ -165,16 +173,17 @@ template <int D> class Incremental {
     prospect_.fresh = smaller(prospect_.fresh, tuning.entry * built.entries / n + prospect_.tests);
     f64 settled = built.candidates - list_.tested();
     prospect_.pairs = (settled + list_.tested() / growth) / n;
+    return true;
   }
 
   /// Learns the mean size of boxes along the axis where it is smallest, which is at least a share of their spacing.
   SMALL void learn_sizes(u32 boxes) {
-    f64 low[D], high[D], sizes[D], across = D == 2 ? __builtin_sqrt(f64(boxes)) : cube_root(boxes);
+    f64 low[D], high[D], sizes[D];
     anew_.bounds(low, high, sizes);
+    prospect_.least = watch_.spacing(boxes) / tuning.apart;
     prospect_.size = 0;
     for (int a = 0; a < D; a++) {
-      prospect_.least[a] = (high[a] - low[a]) / across / tuning.apart;
-      f64 size = larger(sizes[a], prospect_.least[a]);
+      f64 size = larger(sizes[a], prospect_.least);
       if (size > 0 && (prospect_.size == 0 || size < prospect_.size)) prospect_.size = size;
     }
   }

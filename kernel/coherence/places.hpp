@@ -1,24 +1,25 @@
 // Late boxes: their new regions, in grids that are searched when another box is late, and their bases.
 // Idea: grids whose cells double in width from one to the next. A region is stored once, in the finest grid in which it
 // spans no more than two cells along each axis, in the cell of its lower corner. So a search begins one cell before its
-// range. The boxes of a cell form a chain.
+// range. The boxes of a cell form a chain. Grids repeat themselves, so that boxes may be anywhere, also in clusters far
+// from one another; the coarsest has one cell for all.
 // Cost: 10 to 20 ns to insert or remove a box; in a search 1 ns for each cell, 2 for each region nearby. 8 bytes per box,
 // 3 for cells, and the base of each late box.
 // From: F. Schornbaum, "Hierarchical Hash Grids for Coarse Collision Detection", 2009.
 #pragma once
 #include "base/box_tests.hpp"
-#include "boxes/cell_map.hpp"
-#include "boxes/scene_sample.hpp"
+#include "base/heap.hpp"
 
 template <int D> class Places {
-  static constexpr u32 boxes_a_cell = 2, most_grids = 13, width = 2 * D, padding = 4;
+  static constexpr u32 most_grids = 13, width = 2 * D, padding = 4;
+  static constexpr f32 whole = 8388608;  // 2^23: added to a number, it leaves the nearest integer in the low bits
 
   struct Range {
-    u32x4 low, high;  // cells along the axes; 0 in the other lanes
+    u32x4 low, high;  // cells along the axes, before the grid repeats itself; 0 in the other lanes
   };
   struct Grid {
-    Axes axes;
-    u32 side, first;  // number of cells along each axis; its first cell
+    f32 scale;  // cells in a unit of length
+    u32 side, first;  // cells along each axis, a power of two, after which the grid repeats itself; its first cell
     bool used;
   };
 
@@ -39,9 +40,9 @@ template <int D> class Places {
   void forget() { base_count_ = 0; }
   bool has_room() const { return base_count_ > 0; }
 
-  /// Makes room for late boxes among so many. `low` and `high` bound the lower corners of most regions.
-  SMALL void clear(u32 boxes, const f64* low, const f64* high) {
-    u32 cells = divide(low, high, boxes);
+  /// Makes room for late boxes among so many, of this spacing.
+  SMALL void clear(u32 boxes, f64 spacing) {
+    u32 cells = divide(boxes, f32(larger(1e-30, smaller(1e30, spacing))));
     __builtin_memset(heads_.reserve(cells), 0, cells * sizeof(u32));
     make_room(boxes, 0);
     for (u32 k = 0; k < width; k++) bases_.reserve(width + padding)[k] = __builtin_nanf("");
@@ -88,22 +89,22 @@ template <int D> class Places {
       if (!grid.used) continue;
       Range range = range_of(grid, region);
       range.low -= bits<u32x4>(range.low > u32x4{}) & splat(1u);
+      u32 end[D];
+      for (int a = 0; a < D; a++) end[a] = smaller(range.high[a] + 1, range.low[a] + grid.side);  // each cell once
       u32x4 at = {};
       auto row = [&] {
-        at[D - 1] = range.low[D - 1];
-        u32 cell = cell_of(grid, at), end = cell + range.high[D - 1] - range.low[D - 1] + 1;
-        for (; cell < end; cell++) {
-          for (u32 k = heads_[cell]; k > 0; k = next_[k - 1]) {
+        for (at[D - 1] = range.low[D - 1]; at[D - 1] < end[D - 1]; at[D - 1]++) {
+          for (u32 k = heads_[cell_of(grid, at)]; k > 0; k = next_[k - 1]) {
             out[found] = k - 1;
             found += boxes_touch<D>(region, regions + u64(k - 1) * width);
             met++;
           }
         }
       };
-      for (at[0] = range.low[0]; at[0] <= range.high[0]; at[0]++) {
+      for (at[0] = range.low[0]; at[0] < end[0]; at[0]++) {
         if constexpr (D == 2) row();
         else
-          for (at[1] = range.low[1]; at[1] <= range.high[1]; at[1]++) row();
+          for (at[1] = range.low[1]; at[1] < end[1]; at[1]++) row();
       }
     }
     return found;
@@ -118,39 +119,45 @@ template <int D> class Places {
   }
 
  private:
-  /// Makes empty grids for this many boxes; returns how many cells they have.
-  SMALL u32 divide(const f64* low, const f64* high, u32 boxes) {
-    f64 cells = f64(boxes) / boxes_a_cell;
-    u32 side = u32(larger(1.0, D == 2 ? __builtin_sqrt(cells) : cube_root(cells))), all = 0;
-    for (grid_count_ = 0; side > 0; side /= 2) {
-      Axis along[4];
-      for (int a = 0; a < 4; a++) along[a] = Axis::make(low[a % D], high[a % D], side);
-      grids_[grid_count_++] = {Axes(along[0], along[1], along[2], along[3]), side, all, false};
-      all += D == 2 ? side * side : side * side * side;
+  /// Makes empty grids for this many boxes, the finest with cells of this width; returns how many cells they have.
+  SMALL u32 divide(u32 boxes, f32 cell) {
+    u32 side = 1, all = 0;
+    while (in_all(2 * side) <= boxes && side < 1u << (most_grids - 1)) side *= 2;
+    for (grid_count_ = 0; side > 0; side /= 2, cell *= 2) {
+      grids_[grid_count_++] = {1 / cell, side, all, false};
+      all += in_all(side);
     }
     return all;
   }
+  static u32 in_all(u32 side) { return D == 2 ? side * side : side * side * side; }
 
   /// The grid and the cell in which a region is stored.
   NOINLINE Spot spot_of(const f32* region) const {
     for (u32 g = 0;; g++) {
       Range range = range_of(grids_[g], region);
-      if (any(bits<i32x4>((range.high - range.low) > splat(1u)))) continue;  // the last grid has one cell
+      bool spans = any(bits<i32x4>((range.high - range.low) > splat(1u)));
+      if (spans && g + 1 < grid_count_) continue;  // the last grid has one cell
       return {g, cell_of(grids_[g], range.low)};
     }
   }
 
   static u32 cell_of(const Grid& grid, u32x4 at) {
-    u32 cell = at[0];
-    for (int a = 1; a < D; a++) cell = cell * grid.side + at[a];
+    u32 cell = 0;
+    for (int a = 0; a < D; a++) cell = cell * grid.side + (at[a] & (grid.side - 1));
     return grid.first + cell;
   }
 
   static Range range_of(const Grid& grid, const f32* region) {
-    u32x4 low = grid.axes(load<f32x4>(region));
+    u32x4 low = cells_of(grid, load<f32x4>(region));
     constexpr u32 all = ~0u;
     if constexpr (D == 2) return {low & u32x4{all, all, 0, 0}, __builtin_shufflevector(low, u32x4{}, 2, 3, 4, 4)};
     u32x4 along = {all, all, all, 0};
-    return {low & along, grid.axes(load<f32x4>(region + D)) & along};
+    return {low & along, cells_of(grid, load<f32x4>(region + D)) & along};
+  }
+
+  /// The cells of four coordinates, from 0 to 2^23 - 1. Monotone; what is further away is in the first or the last.
+  static u32x4 cells_of(const Grid& grid, f32x4 x) {
+    f32x4 at = x * splat(grid.scale) + splat(1.5f * whole);
+    return bits<u32x4>(min(max(at, splat(whole)), splat(2 * whole - 1))) - splat(bits<u32>(whole));
   }
 };

@@ -92,6 +92,7 @@ template <int D> class StripSweep {
   Cut cut_ = {};  // the outermost one
   Strips strips_ = {};
   u32 boxes_ = 0;
+  f64 most_ = 0;  // tests
   Stats* stats_ = nullptr;
 
  public:
@@ -99,7 +100,7 @@ template <int D> class StripSweep {
 
   SMALL void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
     fill(scene, stats, false);
-    sweep(pairs);
+    sweep(pairs, __builtin_inf());
   }
 
   /// Puts boxes into strips. Until they are swept, `stats` must stay where it is. `searched`: `near` will be called.
@@ -122,8 +123,12 @@ template <int D> class StripSweep {
     if (searched) index_.reserve(cut_.rows(), strips_.end);
   }
 
-  /// Finds the pairs in the strips that were filled.
-  SMALL void sweep(Pairs& pairs) { sweep(cut_, everywhere(), strips_, pairs); }
+  /// Finds the pairs in the strips that were filled. Gives up and returns false if that takes more than `most` tests.
+  SMALL bool sweep(Pairs& pairs, f64 most) {
+    most_ = most;
+    sweep(cut_, everywhere(), strips_, pairs);
+    return stats_->tests <= most;
+  }
 
   /// The number of boxes that were swept.
   u32 count() const { return boxes_; }
@@ -362,7 +367,7 @@ template <int D> class StripSweep {
   /// Sweeps the strips of a cut.
   SMALL void sweep(const Cut& cut, const Region& region, const Strips& strips, Pairs& pairs) {
     u32 across = cut.across(), depth = strips.depth, begin = strips.begin;
-    for (u32 l = 0; begin < strips.end; l++) {
+    for (u32 l = 0; begin < strips.end && stats_->tests <= most_; l++) {
       u32 end = offsets_[depth][l];  // filling the strip has moved it from the beginning to the end
       if (end == begin) continue;
       Region part = region;
@@ -416,6 +421,7 @@ template <int D> class StripSweep {
       if (again && fill(items, count, cut, base, strips)) return sweep(cut, region, strips, pairs);
     }
     stats_->tests += f64(tests);
+    if (stats_->tests > most_) return;
     stats_->cells++;
     note(region);
     if constexpr (D == 3) {

@@ -9,12 +9,11 @@
 
 namespace {
 
-template <int D> void check_near(u32 count, bool in_a_row, f64 huge) {
+template <int D> void check_near(u32 count, bool in_a_row, f64 huge, f64 spacing) {
   Random random(17);
   std::vector<f32> boxes = crowd<D>(random, count, in_a_row, huge), others = crowd<D>(random, count, in_a_row, huge);
-  f64 low[3] = {}, high[3] = {400, 400, 400};
   Places<D> places;
-  places.clear(count, low, high);
+  places.clear(count, spacing);
   CHECK(places.has_room());
   std::vector<bool> stands(count, true);
   const std::vector<f32> bases = boxes;
@@ -60,9 +59,11 @@ template <int D> void check_near(u32 count, bool in_a_row, f64 huge) {
 TEST("each region that touches another is found in the places, once") {
   for (bool in_a_row : {false, true}) {
     for (f64 huge : {0.0, 0.01, 1.0}) {
-      check_near<2>(1500, in_a_row, huge);
-      check_near<3>(1500, in_a_row, huge);
-      check_near<2>(300, in_a_row, huge);
+      for (f64 spacing : {0.0, 10.0, 1e-3, 1e9, __builtin_inf()}) {
+        check_near<2>(1500, in_a_row, huge, spacing);
+        check_near<3>(1500, in_a_row, huge, spacing);
+        check_near<2>(300, in_a_row, huge, spacing);
+      }
     }
   }
 }

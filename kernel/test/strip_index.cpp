@@ -22,7 +22,7 @@ template <int D> void check_swept(const Scene<D>& scene, StripSweep<D>& parts) {
   Stats stats, of_swept;
   whole.update(scene, Settings{}, all, stats);
   parts.fill(scene, of_swept, true);
-  parts.sweep(some);
+  CHECK(parts.sweep(some, 1e9));
   CHECK(sorted(some) == sorted(all));
   CHECK(of_swept.entries == stats.entries);
   whole.release();
