@@ -48,6 +48,8 @@ template <int D> struct SceneSample {
 namespace detail {
 
 inline constexpr u32 most_samples = 1024;
+// Standard deviations: for even or bell-shaped spreads of that many boxes the range is smaller.
+inline constexpr f32 tail = 8;
 inline f32 sample[6][most_samples];  // per axis the minima, then per axis the maxima
 inline f32 sorted[most_samples];
 
@@ -114,10 +116,9 @@ SMALL inline void extents(const f32* v, u32 n, f64& low, f64& high) {
   f64 variance = squares / n - mean * mean;
   low = least;
   high = most;
-  // For even or bell-shaped spreads the range is below 8 standard deviations at these sample sizes. The second
-  // test catches cancellation: then the deviation is unreliable.
+  // The second test catches cancellation: then the deviation is unreliable.
   f64 range = most - least;
-  bool tame = range * range <= 64 * variance && variance > 1e-9 * mean * mean;
+  bool tame = range * range <= tail * tail * variance && variance > 1e-9 * mean * mean;
   if (tame) return;
   i32 kept = 0;
   for (u32 k = 0; k < n; k++) {
@@ -197,21 +198,31 @@ template <int D, class Source> NOINLINE SceneSample<D> measure(const Source& ite
   return detail::judge<D>(n);
 }
 
-/// The same for a few items, in one pass: extents with outliers, and no crowding.
-template <int D, class Source> SceneSample<D> glance(const Source& items, u32 count) {
-  f32x4 least = items[0].first(), most = least, sizes = {};
+/// The same for a few items, in one pass, without crowding. False if some are infinite, or far from all others: then
+/// they must be measured.
+template <int D, class Source> bool glance(const Source& items, u32 count, SceneSample<D>& found) {
+  f32x4 origin = items[0].first(), least = origin, most = origin, sizes = {}, sum = {}, squares = {};
   for (u32 k = 0; k < count; k++) {
     Item<D> item = items[k];
     least = min(least, item.first());
     most = max(most, item.first());
     sizes += item.size();
   }
-  SceneSample<D> found;
+  u32 seen = 0;
+  ROLLED for (u32 k = 0; k < count; k += count / 64 + 1, seen++) {
+    f32x4 far = items[k].first() - origin;
+    sum += far;
+    squares += far * far;
+  }
+  f32x4 n = splat(f32(seen)), range = most - least, mean = sum / n, variance = squares / n - mean * mean;
+  i32x4 tame = range * range <= splat(detail::tail * detail::tail) * variance;
   found.crowding = 1;
+  bool all = true;
   for (int a = 0; a < D; a++) {
     found.low[a] = least[a];
     found.high[a] = most[a];
     found.size[a] = sizes[a] / f32(count);
+    all &= tame[a] || range[a] == 0;
   }
-  return found;
+  return all;
 }

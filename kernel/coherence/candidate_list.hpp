@@ -40,7 +40,6 @@ template <int D> class CandidateList {
   Buffer<u32> tags_;  // exclusion bits, and below them these marks
   Buffer<u32> groups_;  // while `grouped_`: two boxes of one group are not a candidate
   Buffer<u32> late_;  // slots of late boxes; after them, those that a search finds
-  Buffer<u32> marks_;  // a bit per slot: late, while late boxes are served. Few enough bytes to stay in the cache.
   Places<D> places_;  // of late boxes
   bool finished_ = false;  // whether the candidates were found
   u32 late_count_ = 0, resting_ = 0;
@@ -98,7 +97,6 @@ template <int D> class CandidateList {
     tags_.release();
     groups_.release();
     late_.release();
-    marks_.release();
     places_.release();
     candidates_.list.release();
     extra_.list.release();
@@ -207,7 +205,6 @@ template <int D> class CandidateList {
 
  private:
   f32* region(u32 slot) const { return regions_.data() + u64(slot) * width; }
-  u32 is_late(u32 slot) const { return marks_[slot / 32] >> slot % 32 & 1; }
 
   // --- making a list ---
 
@@ -359,12 +356,12 @@ template <int D> class CandidateList {
   /// Gives new regions to the late boxes; those from slot `had` on had none. Returns false if that means testing more
   /// regions than `enough`.
   SMALL bool serve(const Scene<D>& scene, u32* list, u32 had, u64 enough, f32 margin) {
-    u32 many = 0, were = 0, words = larger(had, count_) / 32 + 1;
-    __builtin_memset(marks_.reserve(words), 0, words * sizeof(u32));
+    u32 many = 0, were = 0;
+    places_.unmark(larger(had, count_));
     for (u32 k = 0; k < late_count_; k++) {
       u32 slot = list[k], tag = tags_[slot];
-      if (is_late(slot)) continue;
-      marks_[slot / 32] |= 1u << slot % 32;
+      if (places_.is_marked(slot)) continue;
+      places_.mark(slot);
       list[many++] = slot;
       were |= tag;
       resting_ -= tag & rests;
@@ -384,7 +381,7 @@ template <int D> class CandidateList {
       filter(settled_, filter_listed);
     }
     if (were & rests) unsettle();
-    filter(extra_, [&](u32 a, u32 b) { return b < count_ && !(is_late(a) | is_late(b)); });
+    filter(extra_, [&](u32 a, u32 b) { return b < count_ && !(places_.is_marked(a) | places_.is_marked(b)); });
     for (u32 k = 0; k < many && met_ <= enough; k++) enlarge(scene, list[k], larger(margin_, margin), list + many);
     for (u32 k = 0; k < many; k++) tags_[list[k]] &= ~fresh;
     late_count_ = many + had - smaller(had, count_);
@@ -399,7 +396,7 @@ template <int D> class CandidateList {
     for (u64 k = 0; k < many; k++) {
       u64 pair = list[k];
       list[left] = pair;
-      if (!(is_late(u32(pair)) | is_late(u32(pair >> 32)))) {
+      if (!(places_.is_marked(u32(pair)) | places_.is_marked(u32(pair >> 32)))) {
         left++;
         continue;
       }

@@ -1,4 +1,4 @@
-// Late boxes: their new regions, in grids that are searched when another box is late, and their bases.
+// Late boxes: their new regions, in grids that are searched when another box is late, their bases, and marks.
 // Idea: grids whose cells double in width from one to the next. A region is stored once, in the finest grid in which it
 // spans no more than two cells along each axis, in the cell of its lower corner. So a search begins one cell before its
 // range. The boxes of a cell form a chain. Grids repeat themselves, so that boxes may be anywhere, also in clusters far
@@ -34,6 +34,7 @@ template <int D> class Places {
   Buffer<u32> base_of_;  // per slot: the number of its base
   Buffer<f32> bases_;  // the first touches nothing
   u32 base_count_ = 0;  // 0: there is no room for late boxes
+  Buffer<u32> marks_;  // a bit per slot: few enough bytes to stay in the cache
 
  public:
   /// Forgets all late boxes.
@@ -52,6 +53,12 @@ template <int D> class Places {
     next_.grow(slots, had);
     base_of_.grow(slots, had);
   }
+
+  /// Removes the marks of so many slots.
+  SMALL void unmark(u32 slots) { __builtin_memset(marks_.reserve(slots / 32 + 1), 0, (slots / 32 + 1) * sizeof(u32)); }
+  /// Marks a box that is late in this update.
+  void mark(u32 slot) { marks_[slot / 32] |= 1u << slot % 32; }
+  u32 is_marked(u32 slot) const { return marks_[slot / 32] >> slot % 32 & 1; }
 
   /// The base of a late box.
   const f32* base(u32 slot) const { return bases_.data() + u64(base_of_[slot]) * width; }
@@ -115,6 +122,7 @@ template <int D> class Places {
     next_.release();
     base_of_.release();
     bases_.release();
+    marks_.release();
     forget();
   }
 

@@ -10,8 +10,8 @@ template <int D> struct RoomAhead {
   static constexpr u32 spare = 1 << 17;
   // Bytes for the pairs of boxes that will be written in place, whose positions are not known yet.
   static constexpr u32 in_place = 1 << 18;
-  // Bytes per pair of the lookup tables.
-  static constexpr u32 lookup = 24;
+  // Bytes per pair of the lookup tables, at most: 20 for partners, 20 for where they begin, 16 for the table of pairs.
+  static constexpr u32 lookup = 56;
   // Bytes per box that all arrays of boxes may take as they grow.
   static constexpr u32 most = 2 * (2 * D * (sizeof(f32) + sizeof(f64)) + 24);
 

@@ -237,14 +237,7 @@ template <int D> class StripSweep {
   SMALL bool cut_up(const Scene<D>& scene) {
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
     SceneSample<D> world;
-    bool is_finite = false;
-    if (scene.count < sampled_from) {
-      world = glance<D>(plain, scene.count);
-      is_finite = true;
-      for (int a = 0; a < D; a++)
-        is_finite &= detail::is_finite(f32(world.low[a])) && detail::is_finite(f32(world.high[a]));
-    }
-    if (!is_finite) world = measure<D>(plain, scene.count);
+    if (scene.count >= sampled_from || !glance(plain, scene.count, world)) world = measure<D>(plain, scene.count);
     int a = world.longest();
     order_ = AxisOrder<D>::make(a);
     bool sparse = scene.count * world.size[a] <= again_factor * (world.high[a] - world.low[a]);
