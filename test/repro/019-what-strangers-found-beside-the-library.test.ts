@@ -1,8 +1,30 @@
 // Faults that strangers found in the entry points beside the library: shards, traces, drawing, and the command.
 import { BroadPhase } from 'broadphase';
 import { type Delta, Shard, Zones } from 'broadphase/shard';
-import { record } from 'broadphase/trace';
+import {
+  applyFrame,
+  compare,
+  exactPairs,
+  exportRecording,
+  importRecording,
+  openAny,
+  openTrace,
+  readTrace,
+  record,
+  replay,
+  survey,
+  TraceWriter,
+  tune,
+} from 'broadphase/trace';
 import { describe, expect, test } from 'vitest';
+
+const joined = (...pieces: Uint8Array[]) => Uint8Array.from(pieces.flatMap((piece) => [...piece]));
+/** A trace of one frame. */
+function traceOf(boxes = new Float32Array(), ids?: number[]) {
+  const writer = new TraceWriter(2);
+  return joined(writer.header(), writer.frame(boxes, ids), writer.end());
+}
+const loose = (options: unknown) => options as never;
 
 const events = () => new BroadPhase({ events: true });
 
@@ -91,4 +113,115 @@ test('a disposed space is not recorded, and is in no shard', () => {
   space.dispose();
   expect(() => record(space)).toThrow('this BroadPhase was disposed');
   expect(() => new Shard(new Zones({ borders: {} }), 0, space)).toThrow('this BroadPhase was disposed');
+});
+
+describe('what a TraceWriter writes can be read:', () => {
+  const two = Float32Array.of(0, 0, 1, 1, 0, 0, 1, 1);
+  const writerOf = (...given: unknown[]) =>
+    new (TraceWriter as never as new (...given: unknown[]) => TraceWriter)(...given);
+  test.each<[string, unknown[]]>([
+    ['wrap: got [-1, 0], expected 2 numbers above 0', [2, [-1, 0]]],
+    ['wrap: got [5], expected 2 numbers above 0', [2, [5]]],
+    ['wrap: got 5, expected 2 numbers above 0', [2, 5]],
+    ['dimensions: got "2", expected 2 or 3', ['2']],
+  ])('new: %s', (message, given) => {
+    expect(() => writerOf(...given)).toThrow(message);
+  });
+
+  test.each<[string, unknown[]]>([
+    [
+      'trace: reaches: got -1, expected finite numbers',
+      [two, undefined, undefined, { reaches: Float64Array.of(0, -1) }],
+    ],
+    ['trace: reaches: got NaN', [two, undefined, undefined, { reaches: Float64Array.of(Number.NaN, 0) }]],
+    ['trace: reaches: got Infinity', [two, undefined, undefined, { reaches: Float64Array.of(Infinity, 0) }]],
+    ['trace: reaches: got [1, 0], expected a Float64Array', [two, undefined, undefined, { reaches: [1, 0] }]],
+    ['trace: groups: got [1.5, 0], expected a Uint32Array', [two, undefined, undefined, { groups: [1.5, 0] }]],
+    ['trace: groups.length: got 1, expected 2', [two, undefined, undefined, { groups: Uint32Array.of(1) }]],
+    ['trace: rules: got [1, 1, 0, 1, 1, 0], expected a Uint32Array', [two, undefined, [1, 1, 0, 1, 1, 0]]],
+    ['trace: boxes: got [0, 0, 1, 1], expected a Float32Array', [[0, 0, 1, 1]]],
+    ['trace: boxes: got undefined, expected a Float32Array', []],
+  ])('frame: %s', (message, given) => {
+    const writer = new TraceWriter(2);
+    expect(() => (writer.frame as never as (...given: unknown[]) => unknown).apply(writer, given)).toThrow(message);
+    expect(joined(writer.header(), writer.frame(two), writer.end())).toEqual(traceOf(two));
+  });
+
+  test('whatever the order of the calls', () => {
+    const writer = new TraceWriter(2);
+    const [frame, head, end] = [writer.frame(two), writer.header(), writer.end()];
+    expect(joined(head, frame, end)).toEqual(traceOf(two));
+    const wrap = [10, 10];
+    const other = new TraceWriter(2, wrap);
+    wrap[0] = -1;
+    expect(openTrace(joined(other.header(), other.frame(two), other.end())).wrap).toEqual([10, 10]);
+  });
+});
+
+test('a frame of other dimensions leaves a space as it was', () => {
+  const space = new BroadPhase({ dimensions: 3 }).set(7, 0, 0, 0, 1, 1, 1).update();
+  for (const ids of [undefined, [2, 5]]) {
+    const [frame] = openTrace(traceOf(Float32Array.of(0, 0, 1, 1, 0, 0, 1, 1), ids));
+    expect(() => applyFrame(space, frame!)).toThrow('applyFrame: got a frame of 2 dimensions, expected 3');
+    expect([...space.keys()]).toEqual([7]);
+  }
+});
+
+describe('bytes are no trace yet for', () => {
+  test.each<[string, (given: never) => unknown]>([
+    ['replay', (given) => [...replay(given)]],
+    ['survey', (given) => survey(given)],
+    ['compare', (given) => compare(given)],
+    ['tune', (given) => tune(given)],
+    ['exportRecording', (given) => exportRecording(given)],
+  ])('%s', (name, call) => {
+    for (const [given, shown] of [
+      [traceOf(), '[object Uint8Array]'],
+      [null, 'null'],
+      ['a.trace', '"a.trace"'],
+    ] as const) {
+      const message = `${name}: got ${shown}, expected a trace, as of openTrace`;
+      expect(() => call(given as never)).toThrow(new TypeError(message));
+    }
+  });
+
+  test('readTrace', async () => {
+    for (const given of [traceOf(), null, 'a.trace']) {
+      const frames = readTrace(given as never);
+      await expect(frames.next()).rejects.toThrow(/^readTrace: got .*, expected a stream of bytes/);
+    }
+  });
+});
+
+describe('mistyped options of traces are refused:', () => {
+  const bytes = traceOf(Float32Array.of(0, 0, 1, 1));
+  const source = openTrace(bytes);
+  const boxes = [0, 0, 1, 1, 0, 0, 1, 1];
+  test.each<[string, () => unknown]>([
+    [
+      'openTrace: there is no option "salvag", did you mean "salvage"?',
+      () => openTrace(bytes, loose({ salvag: true })),
+    ],
+    ['openTrace: got 3, expected an object of options', () => openTrace(bytes, loose(3))],
+    ['importRecording: got null, expected an object of options', () => importRecording(bytes, loose(null))],
+    ['tune: there is no option "second", did you mean "seconds"?', () => tune(source, loose({ second: 1 }))],
+    ['passes: got -1, expected an integer, 1 or more', () => compare(source, { passes: -1 })],
+    ['passes: got 0, expected an integer, 1 or more', () => compare(source, { passes: 0 })],
+    ['passes: got "a", expected an integer, 1 or more', () => compare(source, loose({ passes: 'a' }))],
+    ['techniques: got "auto", expected an array of names', () => compare(source, loose({ techniques: 'auto' }))],
+    ['boxes.length: got 9, expected 8', () => exactPairs(new Float32Array(9), 2)],
+    ['boxes.length: got 8, expected 6', () => exactPairs(boxes, 3)],
+    ['dimensions: got "2", expected 2 or 3', () => exactPairs(boxes, '2' as never)],
+    ['ids.length: got 1, expected 2', () => exactPairs(boxes, 2, [7])],
+  ])('%s', (message, call) => {
+    expect(call).toThrow(message);
+  });
+
+  test('openAny', async () => {
+    await expect(openAny(bytes, loose({ salvag: true }))).rejects.toThrow('openTrace: there is no option "salvag"');
+  });
+
+  test('those of a space are taken by compare', () => {
+    expect(compare(source, { techniques: ['auto'], cellSize: 5, touching: false, passes: 1 })).toHaveLength(1);
+  });
 });
