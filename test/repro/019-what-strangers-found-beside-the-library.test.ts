@@ -1,5 +1,6 @@
 // Faults that strangers found in the entry points beside the library: shards, traces, drawing, and the command.
 import { BroadPhase } from 'broadphase';
+import { drawSpace, Lines } from 'broadphase/draw';
 import { type Delta, Shard, Zones } from 'broadphase/shard';
 import {
   applyFrame,
@@ -224,4 +225,49 @@ describe('mistyped options of traces are refused:', () => {
   test('those of a space are taken by compare', () => {
     expect(compare(source, { techniques: ['auto'], cellSize: 5, touching: false, passes: 1 })).toHaveLength(1);
   });
+});
+
+describe('drawSpace refuses, and draws nothing:', () => {
+  const drawn: string[] = [];
+  const context = new Proxy({} as CanvasRenderingContext2D, {
+    get: (_, name) => () => drawn.push(String(name)),
+    set: (_, name) => drawn.push(String(name)) > 0,
+  });
+  const space = new BroadPhase().set(1, 0, 0, 1, 1).update();
+  const draw = (options?: unknown) => [context, space, options];
+  test.each<[string, unknown[]]>([
+    ['drawSpace: got [object BroadPhase], expected a 2D context', [space, context]],
+    ['drawSpace: got null, expected a 2D context', [null, space]],
+    ['drawSpace: got [object Object], expected a 2D context', [{ getContext: () => context }, space]],
+    ['drawSpace: got [object Object], expected a BroadPhase', [context, {}]],
+    ['drawSpace: got undefined, expected a BroadPhase', [context]],
+    ['drawSpace: options: got null, expected an object', draw(null)],
+    ['drawSpace: options: got "cell", expected one of boxes, pairs', draw({ cell: true })],
+    ['drawSpace: colors: got "red", expected an object', draw({ colors: 'red' })],
+    ['drawSpace: cells: got 1, expected true or false', draw({ cells: 1 })],
+    ['drawSpace: lineWidth: got NaN, expected a number above 0', draw({ lineWidth: Number.NaN })],
+    ['drawSpace: lineWidth: got -1, expected a number above 0', draw({ lineWidth: -1 })],
+    ['drawSpace: lineWidth: got "2", expected a number above 0', draw({ lineWidth: '2' })],
+    ['drawSpace: rays: got 5, expected an array', draw({ rays: 5 })],
+    ['drawSpace: rays: got 5, expected 4 finite numbers', draw({ rays: [5] })],
+    [
+      'drawSpace: rays: got [0, 0, NaN, 1], expected 4 finite numbers',
+      draw({
+        rays: [
+          [0, 0, 1, 0],
+          [0, 0, Number.NaN, 1],
+        ],
+      }),
+    ],
+    ['drawSpace: rays: got [0, 0, 1, 0, -1], expected 4 finite numbers', draw({ rays: [[0, 0, 1, 0, -1]] })],
+  ])('%s', (message, given) => {
+    expect(() => (drawSpace as (...given: unknown[]) => void)(...given)).toThrow(message);
+    expect(drawn).toEqual([]);
+  });
+});
+
+test('Lines names a wrong space, and dimensions as text', () => {
+  expect(() => new Lines().addBoxes({} as never)).toThrow('addBoxes: got [object Object], expected a BroadPhase');
+  expect(() => new Lines().addRay(null as never, [0, 0, 1, 0])).toThrow('addRay: got null, expected a BroadPhase');
+  expect(() => new Lines('3' as never)).toThrow('new Lines: got "3", expected 2 or 3 dimensions');
 });
