@@ -1,6 +1,10 @@
 // Faults that strangers found in the entry points beside the library: shards, traces, drawing, and the command.
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { BroadPhase } from 'broadphase';
 import { drawSpace, Lines } from 'broadphase/draw';
+import { Entity, ov3, World } from 'broadphase/ro';
 import { type Delta, Shard, Zones } from 'broadphase/shard';
 import {
   applyFrame,
@@ -17,7 +21,8 @@ import {
   TraceWriter,
   tune,
 } from 'broadphase/trace';
-import { describe, expect, test } from 'vitest';
+import { afterAll, describe, expect, test } from 'vitest';
+import { runCommand } from '../support/command.ts';
 
 const joined = (...pieces: Uint8Array[]) => Uint8Array.from(pieces.flatMap((piece) => [...piece]));
 /** A trace of one frame. */
@@ -270,4 +275,55 @@ test('Lines names a wrong space, and dimensions as text', () => {
   expect(() => new Lines().addBoxes({} as never)).toThrow('addBoxes: got [object Object], expected a BroadPhase');
   expect(() => new Lines().addRay(null as never, [0, 0, 1, 0])).toThrow('addRay: got null, expected a BroadPhase');
   expect(() => new Lines('3' as never)).toThrow('new Lines: got "3", expected 2 or 3 dimensions');
+});
+
+describe('the command', () => {
+  const folder = mkdtempSync(join(tmpdir(), 'broadphase-'));
+  afterAll(() => rmSync(folder, { recursive: true }));
+  const file = (name: string, bytes: Uint8Array) => {
+    writeFileSync(join(folder, name), bytes);
+    return join(folder, name);
+  };
+
+  test('says that a trace has no frames', async () => {
+    const writer = new TraceWriter(2);
+    const empty = file('empty.trace', joined(writer.header(), writer.end()));
+    expect(await runCommand(['info', empty, '--frames', '1..1'])).toMatchObject({
+      code: 2,
+      err: expect.stringContaining('--frames is 1..1, but the trace has no frames'),
+    });
+    expect(await runCommand(['compare', empty])).toMatchObject({
+      code: 3,
+      out: '',
+      err: expect.stringContaining('empty.trace: no frames to compare on'),
+    });
+  });
+
+  test('gives frames that are there as an example', async () => {
+    const { err } = await runCommand(['info', file('one.trace', traceOf()), '--frames', '1..1']);
+    expect(err).toContain('--frames is 1..1, expected two numbers from 0 to 0, such as 0..0');
+  });
+
+  test('does not take an empty name for the folder it is in', async () => {
+    for (const name of ['', ' ']) {
+      const { code, err } = await runCommand(['init', name]);
+      expect([code, err]).toEqual([
+        2,
+        expect.stringContaining('the folder has no name, expected a new or empty folder'),
+      ]);
+    }
+  });
+});
+
+describe('broadphase/ro', () => {
+  test('refuses an unknown option of a world', () => {
+    expect(() => new World(null, { timestep: 5 } as never)).toThrow(
+      'ro.World: there is no option "timestep", expected one of coltech, debug, scale, timeStep, init, draw',
+    );
+  });
+
+  test('shows text where numbers should be as text', () => {
+    expect(() => new Entity('0' as never, 0, 1, 1)).toThrow('pos is { x: "0", y: 0 }, expected finite numbers');
+    expect(ov3.str({ x: 1, y: -2.5 })).toBe('{ x: 1, y: -2.5 }');
+  });
 });
