@@ -1,5 +1,6 @@
 // How broadphase/trace reads the contents of a space, and broadphase/shard its world: by a method under a registered
 // symbol, since the entry points are bundled separately and share nothing else.
+import { badValue } from './errors.ts';
 import { boxesAt, doublesAt, groupsAt, idsAt, reachesAt, rulesAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 
@@ -13,6 +14,13 @@ export interface World {
 
 /** The key of the method of BroadPhase that sets its watcher, and gives its world. */
 export const watch: unique symbol = Symbol.for('broadphase.watch') as never;
+
+/** Throws unless this is a space that was not disposed. */
+export function checkSpace(where: string, space: unknown): void {
+  const given = space as { [watch]?: unknown; size: number } | undefined | null;
+  if (typeof given?.[watch] !== 'function') badValue(where, space, 'a BroadPhase', true);
+  void given.size; // throws if it was disposed
+}
 
 /** Settings of boxes other than rules, one number for each box in the kernel's order; undefined if no box has one. */
 export interface Own {

@@ -1,6 +1,6 @@
 // `broadphase compare`: all techniques on the same frames.
 import { BroadPhase } from 'broadphase';
-import { compare } from 'broadphase/trace';
+import { compare, TraceError } from 'broadphase/trace';
 import { type Command, exitCode } from './arguments.ts';
 import { openSource, sourceOperand, sourceOptions } from './files.ts';
 import { cellSizeOption, readCellSize, techniqueHelp } from './replay.ts';
@@ -19,6 +19,7 @@ export const compareCommand: Command = {
     const techniques = input.names('techniques', BroadPhase.techniques) ?? BroadPhase.techniques;
     const passes = input.number('passes', { least: 1, most: 1000, whole: true }) ?? 3;
     const { source, first } = await openSource(input, terminal);
+    if (source.frames === 0) throw new TraceError(`${input.operands[0]}: no frames to compare on`, -1, 0);
     const progress = progressBar(terminal);
     const settings = readCellSize(input, source.dimensions);
     const results = compare(source, {

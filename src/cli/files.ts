@@ -99,11 +99,13 @@ function exportTrace(source: FrameSource): Uint8Array {
 }
 
 function slice(source: FrameSource, range: string): Selected {
-  const [, first, last] = /^(\d+)\.\.(\d+)$/.exec(range) ?? [];
+  const [, first, until] = /^(\d+)\.\.(\d+)$/.exec(range) ?? [];
   const from = Number(first);
-  const to = Number(last);
+  const to = Number(until);
   if (!(from <= to && to < source.frames)) {
-    throw new UsageError(`--frames is ${range}, expected two numbers from 0 to ${source.frames - 1}, such as 0..9`);
+    const last = source.frames - 1;
+    const expected = `expected two numbers from 0 to ${last}, such as 0..${Math.min(9, last)}`;
+    throw new UsageError(`--frames is ${range}, ${last < 0 ? 'but the trace has no frames' : expected}`);
   }
   const chosen: FrameSource = {
     dimensions: source.dimensions,

@@ -58,6 +58,7 @@ export const initCommand: Command = {
   },
   async run(input, terminal) {
     const [name] = input.operands;
+    if (name.trim() === '') throw new UsageError('the folder has no name, expected a new or empty folder');
     const folder = resolve(name);
     const given = input.text('package');
     if (given !== undefined && !existsSync(given)) throw new FileError(`cannot read ${given}: there is no such file`);

@@ -1,7 +1,7 @@
 // A space on a 2D canvas. Paths are made in units of the world, under the transform that the context has, and stroked
 // without it: so lines are as thin at every zoom.
 import type { BroadPhase } from 'broadphase';
-import { checkRay, Shapes, type Sink } from './shapes.ts';
+import { bad, checkRay, checkSpace, Shapes, type Sink } from './shapes.ts';
 
 /** The colours of what is drawn, as CSS has them. */
 export interface Colors {
@@ -43,7 +43,8 @@ const colorsLeftOut: Colors = {
   rays: '#2ba24c',
 };
 const colorNames = Object.keys(colorsLeftOut) as (keyof Colors)[];
-const optionNames = ['boxes', 'pairs', 'cells', 'hot', 'rays', 'colors', 'lineWidth'];
+const switchNames = ['boxes', 'pairs', 'cells', 'hot'] as const;
+const optionNames = [...switchNames, 'rays', 'colors', 'lineWidth'];
 /** How much the insides of boxes cover. */
 const inside = 0.15;
 const hotInside = 0.5;
@@ -52,7 +53,8 @@ const hotInside = 0.5;
  * Draws a 2D space: its boxes, those in a pair in another colour, and whatever the options add. Coordinates are those
  * of the world, under the context's current transform. The context is left as it was.
  *
- * @throws RangeError for a 3D space, TypeError for an unknown option; nothing is drawn then
+ * @throws RangeError for a 3D space, or a ray out of range, TypeError for any other wrong argument or option; nothing is
+ * drawn then
  *
  * @example
  * const space = new BroadPhase().set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();
@@ -67,7 +69,7 @@ export function drawSpace(
   space: BroadPhase<2 | 3>,
   options: DrawOptions = {},
 ): void {
-  check(space, options);
+  check(context, space, options);
   const { boxes = true, pairs = true, cells = false, hot = false, rays = [], lineWidth = 1 } = options;
   const colors = { ...colorsLeftOut };
   for (const name of colorNames) colors[name] = options.colors?.[name] ?? colorsLeftOut[name];
@@ -133,19 +135,23 @@ export function drawSpace(
   }
 }
 
-function check(space: BroadPhase<2 | 3>, options: DrawOptions): void {
-  if (space.dimensions !== 2) {
-    throw new RangeError('drawSpace: got a space of 3 dimensions, expected 2: Lines gives the edges of both');
+function check(context: { getTransform?: unknown }, space: BroadPhase<2 | 3>, options: DrawOptions): void {
+  if (typeof context?.getTransform !== 'function') bad('drawSpace', context, 'a 2D context');
+  checkSpace('drawSpace', space, 2);
+  checkNames('drawSpace: options', options, optionNames);
+  const { rays = [], colors = {}, lineWidth = 1 } = options;
+  checkNames('drawSpace: colors', colors, colorNames);
+  for (const name of switchNames) {
+    if (typeof (options[name] ?? true) !== 'boolean') bad(`drawSpace: ${name}`, options[name], 'true or false');
   }
-  checkNames('an option', options, optionNames);
-  checkNames('a color', options.colors ?? {}, colorNames);
-  for (const ray of options.rays ?? []) checkRay('drawSpace: rays', ray, 2);
+  if (!(Number.isFinite(lineWidth) && lineWidth > 0)) bad('drawSpace: lineWidth', lineWidth, 'a number above 0');
+  if (!Array.isArray(rays)) bad('drawSpace: rays', rays, 'an array');
+  for (const ray of rays) checkRay('drawSpace: rays', ray, 2);
 }
 
 function checkNames(what: string, given: object, known: readonly string[]): void {
+  if (!given || typeof given !== 'object') bad(what, given, 'an object');
   for (const name of Object.keys(given)) {
-    if (!known.includes(name)) {
-      throw new TypeError(`drawSpace: got ${what} '${name}', expected one of ${known.join(', ')}`);
-    }
+    if (!known.includes(name)) bad(what, name, `one of ${known.join(', ')}`);
   }
 }

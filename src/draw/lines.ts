@@ -1,6 +1,6 @@
 // Line segments of what is in a space, for renderers that draw lines from one array.
 import type { BroadPhase } from 'broadphase';
-import { checkRay, Shapes, type Sink } from './shapes.ts';
+import { bad, checkRay, checkSpace, Shapes, type Sink } from './shapes.ts';
 
 /** Whole segments, in 2D and 3D, as renderers want it of an array of points. */
 const firstRoom = 1020;
@@ -31,9 +31,7 @@ export class Lines {
    * new Lines(3).points(); // → Float32Array []
    */
   constructor(dimensions: 2 | 3 = 2) {
-    if (dimensions !== 2 && dimensions !== 3) {
-      throw new RangeError(`new Lines: got ${String(dimensions)}, expected 2 or 3 dimensions`);
-    }
+    if (dimensions !== 2 && dimensions !== 3) bad('new Lines', dimensions, '2 or 3 dimensions', RangeError);
     this.dimensions = dimensions;
     this.data = new Float32Array(firstRoom);
     const from = new Float64Array(dimensions);
@@ -154,9 +152,7 @@ export class Lines {
   }
 
   #shapes(where: string, space: BroadPhase<2 | 3>): Shapes {
-    if (space.dimensions !== this.dimensions) {
-      throw new RangeError(`${where}: got a space of ${space.dimensions} dimensions, expected ${this.dimensions}`);
-    }
+    checkSpace(where, space, this.dimensions);
     return new Shapes(space);
   }
 

@@ -191,5 +191,8 @@ export function fromArray(array: ArrayLike<number>, target: Vector = { x: 0, y: 
  * ov3.str({ x: 1, y: 2 }); // → '{ x: 1, y: 2 }'
  */
 export function str(a: Vector): string {
-  return `{ x: ${a.x}, y: ${a.y} }`;
+  return `{ x: ${shown(a.x)}, y: ${shown(a.y)} }`;
 }
+
+/** Text stands in quotes, so that it does not look like a number. */
+const shown = (value: unknown) => (typeof value === 'string' ? `"${value}"` : value);

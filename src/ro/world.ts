@@ -38,6 +38,8 @@ export interface WorldOptions<E extends Entity = Entity> {
   update?(this: World<E>, dt: number): void;
 }
 
+const optionNames = ['coltech', 'debug', 'scale', 'timeStep', 'init', 'draw', 'handleCollisions', 'update'];
+
 /**
  * Holds the entities, moves them on step by step, and ties technique, screen and input together. One step: clear the
  * screen, draw, accelerate all, find the pairs and hand them to `handleCollisions`, move all on by their inertia, and
@@ -83,9 +85,14 @@ export class World<E extends Entity = Entity> {
 
   /**
    * @param canvas a canvas, the id of one, or null for a world that draws nothing and needs no page
-   * @throws Error for an id that no canvas of the page has, RangeError for a number out of range.
+   * @throws Error for an id that no canvas of the page has, RangeError for a number out of range, TypeError for an unknown
+   * option.
    */
   constructor(canvas: HTMLCanvasElement | string | null, options: WorldOptions<E> = {}) {
+    for (const name in options) {
+      if (optionNames.includes(name)) continue;
+      throw new TypeError(`ro.World: there is no option "${name}", expected one of ${optionNames.join(', ')}`);
+    }
     const { coltech = new BruteForce<E>(), debug = false, scale = 1, timeStep = DEFAULT_TIME_STEP } = options;
     if (!(timeStep > 0 && timeStep < Infinity)) {
       throw new RangeError(`ro.World: timeStep is ${timeStep}, expected a finite number of milliseconds above 0`);

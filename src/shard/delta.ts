@@ -1,6 +1,6 @@
 // The message of one zone to another at an exchange.
 import { badValue, checkBox } from '../errors.ts';
-import { isTypedArray } from '../values.ts';
+import { isAttached, isTypedArray } from '../values.ts';
 import { checkOther, type Zones } from './zones.ts';
 
 /**
@@ -66,7 +66,8 @@ export function unpack(where: string, delta: Delta, zone: number, zones: Zones):
   if (where !== 'state') checkOther(`${where}.from`, from, zone, zones.count);
   else if (from !== zone) badValue('state.from', from, `${zone}, this zone`);
   for (const [name, kind] of kinds) {
-    if (!isTypedArray(delta[name], kind)) badValue(`${where}.${name}`, delta[name], `a ${kind}`, true);
+    const isWhole = isTypedArray(delta[name], kind) && isAttached(delta[name]);
+    if (!isWhole) badValue(`${where}.${name}`, delta[name], `a ${kind}, not detached`, true);
   }
   const isAll = changes.length === ids.length + 1 && changes.at(-1) === all;
   if (!isAll && changes.length !== ids.length) badValue(`${where}.changes.length`, changes.length, `${ids.length}`);

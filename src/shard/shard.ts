@@ -6,13 +6,16 @@
 // Cost: that of the space, one check per changed box and exchange, two look-ups per pair.
 import type { BroadPhase } from 'broadphase';
 import { badValue, checkBoolean, checkBox, checkId, checkOptions } from '../errors.ts';
-import { watch } from '../watch.ts';
+import { checkSpace, watch } from '../watch.ts';
 import { type Box, type Delta, type Message, pack, type Told, unpack } from './delta.ts';
 import { checkOther, checkWorld, checkZone, checkZones, insideOf, type Zones } from './zones.ts';
 
 /** Options of {@link Shard}. */
 export interface ShardOptions {
-  /** Called for each box that enters the space, before it counts: the place for `setFilter` and the like. */
+  /**
+   * Called for each box that enters the space, before it counts: the place for `setFilter` and the like. It cannot
+   * change the shard. If it throws, so does {@link Shard.update}, which then waits to be called again.
+   */
   entered?: ((id: number) => void) | undefined;
   /**
    * The result of {@link Shard.state}: the shard continues from there, with the zones as of then. An old one needs that
@@ -86,6 +89,11 @@ export class Shard {
   readonly #told: readonly Told[][];
   /** The zones that are sent everything at the next exchange. */
   readonly #resent = new Set<number>();
+  /** Boxes that come into sight, with their previous boxes, until the space has had them there. */
+  readonly #entering = new Map<number, Box>();
+  /** Boxes in the space for which `entered` has not yet returned; and whether it is being called. */
+  readonly #fresh = new Set<number>();
+  #isEntering = false;
   /** The zones that were forgotten, and have sent nothing since. */
   readonly #forgotten = new Set<number>();
   /** The zones as of the last update, and as of the last exchange. */
@@ -104,7 +112,7 @@ export class Shard {
   constructor(zones: Zones, zone: number, space: BroadPhase<2 | 3>, options: ShardOptions = {}) {
     checkZones('zones', zones);
     checkZone('zone', zone, zones.count);
-    if (typeof space?.[watch] !== 'function') badValue('space', space, 'a BroadPhase', true);
+    checkSpace('space', space);
     checkOptions('new Shard', options, ['entered', 'state']);
     const { entered = () => {}, state } = options;
     if (typeof entered !== 'function') badValue('entered', entered, 'a function', true);
@@ -131,6 +139,7 @@ export class Shard {
    * shard.set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update().began; // → Uint32Array [7, 9]
    */
   set(id: number, ...box: number[]): this {
+    this.#check('set');
     checkBox('set', id, box, this.space.dimensions);
     this.#untold.add(this.#move(id, box));
     return this;
@@ -146,6 +155,7 @@ export class Shard {
    * shard.set(7, 0, 0, 10, 10).delete(7); // → true
    */
   delete(id: number): boolean {
+    this.#check('delete');
     checkId('delete', id);
     const seen = this.#seen.get(id);
     if (!seen) return false;
@@ -207,6 +217,7 @@ export class Shard {
    * shard.given; // → [7]
    */
   exchange(zones: Zones = this.#nextZones): Delta[] {
+    this.#check('exchange');
     checkZones('exchange', zones);
     if (zones.count !== this.#told.length) badValue('zones.count', zones.count, `${this.#told.length}, as before`);
     checkWorld('zones', zones.dimensions, insideOf(zones).wrap, this.#nextZones, 'as before');
@@ -226,7 +237,8 @@ export class Shard {
    * Updates pairs and events. Chainable.
    *
    * @param deltas those that the exchanges of other zones returned for this one
-   * @throws RangeError or TypeError for what is no delta from another zone to this one. All is as before.
+   * @throws RangeError or TypeError for what is no delta from another zone to this one. All is as before. Also throws
+   *   what `entered` throws: call it then again with the same deltas, which calls `entered` again for that box.
    *
    * @example
    * const shard = new Shard(new Zones({ borders: { x: [100] } }), 1, new BroadPhase({ events: true }));
@@ -234,19 +246,21 @@ export class Shard {
    * shard.update([{ from: 0, to: 1, ids, changes, boxes }]).taken; // → [7]
    */
   update(deltas: readonly Delta[] = []): this {
+    this.#check('update');
     if (!Array.isArray(deltas)) badValue('update', deltas, 'an array of deltas', true);
     return this.#apply(deltas.map((delta: Delta) => unpack('update: delta', delta, this.zone, this.#zones)));
   }
 
   #apply(messages: readonly Message[]): this {
     this.taken.length = 0;
-    const entering = this.#hear(messages);
+    for (const [id, , before] of this.#hear(messages)) this.#entering.set(id, before);
     // First to where it was at the previous update, so that the space knows what overlapped then.
-    for (const [id, , before] of entering) {
+    for (const [id, before] of this.#entering) {
       this.#seen.get(id)!.before = before;
       this.#place(id, before);
     }
-    if (entering.length > 0) this.space.update();
+    if (this.#entering.size > 0) this.space.update();
+    this.#entering.clear();
     for (const id of this.#gone.keys()) this.space.delete(id);
     for (const { id, box } of this.#changed) this.#place(id, box);
     this.space.update();
@@ -295,6 +309,7 @@ export class Shard {
    * right.update().space.size; // → 0
    */
   forget(zone: number): void {
+    this.#check('forget');
     checkOther('forget', zone, this.zone, this.#told.length);
     this.#forgotten.add(zone);
     for (const [id, { owner }] of this.#seen) if (owner === zone) this.#remove(id);
@@ -336,7 +351,9 @@ export class Shard {
     seen.owner = -1; // nobody's
     this.#changed.delete(seen);
     this.#seen.delete(id);
-    if (seen.before.length > 0) this.#gone.set(id, seen);
+    this.#entering.delete(id);
+    // It may be in the space without a previous box, if `entered` threw.
+    if (seen.before.length > 0 || (!this.#gone.has(id) && this.space.has(id))) this.#gone.set(id, seen);
   }
 
   /** From now on a zone counts as knowing no box. */
@@ -401,10 +418,23 @@ export class Shard {
   }
 
   #place(id: number, [a, b, c, d, e, f]: Box): void {
-    const isNew = !this.space.has(id);
+    if (!this.space.has(id)) this.#fresh.add(id);
     if (this.space.dimensions === 2) this.space.set(id, a, b, c, d);
     else this.space.set(id, a, b, c, d, e, f);
-    if (isNew) this.#entered(id);
+    if (!this.#fresh.has(id)) return;
+    this.#isEntering = true;
+    try {
+      this.#entered(id);
+    } finally {
+      this.#isEntering = false;
+    }
+    this.#fresh.delete(id);
+  }
+
+  /** Throws if nothing may change now: during a call of `entered`, and once the space was disposed. */
+  #check(where: string): void {
+    if (this.#isEntering) throw new Error(`${where}: called by entered, expected only after update`);
+    void this.space.size;
   }
 
   /** The pairs that this zone reports. A box without a previous or present box has entered since, or has left. */

@@ -1,6 +1,7 @@
 // All techniques on the same frames, side by side.
 import { BroadPhase, type TechniqueName } from 'broadphase';
-import { type FrameSource, worldOf } from './format.ts';
+import { badNumber, badValue } from '../errors.ts';
+import { checkSource, type FrameSource, worldOf } from './format.ts';
 import { begin, type ReplayOptions, timeUpdate } from './replay.ts';
 import { type Summary, summarize } from './statistics.ts';
 
@@ -47,7 +48,10 @@ export interface Compared {
  * results[1].disagrees; // → null
  */
 export function compare(source: FrameSource, options: CompareOptions = {}): Compared[] {
+  checkSource('compare', source);
   const { techniques = BroadPhase.techniques, passes = 3, progress, ...settings } = options;
+  if (!Array.isArray(techniques)) badValue('techniques', techniques, 'an array of names', true);
+  if (!(Number.isInteger(passes) && passes > 0)) badNumber('passes', passes, 'an integer, 1 or more');
   const contenders = techniques.map((technique) => ({
     technique,
     space: new BroadPhase({ ...worldOf(source), ...settings, technique, dimensions: source.dimensions }),

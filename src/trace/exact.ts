@@ -1,7 +1,8 @@
 // The exact pairs, computed without the kernel, to check a replay. Sorts along one axis and sweeps, in doubles. A set
 // of pairs is a sorted Float64Array with one number per pair: the smaller id times 2^24, plus the larger.
+import { badValue } from '../errors.ts';
 import type { Own } from '../watch.ts';
-import { marks } from './format.ts';
+import { checkLength, marks } from './format.ts';
 
 const idLimit = 2 ** 24;
 
@@ -11,6 +12,7 @@ const idLimit = 2 ** 24;
  * wraps around every two boxes are compared.
  *
  * @param given minima then maxima, box after box
+ * @throws RangeError for other than 2 or 3 dimensions, and if lengths do not fit
  * @returns the sorted set of pairs, one number for each: the smaller id times 2^24, plus the larger
  *
  * @example
@@ -24,12 +26,15 @@ export function exactPairs(
   wrap?: readonly number[],
   own: Own & { touching?: boolean | undefined } = {},
 ): Float64Array {
+  if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
+  const count = Math.floor(given.length / (2 * dimensions));
+  checkLength('boxes', given, 2 * dimensions * count);
+  checkLength('ids', ids, count);
   const apart = (a: number, b: number) => (rules && !mayMeet(rules, 3 * a, 3 * b)) || areOne(own.groups, a, b);
   const closed = own.touching ?? true;
   const boxes = own.reaches ? grownBy(own.reaches, given, dimensions) : given;
   if (wrap) return wrappedPairs(boxes, wrap, ids, apart, closed);
   const width = 2 * dimensions;
-  const count = boxes.length / width;
   const axis = longestAxis(boxes, dimensions);
   const starts = Float64Array.from({ length: count }, (_, box) => boxes[box * width + axis]);
   const order = Uint32Array.from(starts, (_, box) => box).sort((a, b) =>

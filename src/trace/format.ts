@@ -1,5 +1,6 @@
 // The numbers that make up a trace file (docs/trace-format.md), and the error that says where one is broken.
 
+import { badValue } from '../errors.ts';
 import type { Own, World } from '../watch.ts';
 
 /** As in PNG: not text, and any change of line ends breaks it visibly. */
@@ -95,6 +96,33 @@ export interface FrameSource extends Iterable<Frame>, World {
   readonly frames: number;
   /** If it was salvaged: what is wrong with the file after its last intact frame. */
   readonly fault?: TraceError | undefined;
+}
+
+/** Throws unless an array, if there is one, has this length. */
+export function checkLength(what: string, numbers: ArrayLike<unknown> | undefined, expected: number): void {
+  if (numbers && numbers.length !== expected) badValue(`${what}.length`, numbers.length, `${expected}`);
+}
+
+/** Throws unless a caller gave a source of frames; bytes are none yet. */
+export function checkSource(where: string, given: unknown): void {
+  const source = given as Partial<FrameSource> | undefined | null;
+  if (typeof source?.[Symbol.iterator] === 'function' && source.dimensions) return;
+  badValue(where, given, 'a trace, as of openTrace', true);
+}
+
+/** The first minimum that is above its maximum, or NaN, if any: its place, and its box in words. */
+export function firstBad(
+  boxes: Float32Array | Float64Array,
+  dimensions: number,
+): { at: number; what: string } | undefined {
+  const width = 2 * dimensions;
+  for (let box = 0; box < boxes.length; box += width) {
+    for (let at = box; at < box + dimensions; at++) {
+      if (boxes[at] <= boxes[at + dimensions]) continue;
+      return { at, what: `box ${box / width} is [${[...boxes.subarray(box, box + width)].join(', ')}]` };
+    }
+  }
+  return undefined;
 }
 
 /** As options of a space. */

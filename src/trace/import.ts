@@ -1,8 +1,9 @@
 // Opens whatever holds frames: traces, and recordings of physics engines in the raw layout, each gzipped or not.
 
+import { checkOptions } from '../errors.ts';
 import { isFloat64Array } from '../values.ts';
 import { givenBytes, uint32At } from './bytes.ts';
-import { type Frame, type FrameSource, headerBytes, maxBoxes, TraceError } from './format.ts';
+import { checkSource, type Frame, type FrameSource, firstBad, headerBytes, maxBoxes, TraceError } from './format.ts';
 import { type RawRecording, rawMagic, readRecording } from './raw.ts';
 import { type OpenOptions, openTrace } from './reader.ts';
 
@@ -92,8 +93,10 @@ const isRecording = (bytes: Uint8Array) => bytes.length >= 4 && uint32At(bytes, 
  * @example
  * importRecording(new Uint8Array(2)); // throws TraceError
  */
-export function importRecording(bytes: Uint8Array, { salvage = false }: OpenOptions = {}): FrameSource {
+export function importRecording(bytes: Uint8Array, options?: OpenOptions): FrameSource {
   const given = givenBytes('importRecording', bytes);
+  checkOptions('importRecording', options, ['salvage']);
+  const salvage = options?.salvage ?? false;
   let recording: RawRecording;
   try {
     recording = readRecording(given, salvage);
@@ -173,6 +176,7 @@ export async function openAny(bytes: Uint8Array | ArrayBuffer, options?: OpenOpt
  * importRecording(raw).frames; // → 3
  */
 export function exportRecording(source: FrameSource): Uint8Array<ArrayBuffer> {
+  checkSource('exportRecording', source);
   const lost = source.wrap ? 'that the world wraps around' : 'that boxes which only touch are not pairs';
   if (source.wrap || source.touching === false) throw new RangeError(`the raw layout cannot say ${lost}`);
   let count = -1;
@@ -202,15 +206,10 @@ export function exportRecording(source: FrameSource): Uint8Array<ArrayBuffer> {
 function checkFrame(recording: RawRecording, index: number): void {
   const { dimensions, count } = recording;
   const boxes = recording.frame(index);
-  const width = 2 * dimensions;
-  for (let at = 0; at < boxes.length; at += width) {
-    for (let k = at; k < at + dimensions; k++) {
-      if (boxes[k] <= boxes[k + dimensions]) continue;
-      const box = boxes.subarray(at, at + width).join(', ');
-      const offset = headerBytes + 4 * (index * count * width + k);
-      throw new TraceError(`box ${at / width} is [${box}], which is not a box`, index, offset);
-    }
-  }
+  const bad = firstBad(boxes, dimensions);
+  if (!bad) return;
+  const offset = headerBytes + 4 * (2 * index * count * dimensions + bad.at);
+  throw new TraceError(`${bad.what}, which is not a box`, index, offset);
 }
 
 function countChanged(was: Float32Array, now: Float32Array, width: number): number {

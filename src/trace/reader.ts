@@ -1,4 +1,5 @@
 // Reads traces: whole ones from bytes, or as a stream while they arrive.
+import { badValue, checkOptions } from '../errors.ts';
 import { givenBytes, uint32At } from './bytes.ts';
 import { crc32 } from './crc32.ts';
 import { FrameDecoder } from './decoder.ts';
@@ -49,8 +50,9 @@ export class Trace implements FrameSource {
   readonly #world: number;
 
   /** @throws TraceError that says what is wrong, in which frame, at which byte */
-  constructor(bytes: Uint8Array, options: OpenOptions = {}) {
+  constructor(bytes: Uint8Array, options?: OpenOptions) {
     this.#bytes = givenBytes('Trace', bytes);
+    checkOptions('openTrace', options, ['salvage']);
     const { dimensions, version, world, checksum } = readHeader(this.#bytes);
     this.dimensions = dimensions;
     this.#version = version;
@@ -62,7 +64,7 @@ export class Trace implements FrameSource {
       // Decoded once here, so that no later iteration meets an error.
       for (const { body, offset } of bodies) if (decoder.decode(body, offset)) frames++;
     } catch (error) {
-      if (!(options.salvage && error instanceof TraceError)) throw error;
+      if (!(options?.salvage && error instanceof TraceError)) throw error;
       this.fault = error;
     }
     this.frames = frames;
@@ -124,6 +126,9 @@ export interface StreamedFrame extends Frame {
 export async function* readTrace(
   chunks: AsyncIterable<Uint8Array> | ReadableStream<Uint8Array>,
 ): AsyncGenerator<StreamedFrame> {
+  // It may be anything, and a ReadableStream is not async iterable in every browser yet.
+  const given = chunks as Partial<AsyncIterable<unknown> & ReadableStream> | undefined | null;
+  if (!given?.getReader && !given?.[Symbol.asyncIterator]) badValue('readTrace', chunks, 'a stream of bytes', true);
   const queue = new ChunkQueue('getReader' in chunks ? chunksOf(chunks) : chunks);
   try {
     yield* framesIn(queue);

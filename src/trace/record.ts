@@ -3,7 +3,7 @@
 // to the game, earlier frames are safe.
 import type { BroadPhase } from 'broadphase';
 import { badValue, checkOptions } from '../errors.ts';
-import { type Watcher, watch } from '../watch.ts';
+import { checkSpace, type Watcher, watch } from '../watch.ts';
 import { TraceWriter } from './writer.ts';
 
 /** The parts of a Node stream that a recording uses. */
@@ -50,7 +50,7 @@ export class Recording {
 
   /** Starts at once: see {@link record}. */
   constructor(space: BroadPhase<2 | 3>, options: RecordOptions = {}) {
-    if (typeof space?.[watch] !== 'function') badValue('record', space, 'a BroadPhase', true);
+    checkSpace('record', space);
     checkOptions('record', options, ['to']);
     this.#sink = openSink(options.to, (error) => this.#fail(error));
     // Attached last, so that the space is unchanged if anything fails.

@@ -1,7 +1,7 @@
 // Plays frames into a BroadPhase and measures each update.
 import { BroadPhase, type BroadPhaseOptions, type TechniqueName } from 'broadphase';
 import { type Difference, differenceOf, exactPairs, pairKeys } from './exact.ts';
-import { type Frame, type FrameSource, marks, worldOf } from './format.ts';
+import { checkSource, type Frame, type FrameSource, marks, worldOf } from './format.ts';
 import { all } from './state.ts';
 
 /** The last frame played into a space: a copy, since frames are views. */
@@ -20,6 +20,8 @@ const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
  * order too. The caller calls `update()`. Nothing else may change the space between two frames: only differences are
  * set, as in a game.
  *
+ * @throws RangeError if the space has other dimensions. All is as before.
+ *
  * @example
  * const space = new BroadPhase();
  * const recording = record(space);
@@ -33,6 +35,11 @@ const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
  */
 export function applyFrame(space: BroadPhase<2 | 3>, frame: Frame): void {
   const { ids, boxes, count } = frame;
+  const { dimensions } = space;
+  const theirs = boxes.length / count / 2;
+  if (count > 0 && theirs !== dimensions) {
+    throw new RangeError(`applyFrame: got a frame of ${theirs} dimensions, expected ${dimensions}`);
+  }
   let before = applied.get(space);
   // Boxes with explicit ids are in the order in which they were set, so if ids differ, the space is filled again.
   if (!before || !sameIds(before.ids, ids) || (ids && space.size !== count)) {
@@ -41,7 +48,7 @@ export function applyFrame(space: BroadPhase<2 | 3>, frame: Frame): void {
     applied.set(space, before);
   }
   if (!ids) space.setAll(boxes);
-  else if (space.dimensions === 2) {
+  else if (dimensions === 2) {
     for (let k = 0, at = 0; k < count; k++, at += 4) {
       space.set(ids[k], boxes[at], boxes[at + 1], boxes[at + 2], boxes[at + 3]);
     }
@@ -148,6 +155,7 @@ export interface ReplayedFrame {
  * played[2].difference; // → null
  */
 export function* replay(source: FrameSource, options: ReplayOptions = {}, verify = false): Generator<ReplayedFrame> {
+  checkSource('replay', source);
   const { dimensions } = source;
   const world: ReplayOptions = { ...worldOf(source), ...options };
   const space = new BroadPhase({ ...world, dimensions });

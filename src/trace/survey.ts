@@ -2,7 +2,7 @@
 
 import { BroadPhase } from 'broadphase';
 import { isFloat64Array } from '../values.ts';
-import { type Frame, type FrameSource, worldOf } from './format.ts';
+import { checkSource, type Frame, type FrameSource, worldOf } from './format.ts';
 import { applyFrame } from './replay.ts';
 import { type Bin, doublingHistogram, type Summary, summarize } from './statistics.ts';
 
@@ -56,6 +56,7 @@ export interface Survey {
  * moving.mean; // → 0.5
  */
 export function survey(source: FrameSource, progress?: (done: number, total: number) => void): Survey {
+  checkSource('survey', source);
   const { dimensions } = source;
   const middle = source.frames >> 1;
   const space = new BroadPhase({ ...worldOf(source), dimensions });

@@ -5,8 +5,9 @@
 // Machines are noisy, so every time is the fastest of several, candidates take turns, and those far behind the best are
 // dropped early. Whether a technique uses a parameter at all is found by trying: its counters change.
 import { BroadPhase, type TechniqueName } from 'broadphase';
+import { checkOptions } from '../errors.ts';
 import type { World } from '../watch.ts';
-import { type Frame, type FrameSource, worldOf } from './format.ts';
+import { checkSource, type Frame, type FrameSource, worldOf } from './format.ts';
 import { applyFrame, begin, timeUpdate } from './replay.ts';
 import { percentile, type Summary, summarize } from './statistics.ts';
 import { longestSides } from './survey.ts';
@@ -164,6 +165,8 @@ const worthLoading = 0.1;
  * frames.length; // → 2
  */
 export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
+  checkSource('tune', source);
+  checkOptions('tune', options, ['techniques', 'seconds', 'exhaustive', 'progress']);
   const { techniques = BroadPhase.techniques, seconds = 8, exhaustive = false, progress } = options;
   const { dimensions } = source;
   const frames = keepFrames(source);

@@ -1,10 +1,13 @@
 // Writes traces: frames in, bytes out. It keeps only the last two frames; the caller stores the bytes.
-import { isFloat64Array } from '../values.ts';
+import { badValue, isFinitePositive } from '../errors.ts';
+import { isFloat64Array, isTypedArray } from '../values.ts';
 import type { Own } from '../watch.ts';
 import { ByteWriter } from './bytes.ts';
 import { crc32 } from './crc32.ts';
 import {
+  checkLength,
   doublesFlag,
+  firstBad,
   formatVersion,
   frameHeaderBytes,
   frameKind,
@@ -36,28 +39,35 @@ export class TraceWriter {
   frames = 0;
   readonly #state: TraceState;
   readonly #out = new ByteWriter();
-  #checksum = 0;
+  readonly #header: Uint8Array<ArrayBuffer>;
+  #checksum: number;
   /** The runs of changed boxes in this frame. */
   readonly #runs: number[] = [];
   readonly #renamed: number[] = [];
   readonly #reruled: number[] = [];
   readonly #seen = new IdSet();
   readonly #wrap: readonly number[] | undefined;
-  readonly #touching: boolean;
 
   /**
    * @param wrap the size of the world along each axis, if it wraps around
    * @param touching whether boxes that only touch are pairs
-   * @throws RangeError for other than 2 or 3 dimensions
+   * @throws RangeError for other than 2 or 3 dimensions, and for no size of a world
    */
   constructor(dimensions: 2 | 3, wrap?: readonly number[], touching = true) {
-    if (dimensions !== 2 && dimensions !== 3) throw new RangeError(`a trace has 2 or 3 dimensions, not ${dimensions}`);
-    if (wrap && wrap.length !== dimensions)
-      throw new RangeError(`trace: a world of ${wrap} in ${dimensions} dimensions`);
+    if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
+    const isWorld = !wrap || (wrap.length === dimensions && wrap.every((size) => size > 0 && size <= 1e300));
+    if (!isWorld) badValue('wrap', wrap, `${dimensions} numbers above 0`);
     this.dimensions = dimensions;
-    this.#wrap = wrap;
-    this.#touching = touching;
+    this.#wrap = wrap?.slice();
     this.#state = new TraceState(dimensions);
+    const out = new ByteWriter();
+    out.bytes.set(magic);
+    out.bytes[8] = formatVersion;
+    out.bytes[10] = dimensions;
+    out.bytes[11] = (wrap ? worldBits.wraps : 0) | (touching ? 0 : worldBits.apart);
+    this.#checksum = crc32(out.bytes, 0, headerBytes - 4);
+    out.putUint32(headerBytes - 4, this.#checksum);
+    this.#header = out.bytes.slice(0, headerBytes);
   }
 
   /** Frameworks that wrap objects in proxies, such as Vue, leave objects alone whose name here is not `Object`. */
@@ -66,35 +76,27 @@ export class TraceWriter {
   }
 
   /**
-   * The start of the file.
+   * The start of the file: the same bytes at every call.
    *
    * @example
    * new TraceWriter(3).header().length; // → 16
    */
   header(): Uint8Array<ArrayBuffer> {
-    const out = new ByteWriter();
-    out.bytes.set(magic);
-    out.bytes[8] = formatVersion;
-    out.bytes[10] = this.dimensions;
-    out.bytes[11] = (this.#wrap ? worldBits.wraps : 0) | (this.#touching ? 0 : worldBits.apart);
-    this.#checksum = crc32(out.bytes, 0, headerBytes - 4);
-    out.putUint32(headerBytes - 4, this.#checksum);
-    return out.bytes.slice(0, headerBytes);
+    return this.#header.slice();
   }
 
   /**
-   * One frame. `header()` must have been called before.
+   * One frame.
    * @param boxes minima then maxima, box after box
    * @param ids the id of each box; left out: 0, 1, 2, …
    * @param rules layer, mask, and marks of each box (2: it is off; any other: it is static); left out: no box has a
    * rule
    * @param own the group of each box, 0 if it is in none, and how far it reaches; left out: all are 0
-   * @throws RangeError for a bad box, for an id that is out of range or there twice, and if lengths do not fit: nothing
-   * is written then
+   * @throws RangeError for a bad box or reach, for an id that is out of range or there twice, and if lengths do not fit;
+   * TypeError for another kind of array: nothing is written then
    *
    * @example
    * const writer = new TraceWriter(2);
-   * writer.header();
    * writer.frame(Float32Array.of(9, 0, 1, 1)); // throws RangeError
    */
   frame(
@@ -105,18 +107,20 @@ export class TraceWriter {
   ): Uint8Array<ArrayBuffer> {
     const state = this.#state;
     const { width } = state;
+    const doubles = isFloat64Array(boxes);
+    if (!doubles) checkKind('boxes', boxes, 'Float32Array');
     const count = boxes.length / width;
     if (!Number.isInteger(count) || count > maxBoxes) {
       throw new RangeError(`trace: ${boxes.length} numbers, expected ${width} for each of at most ${maxBoxes} boxes`);
     }
     checkBoxes(boxes, this.dimensions);
     if (ids) checkIds(ids, count, this.#seen);
-    if (rules && rules.length !== 3 * count) {
-      throw new RangeError(`trace: ${rules.length} numbers of rules, expected 3 for each of ${count} boxes`);
+    checkEach('rules', rules, 'Uint32Array', count, 3);
+    checkEach('groups', own.groups, 'Uint32Array', count);
+    checkEach('reaches', own.reaches, 'Float64Array', count);
+    for (const reach of own.reaches ?? []) {
+      if (!isFinitePositive(reach, 0)) badValue('trace: reaches', reach, 'finite numbers, 0 or more');
     }
-    checkOwn('groups', own.groups, count);
-    checkOwn('reaches', own.reaches, count);
-    const doubles = isFloat64Array(boxes);
     const had = state.count;
     state.resize(count);
     const renamed = this.#findIds(ids);
@@ -304,25 +308,24 @@ export class TraceWriter {
 /** Converts the marks of a space to those of a trace. */
 const marksOf = (given: number): number => (given & ~marks.off ? marks.still : 0) | (given & marks.off);
 
-/** Checks that there is one number per box, if any. */
-function checkOwn(name: string, numbers: ArrayLike<number> | undefined, count: number): void {
-  if (numbers && numbers.length !== count) throw new RangeError(`trace: ${numbers.length} ${name} for ${count} boxes`);
+function checkKind(name: string, numbers: unknown, kind: string): void {
+  if (!isTypedArray(numbers, kind)) badValue(`trace: ${name}`, numbers, `a ${kind}`, true);
+}
+
+/** Checks that there are as many numbers per box, if any. */
+function checkEach(name: string, numbers: ArrayLike<number> | undefined, kind: string, count: number, each = 1): void {
+  if (numbers === undefined) return;
+  checkKind(name, numbers, kind);
+  checkLength(`trace: ${name}`, numbers, each * count);
 }
 
 function checkBoxes(boxes: Float32Array | Float64Array, dimensions: number): void {
-  const width = 2 * dimensions;
-  for (let at = 0; at < boxes.length; at += width) {
-    for (let k = at; k < at + dimensions; k++) {
-      if (!(boxes[k] <= boxes[k + dimensions])) {
-        const box = [...boxes.subarray(at, at + width)].join(', ');
-        throw new RangeError(`trace: box ${at / width} is [${box}], expected minima not above maxima and no NaN`);
-      }
-    }
-  }
+  const bad = firstBad(boxes, dimensions);
+  if (bad) throw new RangeError(`trace: ${bad.what}, expected minima not above maxima and no NaN`);
 }
 
 function checkIds(ids: ArrayLike<number>, count: number, seen: IdSet): void {
-  if (ids.length !== count) throw new RangeError(`trace: ${ids.length} ids for ${count} boxes`);
+  checkLength('trace: ids', ids, count);
   seen.clear();
   for (let k = 0; k < count; k++) {
     const id = ids[k];

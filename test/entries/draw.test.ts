@@ -94,7 +94,7 @@ describe('Lines', () => {
 
   test('says what is wrong, and keeps its lines', () => {
     const lines = new Lines().addBoxes(new BroadPhase().set(7, 0, 0, 1, 1));
-    expect(() => lines.addRay(new BroadPhase(), [0, 0, 1])).toThrow('addRay: got 3 numbers, expected an origin');
+    expect(() => lines.addRay(new BroadPhase(), [0, 0, 1])).toThrow('addRay: got [0, 0, 1], expected 4 finite numbers');
     expect(() => lines.addRay(new BroadPhase().update(), [0, 0, Number.NaN, 1])).toThrow(RangeError);
     expect(() => lines.addPairs(crowd(3, 'auto'))).toThrow('addPairs: got a space of 3 dimensions, expected 2');
     expect(() => new Lines(4 as 2)).toThrow('new Lines: got 4, expected 2 or 3 dimensions');
@@ -243,8 +243,8 @@ describe('drawSpace', () => {
   test('says what is wrong before it draws', () => {
     const { calls, ctx } = fakeContext();
     expect(() => drawSpace(ctx, crowd(3, 'auto'))).toThrow('drawSpace: got a space of 3 dimensions, expected 2');
-    expect(() => drawSpace(ctx, space(), { cell: true } as object)).toThrow("drawSpace: got an option 'cell'");
-    expect(() => drawSpace(ctx, space(), { rays: [[1, 2]] })).toThrow('drawSpace: rays: got 2 numbers');
+    expect(() => drawSpace(ctx, space(), { cell: true } as object)).toThrow('drawSpace: options: got "cell"');
+    expect(() => drawSpace(ctx, space(), { rays: [[1, 2]] })).toThrow('drawSpace: rays: got [1, 2]');
     expect(calls).toEqual([]);
   });
 });

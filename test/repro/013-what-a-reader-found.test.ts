@@ -117,7 +117,7 @@ test('a colour that is undefined is the usual one, and one that is misspelt is r
   expect(colours).not.toContain(undefined);
   const count = colours.length;
   expect(() => drawSpace(context, space, { colors: { box: 'red' } as object })).toThrow(
-    "drawSpace: got a color 'box', expected one of boxes, pairs, cells, hot, rays",
+    'drawSpace: colors: got "box", expected one of boxes, pairs, cells, hot, rays',
   );
   expect(colours.length).toBe(count);
 });

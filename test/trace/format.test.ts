@@ -237,10 +237,10 @@ describe('errors say where', () => {
     const writer = new TraceWriter(2);
     expect(() => writer.frame(new Float32Array(3))).toThrow('expected 4 for each');
     expect(() => writer.frame(Float32Array.of(0, 0, Number.NaN, 1))).toThrow('box 0 is [0, 0, NaN, 1]');
-    expect(() => writer.frame(two[0].boxes, [1])).toThrow('1 ids for 2 boxes');
+    expect(() => writer.frame(two[0].boxes, [1])).toThrow('ids.length: got 1, expected 2');
     expect(() => writer.frame(two[0].boxes, [1, 1])).toThrow('id 1 appears twice');
     expect(() => writer.frame(two[0].boxes, [1, 2 ** 24])).toThrow('an id is 16777216');
-    expect(() => new TraceWriter(4 as 2)).toThrow('2 or 3 dimensions');
+    expect(() => new TraceWriter(4 as 2)).toThrow('dimensions: got 4, expected 2 or 3');
     expect(writer.frames).toBe(0);
   });
 });
