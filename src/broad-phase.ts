@@ -192,18 +192,11 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
       // biome-ignore lint/complexity/noArguments: the same
       badSwept(arguments.length, id, [a, b, c, d, e, f, g, h, i], this.dimensions);
     }
-    const space = this as BroadPhase<Dimensions>;
-    if (flat) space.set(id, a + Math.min(e, 0), b + Math.min(f, 0), c + Math.max(e, 0), d + Math.max(f, 0));
-    else
-      space.set(
-        id,
-        a + Math.min(g!, 0),
-        b + Math.min(h!, 0),
-        c + Math.min(i!, 0),
-        d + Math.max(g!, 0),
-        e + Math.max(h!, 0),
-        f + Math.max(i!, 0),
-      );
+    const { way } = this.#ring;
+    way[0] = flat ? e : g!;
+    way[1] = flat ? f : h!;
+    way[2] = flat ? 0 : i!;
+    this.#ring.put(id, a, b, c, d, e, f, true);
     return this;
   }
 
@@ -220,9 +213,8 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
       // biome-ignore lint/complexity/noArguments: the same
       badCentred(arguments.length, id, [a, b, c, d, e, f], this.dimensions);
     }
-    const space = this as BroadPhase<Dimensions>;
-    if (flat) space.set(id, a - c, b - d, a + c, b + d);
-    else space.set(id, a - d, b - e!, c - f!, a + d, b + e!, c + f!);
+    if (flat) this.#ring.put(id, a - c, b - d, a + c, b + d);
+    else this.#ring.put(id, a - d, b - e!, c - f!, a + d, b + e!, c + f!);
     return this;
   }
 
