@@ -1,5 +1,6 @@
 // Faults that several strangers found in the library.
-import { BroadPhase } from 'broadphase';
+import { readFileSync } from 'node:fs';
+import { BroadPhase, init } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
 
@@ -69,4 +70,90 @@ test('a subclass with a set of its own changes no other call', () => {
   const space = new BySize().setCentred(1, 10, 10, 2, 3).setSwept(2, 10, 10, 12, 13, 4, -5);
   expect(space.get(1)).toEqual(new Float64Array([8, 7, 12, 13]));
   expect(space.get(2)).toEqual(new Float64Array([10, 5, 16, 13]));
+});
+
+describe('what follows the options of a query is refused', () => {
+  const flat = new BroadPhase().set(7, 0, 0, 1, 1).update();
+  const solid = new BroadPhase({ dimensions: 3 }).set(7, 0, 0, 0, 1, 1, 1).update();
+  const numbers = { isColliding: 2, collisionsOf: 1, queryPlanes: [[]], nearests: [[], 1], nearestsOfAll: [1] };
+  const lengths = { queryPoint: 3, querySphere: 4, rayCast: 6, rayCastAll: 6, queryBox: 6, sweep: 9, nearest: 4 };
+  const lists = ['queryBoxes', 'queryPoints', 'queryCircles', 'rayCasts', 'sweeps'].map((name) => [name, [[]]]);
+  const calls = Object.entries({ ...numbers, ...lengths, ...Object.fromEntries(lists) }) as [string, unknown][];
+  test.each(calls)('%s', (name, given) => {
+    const args = typeof given === 'number' ? new Array(given).fill(1) : (given as unknown[]);
+    for (const space of name in lengths ? [solid] : [flat, solid]) {
+      const call = (...all: unknown[]) =>
+        (space as never as Record<string, (...all: unknown[]) => unknown>)[name]!(...all);
+      call(...args);
+      const more = name === 'isColliding' ? [{ mask: 0 }] : [undefined, { mask: 0 }];
+      expect(() => call(...args, ...more)).toThrow(
+        new TypeError(`${name}: got too many arguments, expected none after the options`),
+      );
+    }
+  });
+  test('queryCircle', () => {
+    expect(() => (flat.queryCircle as (...all: unknown[]) => unknown).call(flat, 1, 1, 1, undefined, {})).toThrow(
+      TypeError,
+    );
+  });
+});
+
+describe('an error says what is wrong', () => {
+  const space = new BroadPhase().set(7, 0, 0, 1, 1).update();
+  const any = space as never as Record<string, (...all: unknown[]) => unknown>;
+  const detached = new Uint32Array(4);
+  structuredClone(detached, { transfer: [detached.buffer] });
+  test.each<[string, () => unknown]>([
+    [
+      'queryBox: ignore: got [object Uint32Array], expected an id, or an array of ids',
+      () => any.queryBox!(0, 0, 1, 1, { ignore: new Uint32Array(1) }),
+    ],
+    [
+      'nearest: ignore: got [object Set], expected an id, or an array of ids',
+      () => any.nearest!(0, 0, 1, { ignore: new Set([0]) }),
+    ],
+    ['queryPoints: ignoreEach: got a detached array', () => space.queryPoints([0, 0], { ignoreEach: detached })],
+    ['isColliding: b: the id is undefined', () => any.isColliding!(1)],
+    ['isColliding: a: the id is "1"', () => any.isColliding!('1', 2)],
+    [
+      'rayCast: update or restore was called by accept',
+      () => space.rayCast(0, 0, 1, 0, { accept: () => !space.restore(space.snapshot()) }),
+    ],
+    [
+      'queryBox: update or restore was called by visit',
+      () => space.queryBox(0, 0, 1, 1, { visit: () => space.update() }),
+    ],
+    ['nearest: update or restore was called by visit', () => space.nearest(0, 0, 1, { visit: () => space.update() })],
+  ])('%s', (message, call) => {
+    expect(call).toThrow(message);
+  });
+
+  test('no option is suggested that is only a little like the one given', () => {
+    for (const name of ['constructor', 'toString', 'valueOf', '0']) {
+      const text = `new BroadPhase: there is no option "${name}", there are dimensions`;
+      expect(() => new BroadPhase(Object.fromEntries([[name, 1]]))).toThrow(text);
+    }
+    expect(() => space.queryBoxes([], { visit: 1 } as object)).toThrow('no option "visit", there are mask');
+    expect(() => space.nearestsOfAll(1, { ignoreEach: [] } as object)).toThrow(
+      'no option "ignoreEach", there are mask',
+    );
+    expect(() => space.queryBox(0, 0, 1, 1, { ignoreEach: 1 } as object)).toThrow('did you mean "ignore"? There are');
+  });
+
+  test('pairsWith says which space is stale', () => {
+    const stale = new BroadPhase();
+    for (let id = 0; id < 20_000; id++) stale.set(id, 2 * id, 0, 2 * id + 1, 1);
+    stale.update().set(0, 5, 5, 6, 6);
+    expect(() => space.pairsWith(stale)).toThrow('pairsWith: the other BroadPhase: boxes have changed');
+    expect(() => stale.pairsWith(space)).toThrow('pairsWith: boxes have changed');
+  });
+
+  test('bytes of the kernel that are damaged or cut off are no fault of the host', () => {
+    const bytes = readFileSync('build/kernel.wasm');
+    for (const length of [4, 20, 100, bytes.length - 1]) {
+      expect(() => init(bytes.subarray(0, length))).toThrow(
+        /^init: got bytes that are damaged or cut off, expected that of/,
+      );
+    }
+  });
 });
