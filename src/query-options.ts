@@ -25,7 +25,10 @@ export interface IdsOptions extends QueryOptions, AreaOptions {
 
 /** Options of {@link BroadPhase.queryBox}. */
 export interface BoxOptions extends IdsOptions {
-  /** Whether boxes must be wholly inside; they may touch the sides, unless `touching` is false. Default false. */
+  /**
+   * Whether boxes must be wholly inside; they may touch the sides, unless `touching` is false, even infinite ones.
+   * Default false.
+   */
   within?: boolean | undefined;
 }
 

@@ -162,7 +162,8 @@ export interface Contents<D extends Dimensions> {
   /**
    * The ids of all boxes, in the order of a Map: the order in which they were added. Those given by `setAll` and
    * `boxes` come in numerical order. You may set and delete boxes in the loop: boxes deleted before their turn are
-   * skipped, and new ones are not visited. It copies all ids.
+   * skipped, and new ones are not visited. An id that is deleted and set again before its turn is visited. It copies
+   * all ids.
    *
    * @example
    * const space = new BroadPhase();
