@@ -357,7 +357,13 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
   queryCircle(...query: D extends 2 ? RoundQuery<2, IdsOptions> : never): number[];
   queryCircle(x: number, y: number, radius: number, options?: IdsOptions): number[] {
-    return places.queryCircle(this.#with('queryCircle', arguments.length <= 4), x, y, radius, options);
+    return places.queryCircle(
+      this.#with('queryCircle', arguments.length <= 2 + this.dimensions),
+      x,
+      y,
+      radius,
+      options,
+    );
   }
   querySphere(...query: D extends 3 ? RoundQuery<3, IdsOptions> : never): number[];
   querySphere(x: number, y: number, z: number, radius: number, options?: IdsOptions): number[] {
