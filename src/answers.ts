@@ -264,7 +264,7 @@ function walk(
         if (into !== undefined) {
           if ((call as Accept)(id, into)) return true;
         } else if ((call as Visitor)(id, visit.ranks[k]!, hit) === false) return true;
-        if (instance.kernel.updates() !== updates) updatedInside(where);
+        if (instance.kernel.updates() !== updates) updatedInside(where, into);
       }
       if (count < wanted) return false;
       after = visit.ids[count - 1]!;
@@ -349,8 +349,9 @@ export function known(where: string, count: number): number {
   );
 }
 
-function updatedInside(where: string): never {
-  throw new Error(`${where}: update was called by the visitor, expected it to wait until the search has ended`);
+function updatedInside(where: string, into?: Hit): never {
+  const by = into === undefined ? 'visit' : 'accept';
+  throw new Error(`${where}: update or restore was called by ${by}, expected it to wait until the search has ended`);
 }
 
 /** Refuses a path or a distance that is too long in a world that wraps around. */

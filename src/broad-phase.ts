@@ -1,6 +1,7 @@
 // The class BroadPhase: a Map from id to box that knows which of its boxes overlap.
 // Each method passes its arguments to the function of its topic. Its documentation is in api/, except where an editor
 // would not find it there. Only `set` and its variants, which are called once for each box, are implemented here.
+// biome-ignore-all lint/complexity/noArguments: a rest parameter would be an array per call
 import type { Api } from './api/index.ts';
 import { type Boxes, expose, hasBox, present, readBox, setAll } from './boxes.ts';
 import { askMany, nothing } from './bulk-queries.ts';
@@ -133,7 +134,6 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     // each call would allocate it.
     const ring = this.#ring;
     if (
-      // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
       arguments.length !== ring.step ||
       typeof id !== 'number' ||
       typeof a !== 'number' ||
@@ -141,12 +141,10 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
       typeof c !== 'number' ||
       typeof d !== 'number' ||
       (id & maxId) !== id ||
-      // biome-ignore lint/complexity/noArguments: the same
       !(arguments.length === 5
         ? a <= c && b <= d
         : typeof e === 'number' && typeof f === 'number' && a <= d && b <= e && c <= f)
     ) {
-      // biome-ignore lint/complexity/noArguments: the same
       badSet(arguments.length, id, a, b, c, d, e, f, this.dimensions);
     }
     const { numbers } = ring;
@@ -156,13 +154,11 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     numbers[next + 2] = b;
     numbers[next + 3] = c;
     numbers[next + 4] = d;
-    // biome-ignore lint/complexity/noArguments: the same
     if (arguments.length !== 5) {
       numbers[next + 5] = e!;
       numbers[next + 6] = f!;
     }
     if (id >= ring.limit || next >= ring.last) ring.settle(id);
-    // biome-ignore lint/complexity/noArguments: the same
     else ring.next = next + arguments.length;
     return this;
   }
@@ -182,28 +178,19 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   ): this {
     const flat = this.dimensions === 2;
     if (
-      // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
       arguments.length !== (flat ? 7 : 10) ||
       !isId(id) ||
       !(areNumbers(a, b, c, d, e, f) && (flat || areNumbers(g, h, i))) ||
       !(flat ? a <= c && b <= d : a <= d && b <= e && c <= f) ||
       (flat ? e - e + (f - f) : g! - g! + (h! - h!) + (i! - i!)) !== 0 // x - x is NaN if x is infinite
     ) {
-      // biome-ignore lint/complexity/noArguments: the same
       badSwept(arguments.length, id, [a, b, c, d, e, f, g, h, i], this.dimensions);
     }
-    const space = this as BroadPhase<Dimensions>;
-    if (flat) space.set(id, a + Math.min(e, 0), b + Math.min(f, 0), c + Math.max(e, 0), d + Math.max(f, 0));
-    else
-      space.set(
-        id,
-        a + Math.min(g!, 0),
-        b + Math.min(h!, 0),
-        c + Math.min(i!, 0),
-        d + Math.max(g!, 0),
-        e + Math.max(h!, 0),
-        f + Math.max(i!, 0),
-      );
+    const { way } = this.#ring;
+    way[0] = flat ? e : g!;
+    way[1] = flat ? f : h!;
+    way[2] = flat ? 0 : i!;
+    this.#ring.put(id, a, b, c, d, e, f, true);
     return this;
   }
 
@@ -211,18 +198,15 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   setCentred(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
     const flat = this.#ring.step === 5;
     if (
-      // biome-ignore lint/complexity/noArguments: a rest parameter would be an array per call
       arguments.length !== this.#ring.step ||
       !isId(id) ||
       !(Number.isFinite(a) && Number.isFinite(b) && (flat || Number.isFinite(c))) ||
       !(flat ? isSize(c) && isSize(d) : isSize(d) && isSize(e) && isSize(f))
     ) {
-      // biome-ignore lint/complexity/noArguments: the same
       badCentred(arguments.length, id, [a, b, c, d, e, f], this.dimensions);
     }
-    const space = this as BroadPhase<Dimensions>;
-    if (flat) space.set(id, a - c, b - d, a + c, b + d);
-    else space.set(id, a - d, b - e!, c - f!, a + d, b + e!, c + f!);
+    if (flat) this.#ring.put(id, a - c, b - d, a + c, b + d);
+    else this.#ring.put(id, a - d, b - e!, c - f!, a + d, b + e!, c + f!);
     return this;
   }
 
@@ -297,8 +281,8 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   filterOf(id: number): rules.Filter | undefined {
     return rules.filterOf(this.#instance, id);
   }
-  setStatic(id: number, ...given: [isStatic?: boolean]): this {
-    rules.setStatic(this.#instance, id, given.length === 0 || given[0]!);
+  setStatic(id: number, ...given: [] | [isStatic: boolean]): this {
+    rules.setStatic(this.#instance, id, given.length === 0 || given[0]);
     return this;
   }
   isStatic(id: number): boolean {
@@ -346,11 +330,16 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   get ended(): Uint32Array {
     return endedIn(this.#instance);
   }
+  /** The instance, for a query: it is refused if it has more arguments than any can have. */
+  #with(where: string, good: boolean): KernelInstance {
+    if (!good) throw new TypeError(`${where}: got too many arguments, expected none after the options`);
+    return this.#instance;
+  }
   isColliding(a: number, b: number): boolean {
-    return places.isColliding(this.#instance, a, b);
+    return places.isColliding(this.#with('isColliding', arguments.length <= 2), a, b);
   }
   collisionsOf(id: number, out: number[] = []): number[] {
-    return places.collisionsOf(this.#instance, id, out);
+    return places.collisionsOf(this.#with('collisionsOf', arguments.length <= 2), id, out);
   }
   pairsWith(other: BroadPhase<D>): Uint32Array {
     if (!(Object(other) === other && #instance in other))
@@ -360,30 +349,37 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
 
   queryBox(...query: BoxQuery<D, BoxOptions>): number[];
   queryBox(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: BoxOptions): number[] {
-    return places.queryBox(this.#instance, a, b, c, d, e, f, options);
+    return places.queryBox(this.#with('queryBox', arguments.length <= 7), a, b, c, d, e, f, options);
   }
   queryPoint(...query: PointQuery<D, IdsOptions>): number[];
   queryPoint(x: number, y: number, z?: unknown, options?: IdsOptions): number[] {
-    return places.queryPoint(this.#instance, x, y, z, options);
+    return places.queryPoint(this.#with('queryPoint', arguments.length <= 4), x, y, z, options);
   }
   queryCircle(...query: D extends 2 ? RoundQuery<2, IdsOptions> : never): number[];
   queryCircle(x: number, y: number, radius: number, options?: IdsOptions): number[] {
-    return places.queryCircle(this.#instance, x, y, radius, options);
+    return places.queryCircle(
+      this.#with('queryCircle', arguments.length <= 2 + this.dimensions),
+      x,
+      y,
+      radius,
+      options,
+    );
   }
   querySphere(...query: D extends 3 ? RoundQuery<3, IdsOptions> : never): number[];
   querySphere(x: number, y: number, z: number, radius: number, options?: IdsOptions): number[] {
-    return places.querySphere(this.#instance, x, y, z, radius, options);
+    return places.querySphere(this.#with('querySphere', arguments.length <= 5), x, y, z, radius, options);
   }
   queryPlanes(planes: Float32Array | Float64Array | readonly number[], options?: PlanesOptions): number[] {
-    return queryPlanes(this.#instance, planes, options);
+    return queryPlanes(this.#with('queryPlanes', arguments.length <= 2), planes, options);
   }
   rayCast(...query: RayQuery<D, RayOptions>): RayHit | undefined;
   rayCast(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayOptions) {
-    return ahead.rayCast(this.#instance, a, b, c, d, e, f, options);
+    return ahead.rayCast(this.#with('rayCast', arguments.length <= 7), a, b, c, d, e, f, options);
   }
   rayCastAll(...query: RayQuery<D, RayAllOptions>): RayHit[];
   rayCastAll(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayAllOptions): RayHit[] {
-    return ahead.rayCastAll(this.#instance, this.#spareHits, a, b, c, d, e, f, options);
+    const instance = this.#with('rayCastAll', arguments.length <= 7);
+    return ahead.rayCastAll(instance, this.#spareHits, a, b, c, d, e, f, options);
   }
   sweep(...query: SweepQuery<D, SweepOptions>): SweepHit | undefined;
   sweep(
@@ -398,32 +394,33 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     i?: unknown,
     options?: SweepOptions,
   ) {
-    return ahead.sweep(this.#instance, a, b, c, d, e, f, g, h, i, options);
+    return ahead.sweep(this.#with('sweep', arguments.length <= 10), a, b, c, d, e, f, g, h, i, options);
   }
   nearest(...query: NearestQuery<D, NearestOptions>): number[];
   nearest(x: number, y: number, z: number, k?: unknown, options?: NearestOptions): number[] {
-    return ahead.nearest(this.#instance, x, y, z, k, options);
+    return ahead.nearest(this.#with('nearest', arguments.length <= 5), x, y, z, k, options);
   }
   queryBoxes(boxes: Boxes, options?: ManyBoxOptions): ManyIds {
-    return askMany(this.#instance, 'queryBoxes', boxes, options, 1);
+    return askMany(this.#with('queryBoxes', arguments.length <= 2), 'queryBoxes', boxes, options, 1);
   }
   queryPoints(points: Boxes, options?: ManyAreaOptions): ManyIds {
-    return askMany(this.#instance, 'queryPoints', points, options, 1);
+    return askMany(this.#with('queryPoints', arguments.length <= 2), 'queryPoints', points, options, 1);
   }
   queryCircles(circles: Boxes, options?: ManyAreaOptions): ManyIds {
-    return askMany(this.#instance, 'queryCircles', circles, options, 1);
+    return askMany(this.#with('queryCircles', arguments.length <= 2), 'queryCircles', circles, options, 1);
   }
   rayCasts(rays: Boxes, options?: ManyFarOptions<ManyRayHits>): ManyRayHits {
-    return askMany(this.#instance, 'rayCasts', rays, options, 1) as ManyRayHits;
+    return askMany(this.#with('rayCasts', arguments.length <= 2), 'rayCasts', rays, options, 1) as ManyRayHits;
   }
   sweeps(boxes: Boxes, options?: ManyOptions<ManySweepHits>): ManySweepHits {
-    return askMany(this.#instance, 'sweeps', boxes, options, 1) as ManySweepHits;
+    return askMany(this.#with('sweeps', arguments.length <= 2), 'sweeps', boxes, options, 1) as ManySweepHits;
   }
   nearests(points: Boxes, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest {
-    return askMany(this.#instance, 'nearests', points, options, k) as ManyNearest;
+    return askMany(this.#with('nearests', arguments.length <= 3), 'nearests', points, options, k) as ManyNearest;
   }
   nearestsOfAll(k: number, options?: Omit<ManyFarOptions<ManyNearestOfAll>, 'ignoreEach'>): ManyNearestOfAll {
-    return askMany(this.#instance, 'nearestsOfAll', nothing, options, k) as ManyNearestOfAll;
+    const instance = this.#with('nearestsOfAll', arguments.length <= 2);
+    return askMany(instance, 'nearestsOfAll', nothing, options, k) as ManyNearestOfAll;
   }
 
   get stats(): Readonly<Stats> {

@@ -6,6 +6,7 @@ import {
   badId,
   badQuery,
   badValue,
+  checkAttached,
   checkNumberArray,
   checkOptions,
   corners,
@@ -235,6 +236,7 @@ function badNumbers(where: string, numbers: ArrayLike<number>, k: number, names:
 function checkIgnored(where: string, ids: ArrayLike<number>, count: number): void {
   where += ': ignoreEach';
   if (!isTypedArray(ids, 'Uint32Array') && !Array.isArray(ids)) badValue(where, ids, 'a Uint32Array or an array', true);
+  if (ArrayBuffer.isView(ids)) checkAttached(where, ids as Uint32Array);
   if (ids.length !== count) badValue(`${where}: length`, ids.length, `${count}, one id for each query`);
   for (let k = 0; k < count; k++) if (!isId(ids[k])) badId(`${where}[${k}]`, ids[k]);
 }

@@ -135,11 +135,17 @@ export function checkBoxCount(what: string, count: unknown): void {
   if (!isBoxCount(count)) badNumber(what, count, boxCounts);
 }
 
+/** Refuses an array whose memory is gone. */
+export function checkAttached(where: string, array: ArrayLike<number> & ArrayBufferView): void {
+  if (array.length > 0 || isAttached(array)) return;
+  throw new TypeError(`${where}: got a detached array: its memory was transferred, or has grown`);
+}
+
 /** Numbers come in one of three kinds of array. */
 export function checkNumberArray(where: string, numbers: unknown): void {
   if (isFloat32Array(numbers) || isFloat64Array(numbers)) {
-    if (numbers.length > 0 || isAttached(numbers)) return;
-    throw new TypeError(`${where}: got a detached array: its memory was transferred, or has grown`);
+    checkAttached(where, numbers);
+    return;
   }
   if (!Array.isArray(numbers)) badValue(where, numbers, 'a Float32Array, a Float64Array or an array of numbers', true);
 }
@@ -191,10 +197,10 @@ export function checkOptions(where: string, options: unknown, known: readonly st
   }
   for (const name in options) {
     if (known.includes(name) || (options as Record<string, unknown>)[name] === undefined) continue;
-    const [nearest] = [...known].sort((a, b) => edits(name, a) - edits(name, b));
-    throw new TypeError(
-      `${where}: there is no option ${show(name)}, did you mean ${show(nearest)}? There are ${known.join(', ')}`,
-    );
+    const [nearest = ''] = [...known].sort((a, b) => edits(name, a) - edits(name, b));
+    const isClose = name.includes(nearest) || edits(name, nearest) < 0.35 * Math.max(name.length, nearest.length);
+    const meant = isClose ? `did you mean ${show(nearest)}? T` : 't';
+    throw new TypeError(`${where}: there is no option ${show(name)}, ${meant}here are ${known.join(', ')}`);
   }
 }
 

@@ -62,7 +62,7 @@ function plain(options?: BroadPhaseOptions<Dimensions>): number {
 export function findPairs(boxes: Boxes, options?: BroadPhaseOptions<Dimensions>): Uint32Array {
   const space = borrow('findPairs', options);
   setAll(space, boxes, undefined, 'findPairs');
-  const pairs = search(space);
+  const pairs = search(space, 'findPairs');
   giveBack(space, options);
   return pairs;
 }
@@ -89,15 +89,15 @@ export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOp
   countBoxes('findPairsBetween: blue', blue, space.dimensions);
   setAll(space, join(red, blue), undefined, 'findPairsBetween');
   split(space, reds);
-  const pairs = search(space);
+  const pairs = search(space, 'findPairsBetween');
   giveBack(space, options);
   for (let k = 1; k < pairs.length; k += 2) pairs[k]! -= reds;
   return pairs;
 }
 
 /** The pairs of the boxes in a space, as an independent array. */
-function search(space: KernelInstance): Uint32Array {
-  update(space, stats);
+function search(space: KernelInstance, where: string): Uint32Array {
+  update(space, stats, where);
   return pairsIn(space).slice();
 }
 

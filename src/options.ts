@@ -41,14 +41,16 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
   wrap?: readonly number[] | undefined;
   /**
    * Whether boxes that only touch overlap: in pairs, events, and, unless they say otherwise, queries about places.
-   * Default true. If false, a box of zero size overlaps only the boxes it is inside of.
+   * Default true. If false, a box of zero size overlaps only the boxes it is inside of. Nothing only touches a box that
+   * is as long as a world that wraps around: along that axis it has no sides.
    */
   touching?: boolean | undefined;
   /** Whether every update determines which pairs began and ended, for `began` and `ended`. Default false. */
   events?: boolean | undefined;
   /**
-   * For `aabb-tree`, in `broadphase/all`: how far a box may move before the tree changes, above 0. Default: chosen from
-   * the observed motion.
+   * For `broadphase/all`: how far a box may move before the tree of `aabb-tree` changes, or before it leaves its place in
+   * the lists of `auto` and `incremental`. Above 0. Default, and in other entry points always: chosen from the observed
+   * motion.
    */
   margin?: number | undefined;
   /** A hint: how many boxes there will be, 0 … 2^24. Avoids growing while they are added. */
@@ -142,12 +144,12 @@ function checkDimensions(dimensions: Dimensions): void {
   badValue('dimensions', dimensions, `${builtDimensions.join(' or ')}${more}`);
 }
 
-/** Options that no technique of this build uses: those that do are in `broadphase/all`. */
+/** Options that only `broadphase/all` takes: those of its own techniques. */
 function checkHeeded(options: Record<string, unknown>): void {
   if (isBuilt('spatial-grid')) return;
   for (const [name, value] of Object.entries(options)) {
     if (value === undefined) continue;
-    badValue(name, value, "it to be left out: the techniques that use it are in 'broadphase/all'");
+    badValue(name, value, "it to be left out: only 'broadphase/all' takes this option");
   }
 }
 

@@ -18,6 +18,7 @@ import type { KernelInstance } from './kernel/instance.ts';
 import { everything } from './query-options.ts';
 
 const where = 'pairsWith';
+const ofOther = 'pairsWith: the other BroadPhase';
 /** Numbers of a row besides the box: see `write_row` in kernel/questions/index.hpp. */
 const rowMore = 3;
 /** The number of views kept, so that a length seen recently makes no garbage. */
@@ -109,9 +110,10 @@ function checkOther(instance: KernelInstance, other: KernelInstance): void {
 function keep(few: KernelInstance, kept: Kept, many: KernelInstance): void {
   const set = setOf(few, kept);
   const row = few.width + rowMore;
+  const { forth } = kept;
   let running = many;
   try {
-    const epoch = known(where, many.kernel.read_log());
+    const epoch = known(forth ? ofOther : where, many.kernel.read_log());
     const log = many.io();
     const total = log[logCountAt]!;
     const reach = log[mostReachAt]!;
@@ -121,7 +123,10 @@ function keep(few: KernelInstance, kept: Kept, many: KernelInstance): void {
     if (changes > 0) stageChanges(few, many, (log[logAt]! >>> 2) + 2 * kept.read, 2 * changes);
     kept.epoch = epoch;
     kept.read = total;
-    const asked = known(where, few.kernel.begin_pairs(set, changes, same ? 1 : 0, kept.forth ? 1 : 0, reach));
+    const asked = known(
+      forth ? where : ofOther,
+      few.kernel.begin_pairs(set, changes, same ? 1 : 0, forth ? 1 : 0, reach),
+    );
     if (asked === still) return;
     if (asked > 0) {
       running = many;
@@ -147,7 +152,7 @@ function keep(few: KernelInstance, kept: Kept, many: KernelInstance): void {
     kept.take(few.pairView(firstList + set, met[metAt]!, met[metCountAt]!));
   } catch (error) {
     kept.epoch = 0;
-    running.recover(error, where);
+    running.recover(error, (running === few) === forth ? where : ofOther);
   }
 }
 

@@ -4,19 +4,19 @@ import type { KernelInstance } from './kernel/instance.ts';
 import { readStats, type Stats } from './stats.ts';
 
 /** Finds the pairs of the present boxes, and updates the counters. */
-export function update(instance: KernelInstance, stats: Stats): void {
-  checkExposed(instance, 'update');
+export function update(instance: KernelInstance, stats: Stats, where = 'update'): void {
+  checkExposed(instance, where);
   let bad = -1;
   try {
     bad = instance.kernel.update();
   } catch (error) {
     try {
-      instance.recover(error, 'update');
+      instance.recover(error, where);
     } finally {
       readStats(instance, stats);
     }
   }
-  if (bad >= 0) badInPlace(instance, 'update', bad);
+  if (bad >= 0) badInPlace(instance, where, bad);
   instance.exposedIsOpen = false;
   readStats(instance, stats);
 }

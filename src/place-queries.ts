@@ -6,8 +6,8 @@ import type { KernelInstance } from './kernel/instance.ts';
 import { type BoxOptions, boxOptions, checkDistance, type IdsOptions } from './query-options.ts';
 
 export function isColliding(instance: KernelInstance, a: number, b: number): boolean {
-  checkId('isColliding', a);
-  checkId('isColliding', b);
+  checkId('isColliding: a', a);
+  checkId('isColliding: b', b);
   try {
     return instance.kernel.is_pair(a, b) === 1;
   } catch (error) {

@@ -25,7 +25,10 @@ export interface IdsOptions extends QueryOptions, AreaOptions {
 
 /** Options of {@link BroadPhase.queryBox}. */
 export interface BoxOptions extends IdsOptions {
-  /** Whether boxes must be wholly inside; they may touch the sides, unless `touching` is false. Default false. */
+  /**
+   * Whether boxes must be wholly inside; they may touch the sides, unless `touching` is false, even infinite ones.
+   * Default false.
+   */
   within?: boolean | undefined;
 }
 
@@ -192,8 +195,10 @@ export function ignoredOf(where: string, options: QueryOptions | undefined): num
   const ignore = options?.ignore;
   if (ignore === undefined) return nobody;
   if (!Array.isArray(ignore)) {
-    if (!isId(ignore)) badId(`${where}: ignore`, ignore);
-    return ignore;
+    if (isId(ignore)) return ignore;
+    where += ': ignore';
+    if (typeof ignore === 'object' && ignore) badValue(where, ignore, 'an id, or an array of ids', true);
+    badId(where, ignore);
   }
   for (let k = 0; k < ignore.length; k++) if (!isId(ignore[k])) badId(`${where}: ignore[${k}]`, ignore[k]);
   return ignore.length === 1 ? ignore[0] : nobody;

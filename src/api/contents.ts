@@ -39,7 +39,8 @@ export interface Contents<D extends Dimensions> {
   /**
    * Adds or moves box `id` for swept tests: for boxes so fast that they would pass through others between two frames.
    * Give the box as it is now, and how far it moves until the next frame. It is stored as the bounds of its whole path,
-   * so that its pairs are everything it may hit. To find out what it does hit, when and on which side, call `sweep`
+   * so that its pairs are everything it may hit. Bounds are rounded outward, by at most 2^-48 of the numbers involved,
+   * unless these fit float32 and the sum is exact. To find out what it does hit, when and on which side, call `sweep`
    * with the same numbers. 2D `setSwept(id, minX, minY, maxX, maxY, dx, dy)`, 3D `setSwept(id, minX, minY, minZ, maxX,
    * maxY, maxZ, dx, dy, dz)`.
    *
@@ -161,7 +162,8 @@ export interface Contents<D extends Dimensions> {
   /**
    * The ids of all boxes, in the order of a Map: the order in which they were added. Those given by `setAll` and
    * `boxes` come in numerical order. You may set and delete boxes in the loop: boxes deleted before their turn are
-   * skipped, and new ones are not visited. It copies all ids.
+   * skipped, and new ones are not visited. An id that is deleted and set again before its turn is visited. It copies
+   * all ids.
    *
    * @example
    * const space = new BroadPhase();

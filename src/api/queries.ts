@@ -150,8 +150,9 @@ export interface Queries<D extends Dimensions> {
   rayCast(...query: RayQuery<D, RayOptions>): RayHit | undefined;
 
   /**
-   * All boxes that a ray hits, by distance and then by id: as {@link BroadPhase.rayCast}. 2D: `rayCastAll(x, y,
-   * directionX, directionY, options?)`, 3D: `rayCastAll(x, y, z, directionX, directionY, directionZ, options?)`.
+   * All boxes that a ray hits, by distance: as {@link BroadPhase.rayCast}. At the same distance, faces come before
+   * corners, then the smallest id first. 2D: `rayCastAll(x, y, directionX, directionY, options?)`, 3D: `rayCastAll(x, y,
+   * z, directionX, directionY, directionZ, options?)`.
    *
    * @param query the origin of the ray, and its direction: finite numbers; then options, if any
    *

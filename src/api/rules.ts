@@ -54,7 +54,7 @@ export interface Rules {
    * space.set(2, 8, 0, 9, 1); // and a ball
    * space.update().pairCount; // → 2
    */
-  setStatic(id: number, isStatic?: boolean): this;
+  setStatic(id: number, ...isStatic: [] | [isStatic: boolean]): this;
 
   /**
    * Whether box `id` is static, as set by `setStatic`; false if there is no such box.

@@ -95,7 +95,7 @@ export interface Upkeep {
   validate(): this;
 
   /**
-   * Frees the memory at once; otherwise it is freed with the object. Any later call throws.
+   * Frees the memory at once; otherwise it is freed with the object. Any later call that needs the boxes throws.
    *
    * @example
    * const space = new BroadPhase();

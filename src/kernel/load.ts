@@ -43,6 +43,13 @@ export function init(source: WebAssembly.Module | BufferSource): void {
     const given = bytes.slice(); // a shared or resizable buffer cannot be compiled
     const start = String.fromCharCode(...given.subarray(0, 4));
     if (start !== '\0asm') notKernel(`bytes that begin with ${JSON.stringify(start)}`); // a page that says 404
+    // Where WebAssembly with SIMD works, bytes that are no module are to blame, not the host.
+    if (
+      typeof WebAssembly !== 'undefined' &&
+      !WebAssembly.validate(given) &&
+      WebAssembly.validate(inlinedBytes(builtDimensions[0]!))
+    )
+      notKernel('bytes that are damaged or cut off');
     module = checked(compile(given));
   } else
     throw new TypeError(
@@ -62,9 +69,11 @@ function notKernel(what: string): never {
   throw new TypeError(`init: got ${what}, expected that of 'broadphase/kernel.wasm'`);
 }
 
+const inlinedBytes = (dimensions: Dimensions) => read(text, dimensions === 2 ? 3 : 2);
+
 /** A fresh kernel with memory of its own, for boxes of this many dimensions. */
 export function instantiate(dimensions: Dimensions): KernelExports {
-  modules[dimensions] ??= compile(read(text, dimensions === 2 ? 3 : 2));
+  modules[dimensions] ??= compile(inlinedBytes(dimensions));
   return new WebAssembly.Instance(modules[dimensions]).exports as unknown as KernelExports;
 }
 

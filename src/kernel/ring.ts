@@ -10,6 +10,11 @@ import type { KernelInstance } from './instance.ts';
 /** An index beyond the last word of any memory. */
 const nowhere = 2 ** 30;
 
+/** Relative to the numbers involved: more than the roundings of `sweep`, for which see kernel/questions/meeting.hpp. */
+const roundings = 2 ** -49;
+const isSingle = (x: number) => Math.fround(x) === x;
+const sizeOf = (x: number) => (Number.isFinite(x) ? Math.abs(x) * roundings : 0);
+
 export class Ring {
   readonly #instance: KernelInstance;
   /** Numbers per entry: the id, then the box. */
@@ -20,6 +25,8 @@ export class Ring {
   #entries = new Float64Array();
   /** Where boxes are written: for each its id, then its numbers. */
   numbers: Float64Array;
+  /** How far the next box moves, if it does. */
+  readonly way = new Float64Array(3);
   /** The index of the next box; 0 if the ring is closed. */
   next = 0;
   /** Boxes of ids below this may wait. */
@@ -44,6 +51,45 @@ export class Ring {
     if (id < this.dense) return true;
     const page = this.#page(id);
     return page > 0 && this.#instance.words[(page >>> 2) + (id & 4095)]! > 0;
+  }
+
+  /**
+   * What `set` does, for calls that have checked their numbers: they must not call `set`, which a subclass may override.
+   * With `moves`, the box is enlarged by its way.
+   */
+  put(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number, moves = false): void {
+    const { numbers, next } = this;
+    numbers[next] = id;
+    numbers[next + 1] = a;
+    numbers[next + 2] = b;
+    numbers[next + 3] = c;
+    numbers[next + 4] = d;
+    if (this.step === 7) {
+      numbers[next + 5] = e!;
+      numbers[next + 6] = f!;
+    }
+    if (moves) this.#stretch();
+    if (id >= this.limit || next >= this.last) this.settle(id);
+    else this.next = next + this.step;
+  }
+
+  /**
+   * Enlarges the box that was written last by its way, so that it holds all that `sweep` may hit. Of float32 numbers an
+   * exact sum is the answer. Others are rounded outward, as `sweep` hits what its own roundings do not tell apart.
+   */
+  #stretch(): void {
+    const { numbers, next, way } = this;
+    const axes = this.step >> 1;
+    for (let a = 0; a < axes; a++) {
+      const by = way[a]!;
+      const lo = numbers[next + 1 + a]!;
+      const hi = numbers[next + 1 + a + axes]!;
+      const from = by < 0 ? lo : hi;
+      let to = from + by;
+      const isExact = to - from === by && to - by === from && isSingle(by) && isSingle(lo) && isSingle(hi);
+      if (!isExact) to += Math.sign(by) * (sizeOf(by) + sizeOf(lo) + sizeOf(hi));
+      numbers[next + 1 + a + (by < 0 ? 0 : axes)] = to;
+    }
   }
 
   /**

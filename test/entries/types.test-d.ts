@@ -132,4 +132,11 @@ const asBoth: BroadPhase<2> = ofFlat;
 const asFlat: Flat = space2;
 record(ofSolid);
 
+// Whether a box is static is said, or left out.
+space2.setStatic(1).setStatic(1, false);
+// @ts-expect-error: it may be undefined, which is refused
+space2.setStatic(1, undefined);
+// @ts-expect-error: it may be undefined, which is refused
+space2.setEnabled(1, undefined);
+
 export const used = [notSolid, notSolidEither, notFlat, anySpaces, lean, back, asBoth, asFlat];

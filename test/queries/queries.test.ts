@@ -156,8 +156,12 @@ describe('a visitor', () => {
     });
     expect(new Set(seen).size).toBe(150);
     expect(asked).toBeGreaterThan(150 * 400);
-    expect(() => space.queryPoint(0, 0, { visit: () => space.update() })).toThrow('queryPoint: update was called');
-    expect(() => space.nearest(0, 0, 5, { visit: () => space.update() })).toThrow('nearest: update was called');
+    expect(() => space.queryPoint(0, 0, { visit: () => space.update() })).toThrow(
+      'queryPoint: update or restore was called',
+    );
+    expect(() => space.nearest(0, 0, 5, { visit: () => space.update() })).toThrow(
+      'nearest: update or restore was called',
+    );
   });
 
   test('may throw', () => {

@@ -22,7 +22,7 @@ describe('an option that there is not', () => {
       () => findPairsBetween([], [], { dims: 3 } as object),
       'findPairsBetween: there is no option "dims", did you mean "dimensions"?',
     ],
-    [() => ask().queryBox(0, 0, 1, 1, { layer: 3 }), 'queryBox: there is no option "layer", did you mean "mask"?'],
+    [() => ask().queryBox(0, 0, 1, 1, { layer: 3 }), 'queryBox: there is no option "layer", there are mask, ignore'],
     [() => ask().queryPoint(0, 0, { ignored: 3 }), 'did you mean "ignore"?'],
     [() => ask().queryCircle(0, 0, 1, { visitor: () => 1 }), 'did you mean "visit"?'],
     [

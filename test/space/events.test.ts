@@ -185,8 +185,8 @@ test('bad options, ids and arrays are refused', () => {
   expect(() => space.ended).toThrow('events: true');
   expect(() => new BroadPhase({ events: 1 as unknown as boolean })).toThrow('events: got 1');
   for (const id of [-1, 1.5, 2 ** 24, Number.NaN]) {
-    expect(() => space.isColliding(id, 0)).toThrow('isColliding: the id is');
-    expect(() => space.isColliding(0, id)).toThrow('isColliding: the id is');
+    expect(() => space.isColliding(id, 0)).toThrow(/isColliding: [ab]: the id is/);
+    expect(() => space.isColliding(0, id)).toThrow(/isColliding: [ab]: the id is/);
     expect(() => space.collisionsOf(id)).toThrow('collisionsOf: the id is');
   }
   expect(() => space.collisionsOf(0, new Uint32Array(2) as unknown as number[])).toThrow('collisionsOf: out');

@@ -1,7 +1,7 @@
 // Where memory ends and where it moves: what does not fit is a RangeError that says so, after which the same object goes
 // on with fewer boxes; a view that growing memory has cut off is never written to unnoticed.
 import { readFileSync } from 'node:fs';
-import { BroadPhase, init } from 'broadphase';
+import { BroadPhase, findPairs, findPairsBetween, init } from 'broadphase';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
 import { setBox } from '../support/set-box.ts';
@@ -68,6 +68,12 @@ describe.each(combinations)('a cell size far too small, %s in %d dimensions', (t
 
 describe('with 32 MiB of memory', () => {
   beforeAll(() => init(kernelWith(32 * mebibyte)));
+
+  test('a search names the call that ran out of memory', () => {
+    const boxes = identical(20_000, 2);
+    expect(() => findPairs(boxes)).toThrow(/^findPairs: out of memory/);
+    expect(() => findPairsBetween(boxes, boxes)).toThrow(/^findPairsBetween: out of memory/);
+  });
 
   test.each(combinations)(
     '%s in %d dimensions recovers from too many pairs',

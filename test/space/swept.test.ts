@@ -3,6 +3,7 @@ import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { expectKeys } from '../support/expect-pairs.ts';
 import { Modelled } from '../support/model.ts';
+import { pathOf } from '../support/path-of.ts';
 import { ahead } from '../support/query-reference.ts';
 import { referencePairs } from '../support/reference.ts';
 
@@ -20,7 +21,7 @@ describe.each(
       const box = model.box();
       const way = Array.from({ length: dimensions }, () => model.integer(200) - 100 + 0.1 * model.integer(2));
       expect(setSwept(space, 0, ...box, ...way)).toBe(space);
-      const bounds = box.map((x, k) => x + (k < dimensions ? Math.min(0, way[k]) : Math.max(0, way[k - dimensions])));
+      const bounds = pathOf(box, way);
       expect(Array.from(space.get(0)!)).toEqual(bounds);
       const boxes = [bounds, ...[...model.entries.values()].map((entry) => entry.box)].flat();
       expectKeys(space.update(), referencePairs(boxes, dimensions, [0, ...model.entries.keys()]));

@@ -4,6 +4,7 @@ import fc from 'fast-check';
 import { expect } from 'vitest';
 import { expectKeys } from '../../support/expect-pairs.ts';
 import { pairsOf } from '../../support/model.ts';
+import { pathOf } from '../../support/path-of.ts';
 import { setBox } from '../../support/set-box.ts';
 import { call, copy, expectEvents, type Model, on, put, type RandomCall, replace, update } from './model.ts';
 import { anId, bits, shapes, show } from './values.ts';
@@ -23,10 +24,7 @@ export function changes(dimensions: 2 | 3): RandomCall[] {
     fc.tuple(anId, aBox, aWay).map(([id, box, way]) =>
       call(`setSwept(${show([id, ...box, ...way])})`, (model, space) => {
         expect(on(space).setSwept(id, ...box, ...way)).toBe(space);
-        const bounds = box.map(
-          (x, k) => x + (k < dimensions ? Math.min(way[k]!, 0) : Math.max(way[k - dimensions]!, 0)),
-        );
-        put(model, id, bounds);
+        put(model, id, pathOf(box, way));
       }),
     ),
     fc
