@@ -221,7 +221,9 @@ describe(`pairs with another space (SEED=${seed})`, () => {
     const level = new BroadPhase().setAll(boxes).update();
     const movers = new BroadPhase().set(7, 0, 0, 0.5, 0.5).update();
     level.set(0, 5, 5, 6, 6);
-    expect(() => movers.pairsWith(level)).toThrow('pairsWith: the other BroadPhase: boxes have changed since the last update');
+    expect(() => movers.pairsWith(level)).toThrow(
+      'pairsWith: the other BroadPhase: boxes have changed since the last update',
+    );
     expect([...movers.pairsWith(level.set(0, 0, 0, 1, 1).update())]).toEqual([7, 0]);
   });
 });
