@@ -198,8 +198,8 @@ template <int D, class Source> NOINLINE SceneSample<D> measure(const Source& ite
   return detail::judge<D>(n);
 }
 
-/// The same for a few items, in one pass, without crowding. False if some are infinite, or far from all others: then
-/// they must be measured.
+/// The same for a few items, from all of them, without crowding. False if some are infinite, or far from all others:
+/// then they must be measured.
 template <int D, class Source> bool glance(const Source& items, u32 count, SceneSample<D>& found) {
   f32x4 origin = items[0].first(), least = origin, most = origin, sizes = {}, sum = {}, squares = {};
   for (u32 k = 0; k < count; k++) {

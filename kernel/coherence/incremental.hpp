@@ -178,12 +178,10 @@ template <int D> class Incremental {
 
   /// Learns the mean size of boxes along the axis where it is smallest, which is at least a share of their spacing.
   SMALL void learn_sizes(u32 boxes) {
-    f64 low[D], high[D], sizes[D];
-    anew_.bounds(low, high, sizes);
     prospect_.least = watch_.spacing(boxes) / tuning.apart;
     prospect_.size = 0;
     for (int a = 0; a < D; a++) {
-      f64 size = larger(sizes[a], prospect_.least);
+      f64 size = larger(anew_.size(a), prospect_.least);
       if (size > 0 && (prospect_.size == 0 || size < prospect_.size)) prospect_.size = size;
     }
   }

@@ -4,7 +4,7 @@
 // range. The boxes of a cell form a chain. Grids repeat themselves, so that boxes may be anywhere, also in clusters far
 // from one another; the coarsest has one cell for all.
 // Cost: 10 to 20 ns to insert or remove a box; in a search 1 ns for each cell, 2 for each region nearby. 8 bytes per box,
-// 3 for cells, and the base of each late box.
+// up to 6 for cells, and the base of each late box.
 // From: F. Schornbaum, "Hierarchical Hash Grids for Coarse Collision Detection", 2009.
 #pragma once
 #include "base/box_tests.hpp"

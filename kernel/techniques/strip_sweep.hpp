@@ -149,14 +149,8 @@ template <int D> class StripSweep {
     return found;
   }
 
-  /// The bounds of the minimum corners of the last update's boxes, and their mean size, along the axes of the world.
-  SMALL void bounds(f64* low, f64* high, f64* sizes) const {
-    for (int a = 0; a < D; a++) {
-      low[order_.axis[a]] = cut_.world.low[a];
-      high[order_.axis[a]] = cut_.world.high[a];
-      sizes[order_.axis[a]] = cut_.world.size[a];
-    }
-  }
+  /// The mean size of the last update's boxes, along one of the axes in the order of the sweep.
+  f64 size(int axis) const { return cut_.world.size[axis]; }
 
   /// The strips of the last update, as boxes in the world's axes; unbounded sides are infinite.
   SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) const {

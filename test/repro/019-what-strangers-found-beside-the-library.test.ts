@@ -77,13 +77,15 @@ describe('a shard', () => {
     expect([[...shard.ids()], shard.space.size, [...shard.pairs]]).toEqual([[2], 1, []]);
   });
 
-  test.each<[string, (shard: Shard) => unknown]>([
+  const changes: [string, (shard: Shard) => unknown][] = [
     ['set', (shard) => shard.set(1, 5, 5, 6, 6)],
     ['delete', (shard) => shard.delete(1)],
     ['exchange', (shard) => shard.exchange()],
     ['update', (shard) => shard.update()],
     ['forget', (shard) => shard.forget(1)],
-  ])('cannot be changed by entered: %s', (name, change) => {
+  ];
+
+  test.each(changes)('cannot be changed by entered: %s', (name, change) => {
     let calls = 0;
     const shard: Shard = new Shard(zones, 0, events(), { entered: () => (calls++ === 0 ? change(shard) : undefined) });
     const message = `${name}: called by entered, expected only after update`;
@@ -92,13 +94,7 @@ describe('a shard', () => {
     expect([shard.space.size, [...shard.pairs]]).toEqual([2, [1, 2]]);
   });
 
-  test.each<[string, (shard: Shard) => unknown]>([
-    ['set', (shard) => shard.set(1, 5, 5, 6, 6)],
-    ['delete', (shard) => shard.delete(1)],
-    ['exchange', (shard) => shard.exchange()],
-    ['update', (shard) => shard.update()],
-    ['forget', (shard) => shard.forget(1)],
-  ])('whose space was disposed refuses %s', (_, change) => {
+  test.each(changes)('whose space was disposed refuses %s', (_, change) => {
     const shard = new Shard(zones, 0, events());
     shard.space.dispose();
     expect(() => change(shard)).toThrow('this BroadPhase was disposed');
