@@ -26,8 +26,7 @@ template <int D> struct Scene {
   u32 count;
   const u32* excluded;  // exclusion bits per slot; null if no slot has any
   const Changes* changes = nullptr;  // what may have changed since the last update; null: anything
-  bool ordered = false;  // earlier updates must not affect the order of pairs
-  bool filtered = false;  // exclusion bits or groups may have changed since the last update
+  bool filtered = false;  // since the last update, exclusion bits or groups of changed boxes may have changed
   const u32* groups = nullptr;  // per slot, null if no slot has one: pairs within a group are not reported
 
   const f32* box(u32 slot) const { return boxes + u64(slot) * 2 * D; }

@@ -331,7 +331,10 @@ template <int D> class CandidateList {
     bool were_grouped = grouped_;
     grouped_ = scene.groups != nullptr;
     if (grouped_ && !were_grouped) __builtin_memset(groups_.reserve(count_), 0, count_ * sizeof(u32));
-    for (u32 slot = 0; slot < until; slot++) {
+    bool listed = scene.listed();
+    for (u32 k = 0, all = listed ? scene.changes->count() : until; k < all; k++) {
+      u32 slot = listed ? scene.changes->list()[k] : k;
+      if (slot >= until) continue;
       bool one = ((grouped_ | were_grouped) ? groups_[slot] : 0) == scene.group_of(slot);
       if (one && (tags_[slot] & ~slot_mask) == scene.excluded_of(slot)) continue;
       tags_[slot] |= fresh;

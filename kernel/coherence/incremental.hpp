@@ -13,7 +13,6 @@
 // jump.
 #pragma once
 #include "coherence/candidate_list.hpp"
-#include "pairs/pair_order.hpp"
 
 template <int D> class Incremental {
   static constexpr Tuning<D> tuning = {};
@@ -22,7 +21,6 @@ template <int D> class Incremental {
   CandidateList<D> list_;
   Watch<D> watch_;
   Prospect<D> prospect_ = {};
-  PairOrder order_;
   u32 rested_ = 0;  // boxes at rest when a list last ended since more of them rest
   u32 age_ = 0;  // of the list, in updates
   bool ended_ = false;  // a new list is due
@@ -35,6 +33,7 @@ template <int D> class Incremental {
  public:
   static constexpr bool notes_doubts = true;
   static constexpr bool follows_changes = true;
+  static constexpr bool varies_order = true;
 
   constexpr explicit Incremental(StripSweep<D>& anew) : anew_(anew), list_(anew) {}
 #if !defined(__wasm__)
@@ -49,12 +48,6 @@ template <int D> class Incremental {
     stats.reason = f64(u32(kept                                                  ? Reason::kept
                            : pause_ > 0 || scene.count < Watch<D>::least_watched ? Reason::moving
                                                                                  : Reason::watching));
-    if (!scene.ordered) return;
-    order_.sort(pairs.list.data(), pairs.count, scene.count);
-    pairs.doubt_count = 0;  // the pairs have moved
-    if (pairs.watch) pairs.doubt(pairs.list.data(), pairs.list.data() + pairs.count);
-    pairs.stable = 0;
-    pairs.same = false;
   }
 
   SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) {
@@ -66,7 +59,6 @@ template <int D> class Incremental {
     forget();
     watch_.release();
     list_.release();
-    order_.release();
     prospect_.fresh = 0;
     pause_ = 0;
     pauses_ = tuning.watched;

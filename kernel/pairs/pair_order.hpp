@@ -1,15 +1,15 @@
 // Sorts pairs by their slots, for techniques that retain something between updates.
 // Idea: what they retain depends on earlier updates, and so would the order of what they find. Sorted, it depends on
-// the boxes alone, and a restored space continues like the uninterrupted one. They keep their pairs sorted too, so that
+// the boxes alone, and a restored space continues like the uninterrupted one. Some keep their pairs sorted too, so that
 // only new ones are sorted, and merged with the old.
-// Cost: a few pairs are inserted; more are radix-sorted, at about 2 ns per pair and digit, of which there are two or
-// four; as much memory as the sorted pairs.
+// Cost: a few pairs are inserted; more are radix-sorted, at about 4 ns per pair and digit, of which there are two unless
+// there are far more boxes than pairs; as much memory as the sorted pairs, and two to four counters for each.
 #pragma once
 #include "pairs/pairs.hpp"
 
 class PairOrder {
   static constexpr u32 few = 24;  // up to this many pairs are sorted by insertion
-  static constexpr u32 shortest = 8, longest = 14;  // bits of a digit: few pairs are not worth many counters
+  static constexpr u32 shortest = 8, longest = 24;  // bits of a digit: few pairs are not worth many counters
   static constexpr u32 most_passes = 2 * ((24 + shortest - 1) / shortest);
   Buffer<u64> spare_;
   Buffer<u32> counts_;
@@ -22,7 +22,7 @@ class PairOrder {
   SMALL void sort(u64* list, u64 count, u32 slots) {
     if (count <= few) return insert(list, u32(count));
     u32 bits = 32 - u32(__builtin_clz(slots - 1)), digit = shortest;
-    while (digit < longest && count >> (digit + 1)) digit++;
+    while (digit < longest && count >> (digit - 1)) digit++;
     u32 per_slot = (bits + digit - 1) / digit;
     digit = (bits + per_slot - 1) / per_slot;
     u32 values = 1u << digit, passes = 2 * per_slot, shifts[most_passes];

@@ -1,67 +1,40 @@
-// Which boxes may meet: layers, masks and exclusion bits, turned into as little search as possible.
-// Idea: boxes with the same layer, mask and bits are one class, and games have a handful of classes. Which classes
-// ignore each other is computed once after a change, and saves search in three ways. Boxes that can meet nobody are not
-// searched at all; boxes that are off are one such class. A set of classes that ignore themselves and each other shares
-// an exclusion bit, which every technique tests along with the boxes. Other forbidden pairs, say of two classes that
-// meet themselves but not each other, are removed from the pairs found.
-// Cost: nothing while no box has a filter; O(boxes + classes squared) in the update after a change; a copy of the
-// boxes that are searched where some are not.
+// Which boxes may meet: each has a layer and a mask.
+// Idea: boxes that can meet nobody are not searched at all; boxes that are off are among them. What else the rules
+// forbid is left to exclusion bits in the search, or removed from the pairs found: see classes.hpp. A searched box has a
+// place in the scene. While a technique keeps something between updates, a box whose rule changes keeps its place, one
+// that is no longer searched gives it to the last one, and one that is searched again comes last. So a change costs
+// that technique no more than a box that is added or removed.
+// Cost: nothing while no box has a filter; a few ns per box whose rule has changed; O(boxes + classes squared) if it is of
+// a new class, or if many have changed.
 #pragma once
+#include "boxes/changes.hpp"
 #include "boxes/ids.hpp"
 #include "pairs/pairs.hpp"
-
-/// The rule of a box: which other boxes it meets. Two boxes meet where each one's layer is in the other's mask and they
-/// share no exclusion bit.
-struct Rule {
-  u32 layer, mask, excluded;
-
-  /// A mark beside the exclusion bits: the box is off, and in no pair and no answer.
-  static constexpr u32 off = 2;
-  bool is_off() const { return excluded & off; }
-  /// Whether it may meet boxes of another space.
-  bool meets_some() const { return !is_off() && layer != 0 && mask != 0; }
-};
-
-inline bool meet(const Rule& a, const Rule& b) {
-  return (a.layer & b.mask) && (b.layer & a.mask) && !(a.excluded & b.excluded);
-}
+#include "rules/classes.hpp"
 
 class Filters {
-  static constexpr Rule everybody{0xffffffff, 0xffffffff, 0}, nobody{0, 0, 0};
-  static constexpr u32 most_classes = 64, table_size = 4 * most_classes;
-  static constexpr u32 rest = most_classes;  // stands for all classes beyond that number: they may meet any box
-  static constexpr u32 spare_bits = 0x0f000000;  // bits of the tag: those that no box has set are used for classes
-
-  struct Class {
-    Rule rule;
-    u64 meets;  // bit d: it meets class d
-    u32 count;  // its boxes
-    u32 bits;  // its exclusion bits in the search
-    bool lonely;
-  };
+  static constexpr Rule everybody{0xffffffff, 0xffffffff, 0};
+  static constexpr u32 followed = 8;  // one of so many boxes may change before all are classified again
 
   bool active_ = false;  // some box has a rule of its own
-  bool changed_ = false;  // since the classes were computed
-  bool check_ = false;  // the search may find forbidden pairs
-  bool some_ = false;  // not all boxes are searched
-  u32 searched_ = 0;  // how many are, while `some_`
+  bool some_ = false;  // some boxes are not searched, or were not
+  bool mixed_ = false;  // places are not in the order of slots
+  u32 count_ = 0, searched_ = 0;  // boxes in the last update; those that are searched
   Buffer<Rule> rules_;  // per slot
   Buffer<Rule> staged_;  // what `replace` puts in place of them
-  Buffer<u32> excluded_;  // per slot, or per searched box: the exclusion bits for the search
-  Buffer<u32> slots_;  // per searched box
-  Buffer<f32> boxes_;  // per searched box
-  Buffer<u8> class_of_;  // per slot
-
-  // Used only while classes are computed, so all spaces share it.
-  inline static Class classes_[most_classes + 1];
-  inline static u8 table_[table_size];  // by hash: number of the class + 1
-  inline static u32 class_count_;
+  Changes changed_;  // slots whose rules changed since the last update
+  Classes classes_;
+  Buffer<u8> class_of_;  // per slot, while classes are built
+  Buffer<u32> places_;  // per slot, while `some_`
+  Buffer<u32> slots_;  // per place, while `some_`
+  Buffer<u32> excluded_;  // per place: the exclusion bits for the search
+  Changes moved_;  // places that got another box or other bits in the last update
 
  public:
+  static constexpr u32 nowhere = 0xffffffff;  // the place of a slot that is not searched
+
   bool active() const { return active_; }
-  bool changed() const { return active_ && changed_; }
-  /// Whether all boxes are searched, as in the last update.
-  bool search_all() const { return !active_ || !(changed_ || some_); }
+  bool changed() const { return active_ && !changed_.none(); }
   /// Per slot, while active.
   const Rule* rules() const { return rules_.data(); }
 
@@ -70,26 +43,35 @@ class Filters {
   /// Gives each box a rule of its own, with room for `capacity` of them.
   SMALL void start(u32 count, u64 capacity) {
     rules_.reserve(capacity);
+    changed_.make_room(capacity);
     for (u32 s = 0; s < count; s++) rules_[s] = everybody;
-    active_ = changed_ = true;
+    forget();
+    active_ = true;
   }
+
+  /// Everything may have changed.
+  SMALL void forget() { changed_.note_all(); }
 
   /// Room for the rules that `replace` will put in place of all.
   SMALL Rule* stage(u32 count) { return staged_.reserve(larger(count, 1u)); }
   SMALL void replace() {
     rules_.swap(staged_);
-    active_ = changed_ = true;
+    forget();
+    active_ = true;
   }
 
   /// The rule of a slot, for changing it.
   SMALL Rule& change(u32 slot) {
-    changed_ = true;
+    changed_.note(slot);
     return rules_[slot];
   }
 
   // What happens to slots, as in Store; only while active.
-  SMALL void make_room(u64 count, u32 keep) { rules_.grow(count, keep); }
-  u64 room() const { return rules_.capacity(); }
+  SMALL void make_room(u64 count, u32 keep) {
+    rules_.grow(count, keep);
+    changed_.make_room(count);
+  }
+  u64 room() const { return smaller(rules_.capacity(), u64(changed_.room())); }
   SMALL void insert(u32 slot) { change(slot) = everybody; }
   SMALL void move(u32 from, u32 to) { change(to) = rules_[from]; }
   /// After `stage(count)`.
@@ -98,152 +80,144 @@ class Filters {
       u32 slot = ids.slot(id);
       staged_[id] = slot == Ids::none ? everybody : rules_[slot];
     }
-    rules_.swap(staged_);
+    replace();
     staged_.release();
-    changed_ = true;
   }
 
-  /// The exclusion bits of the boxes that select() leaves.
+  /// Follows the changes of rules. `in_order`: places have to be in the order of slots.
+  SMALL void update(u32 count, bool in_order) {
+    bool none = changed_.none();
+    bool anew = changed_.count() > count / followed || (!none && in_order);
+    bool untidy = mixed_ && (in_order || (none && searched_ == count));
+    moved_.clear(larger(count, count_));
+    if (changed_.all() || anew || untidy || (!none && !follow(count))) classify(count);
+    changed_.clear(count);
+    count_ = count;
+  }
+
+  /// Whether only some boxes are searched, or all in another order than that of their slots.
+  bool some() const { return active_ && some_; }
+  /// The number of boxes that are searched.
+  u32 searched() const { return searched_; }
+  /// Places that got another box or other exclusion bits in the last update.
+  const Changes& moved() const { return moved_; }
+  /// The exclusion bits, per place.
   const u32* excluded() const { return excluded_.data(); }
+  /// The slots of all places while `some`, and the slot of a place.
+  const u32* slots() const { return slots_.data(); }
+  u32 slot(u32 place) const { return some() ? slots_[place] : place; }
+  /// The place of a slot while `some`; `nowhere` if it is not searched.
+  u32 place(u32 slot) const { return places_[slot]; }
 
-  /// The boxes that have to be searched, of `count` boxes of `width` numbers each.
-  SMALL const f32* select(const f32* boxes, u32& count, u32 width) {
-    if (changed_) classify(count);
-    changed_ = false;
-    if (!some_) return boxes;
-    count = searched_;
-    f32* to = boxes_.reserve(u64(searched_) * width + 4);
-    for (u32 k = 0; k < searched_; k++) {
-      for (u32 n = 0; n < width; n++) to[u64(k) * width + n] = boxes[u64(slots_[k]) * width + n];
-    }
-    return to;
-  }
-
-  /// Picks, from an array with an entry per slot, those of the boxes that are searched.
-  SMALL const u32* select(const u32* of_slots, u32 count, Buffer<u32>& to) const {
-    if (!active_ || !some_) return of_slots;
-    to.reserve(larger(count, 1u));
-    for (u32 k = 0; k < count; k++) to[k] = of_slots[slots_[k]];
-    return to.data();
-  }
-
-  /// The slot of the k-th box that is searched.
-  u32 slot(u32 k) const { return active_ && some_ ? slots_[k] : k; }
-
-  /// After the search: turns places in the scene back into slots, and removes forbidden pairs.
-  SMALL void finish(Pairs& pairs) const {
-    if (!some_ && !check_) return;
+  /// After the search: turns places back into slots, and removes forbidden pairs.
+  NOINLINE void finish(Pairs& pairs) const {
+    const bool check = classes_.check(), some = some_;
+    if (!some && !check) return;
+    const Rule* rules = rules_.data();
+    const u32* slots = slots_.data();
     u64* list = pairs.list.data();
     u64 kept = 0;
     for (u64 p = 0; p < pairs.count; p++) {
       u32 a = u32(list[p]), b = u32(list[p] >> 32);
-      if (some_) {
-        a = slots_[a];
-        b = slots_[b];
+      if (some) {
+        a = slots[a];
+        b = slots[b];
       }
-      list[kept] = u64(a) | u64(b) << 32;
-      kept += !check_ || meet(rules_[a], rules_[b]);
+      list[kept] = pair_of(a, b);
+      kept += !check || meet(rules[a], rules[b]);
     }
     pairs.count = kept;
   }
 
  private:
   SMALL void classify(u32 count) {
-    find_classes(count);
-    share_bits();
+    u8* class_of = class_of_.reserve(larger(count, 1u));
+    classes_.build(rules_.data(), count, class_of);
     searched_ = 0;
-    for (u32 c = 0; c <= rest; c++) {
-      if (classes_[c].count && !classes_[c].lonely) searched_ += classes_[c].count;
-    }
+    for (u32 s = 0; s < count; s++) searched_ += !classes_[class_of[s]].lonely;
     some_ = searched_ < count;
-    excluded_.reserve(count);
-    if (some_) slots_.reserve(count);
-    u32 k = 0;
-    for (u32 s = 0; s < count; s++) {
-      const Class& its = classes_[class_of_[s]];
-      if (its.lonely) continue;
+    mixed_ = false;
+    excluded_.reserve(larger(count, 1u));
+    if (some_) number_all(count);
+    for (u32 s = 0, place = 0; s < count; s++) {
+      const Classes::Class& its = classes_[class_of[s]];
+      if (its.lonely) {
+        places_[s] = nowhere;
+        continue;
+      }
       // Boxes beyond the counted classes each use their own bits.
-      excluded_[k] = class_of_[s] == rest ? rules_[s].excluded : its.bits;
-      if (some_) slots_[k] = s;
-      k++;
+      excluded_[place] = class_of[s] == Classes::rest ? rules_[s].excluded : its.bits;
+      if (some_) {
+        slots_[place] = s;
+        places_[s] = place;
+      }
+      place++;
     }
+    moved_.note_all();
   }
 
-  static u32 home(const Rule& rule) {
-    return (rule.layer * 0x9e3779b1u ^ rule.mask * 0x85ebca6bu ^ rule.excluded) >> 24;
+  /// Follows each change. Returns false if one needs another class.
+  SMALL bool follow(u32 count) {
+    excluded_.grow(count, smaller(searched_, count));
+    if (!some_) searched_ = count;
+    else {
+      for (u32 s = count; s < count_; s++) drop(s);
+      slots_.grow(count, searched_);
+      places_.grow(count, smaller(count, count_));
+      for (u32 s = count_; s < count; s++) places_[s] = nowhere;
+    }
+    for (u32 k = 0; k < changed_.count(); k++) {
+      u32 s = changed_.list()[k];
+      if (s >= count) continue;
+      u32 its = classes_.find(rules_[s], false);
+      if (its == Classes::rest) return false;
+      if (!classes_[its].lonely) {
+        put(s, classes_[its].bits);
+        continue;
+      }
+      if (!some_) {
+        some_ = true;
+        number_all(count);
+      }
+      drop(s);
+    }
+    return true;
   }
 
-  SMALL void find_classes(u32 count) {
-    class_of_.reserve(count);
-    __builtin_memset(table_, 0, sizeof(table_));
-    // The first class is that of boxes that are off, so that there is always room for it.
-    classes_[0] = {nobody, 0, 0, 0, false};
-    class_count_ = table_[home(nobody)] = 1;
-    classes_[rest] = {everybody, 0, 0, 0, false};
-    for (u32 s = 0; s < count; s++) {
-      const Rule& rule = rules_[s].is_off() ? nobody : rules_[s];
-      u32 at = home(rule);
-      for (;; at = (at + 1) % table_size) {
-        u32 found = table_[at];
-        if (found == 0) {
-          if (class_count_ == most_classes) {
-            class_of_[s] = u8(rest);
-            break;
-          }
-          classes_[class_count_] = {rule, 0, 0, rule.excluded, false};
-          table_[at] = u8(++class_count_);
-          found = class_count_;
-        }
-        const Rule& known = classes_[found - 1].rule;
-        if (known.layer == rule.layer && known.mask == rule.mask && known.excluded == rule.excluded) {
-          class_of_[s] = u8(found - 1);
-          break;
-        }
-      }
-      classes_[class_of_[s]].count++;
-    }
-    for (u32 c = class_count_; c < rest; c++) classes_[c].count = 0;
+  /// Gives each slot its own number as its place.
+  SMALL void number_all(u32 count) {
+    places_.reserve(count);
+    slots_.reserve(count);
+    for (u32 s = 0; s < count; s++) places_[s] = slots_[s] = s;
   }
 
-  /// Finds the classes that meet nobody, and gives exclusion bits to sets of classes that all ignore one another,
-  /// themselves included, beginning with the largest.
-  SMALL void share_bits() {
-    bool beyond = classes_[rest].count > 0;
-    u32 free = beyond ? 0 : spare_bits;  // which bits the boxes beyond have set is not known
-    check_ = beyond;
-    u64 lonely = 0, wanting = 0;  // sets of classes: bit c stands for class c
-    for (u32 c = 0; c < class_count_; c++) {
-      Class& mine = classes_[c];
-      mine.meets = 0;
-      for (u32 d = 0; d < class_count_; d++) mine.meets |= u64(meet(mine.rule, classes_[d].rule)) << d;
-      mine.lonely = !mine.meets && !(beyond && mine.rule.layer && mine.rule.mask);
-      lonely |= u64(mine.lonely) << c;
-      free &= ~mine.bits;
-    }
-    for (u32 c = 0; c < class_count_; c++) {
-      const Class& mine = classes_[c];
-      wanting |= u64(!mine.lonely && !mine.bits && !(mine.meets >> c & 1)) << c;
-    }
-    for (; free && wanting; free &= free - 1) {
-      u32 largest = rest;
-      for (u32 c = 0; c < class_count_; c++) {
-        if (wanting >> c & 1 && (largest == rest || classes_[c].count > classes_[largest].count)) largest = c;
-      }
-      u64 members = u64(1) << largest;
-      for (u32 c = 0; c < class_count_; c++) {
-        u64 with_me = members | u64(1) << c;
-        if (!(lonely >> c & 1) && !(classes_[c].meets & with_me)) members = with_me;
-      }
-      for (u32 c = 0; c < class_count_; c++) {
-        if (members >> c & 1) classes_[c].bits |= free & -free;
-      }
-      wanting &= ~members;
-    }
-    for (u32 c = 0; c < class_count_; c++) {
-      for (u32 d = 0; d <= c; d++) {
-        bool searched = !((lonely >> c | lonely >> d) & 1) && !(classes_[c].bits & classes_[d].bits);
-        check_ |= searched && !(classes_[c].meets >> d & 1);
+  /// Gives a slot that is searched these exclusion bits, and, if it has none, the last place.
+  void put(u32 slot, u32 bits) {
+    u32 place = slot;
+    if (some_) {
+      place = places_[slot];
+      if (place == nowhere) {
+        place = searched_++;
+        mixed_ |= place > 0 && slots_[place - 1] > slot;
+        slots_[place] = slot;
+        places_[slot] = place;
       }
     }
+    excluded_[place] = bits;
+    moved_.note(place);
+  }
+
+  /// Gives the place of a slot that is no longer searched to the last one.
+  void drop(u32 slot) {
+    u32 place = places_[slot];
+    if (place == nowhere) return;
+    places_[slot] = nowhere;
+    u32 last = --searched_;
+    if (place == last) return;
+    slots_[place] = slots_[last];
+    places_[slots_[place]] = place;
+    excluded_[place] = excluded_[last];
+    mixed_ = true;
+    moved_.note(place);
   }
 };

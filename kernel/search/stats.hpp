@@ -9,7 +9,6 @@ enum class Reason : u32 {
   kept,       // candidates are retained: boxes are at rest or move little
   watching,   // full rebuild: how boxes move is being observed
   moving,     // full rebuild: boxes move too far, or there are few
-  ordered,    // full rebuild: after a snapshot, earlier updates must not affect the order of pairs
 };
 
 struct Stats {

@@ -1,8 +1,6 @@
 // Which technique `auto` runs in an update, and why. The choices (their wording for users is that of Reason in
 // search/stats.hpp):
 //   - A handful of boxes: brute force, which costs less than measuring them first.
-//   - From the first snapshot on, strip sweep: it retains nothing, so that earlier updates do not affect the order of
-//     pairs.
 //   - Otherwise incremental, which uses its candidates while that costs less, and strip sweep while it does not.
 //     It decides by counting work, not time.
 #pragma once
@@ -20,11 +18,10 @@ static_assert(!is_built(Technique::automatic) || (is_built(Technique::brute_forc
                                                   is_built(Technique::strip_sweep) && is_built(Technique::incremental)),
               "auto stands for brute force, strip sweep and incremental: a build with it has all three");
 
-/// The technique to run for the one asked for. `ordered`: earlier updates must not affect the order of pairs.
-inline Technique auto_choice(Technique asked, u32 boxes, bool ordered) {
+/// The technique to run for the one asked for.
+inline Technique auto_choice(Technique asked, u32 boxes) {
   if (asked != Technique::automatic) return asked;
-  if (boxes <= handful) return Technique::brute_force;
-  return ordered ? Technique::strip_sweep : Technique::incremental;
+  return boxes <= handful ? Technique::brute_force : Technique::incremental;
 }
 
 /// Records which technique has answered, and why; `incremental` has recorded its own reason.
@@ -32,7 +29,6 @@ SMALL inline void say_choice(Technique asked, Technique ran, Stats& stats) {
   stats.technique = f64(u32(ran));
   if (asked != Technique::automatic) stats.reason = f64(u32(Reason::asked_for));
   else if (ran == Technique::brute_force) stats.reason = f64(u32(Reason::handful));
-  else if (ran == Technique::strip_sweep) stats.reason = f64(u32(Reason::ordered));
   else if (stats.reason != f64(u32(Reason::kept))) stats.technique = f64(u32(Technique::strip_sweep));
 }
 

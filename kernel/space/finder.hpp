@@ -15,6 +15,7 @@ template <int D> class Finder {
 
   Technique ran() const { return ran_; }
   bool follows_changes(Technique name) { return techniques_.follows_changes(name); }
+  bool varies_order(Technique name) { return techniques_.varies_order(name); }
   bool notes_doubts() { return techniques_.notes_doubts(ran_); }
 
   /// Lets a technique find the pairs of slots.

@@ -4,6 +4,7 @@
 // it, at the latest before an update.
 #pragma once
 #include "pairs/lookups.hpp"
+#include "pairs/pair_order.hpp"
 #include "space/auto.hpp"
 #include "space/finder.hpp"
 #include "space/questions.hpp"
@@ -22,6 +23,7 @@ template <int D> class Space {
   const Settings& options_;
   SceneBuilder<D> builder_;
   Lookups lookups_;
+  PairOrder order_;
   u32 seen_ = 0;  // boxes in the last update
   bool searching_ = false;  // in the middle of an update: there are no pairs until it ends
   bool restored_ = false;  // since the last update: its pairs are not in the list that a table is built for
@@ -122,6 +124,7 @@ template <int D> class Space {
     finder.release();
     store.changes().note_all();
     store.changed.note_all();
+    store.own.filters.forget();
     pairs.stable = 0;
     if (searching_) {
       pairs.list.release();
@@ -132,7 +135,8 @@ template <int D> class Space {
     stats.cells = stats.entries = 0;  // there are none to draw any more
     lookups_.forget();
     pairs.doubts.release();
-    builder_.wrap.release();
+    order_.release();
+    builder_.release();
     store.seen.index.forget();
     questions.release();
     stats.bytes = f64(heap::used);
@@ -163,7 +167,7 @@ template <int D> class Space {
   }
 
  private:
-  Technique choose() const { return auto_choice(technique, store.ids.count(), ordered_); }
+  Technique choose() const { return auto_choice(technique, store.ids.count()); }
   Events* kept_events() { return store.keeps_events ? &store.events : nullptr; }
 
   /// Records what was written in place, and tries a better map.
@@ -188,11 +192,11 @@ template <int D> class Space {
   /// Lets a technique find the pairs, and turns them into the ones to report; false if they are the same as before.
   SMALL bool find(Technique chosen) {
     searching_ = true;
-    Scene<D> scene = builder_.build(store, finder.follows_changes(chosen), ordered_);
+    Scene<D> scene = builder_.build(store, finder.follows_changes(chosen), !finder.varies_order(chosen));
     search(scene, chosen);
     // With doubles, bounds may have changed by less than float32 shows.
     bool same = pairs.same && !store.numbers.written.renamed && !builder_.doubles;
-    if (store.own.filters.active() || store.world() || !store.ids.same()) pairs.stable = 0;
+    if (store.own.filters.active() || store.world() || !store.ids.same() || ordered_) pairs.stable = 0;
     note_seen();
     if (stats.candidates == 0) stats.candidates = f64(pairs.count);
     stats.pairs = f64(pairs.count);
@@ -231,6 +235,7 @@ template <int D> class Space {
     else if (pairs.watch) settle_doubts(pairs, store, builder_.doubles, finder.notes_doubts(), options_.touching);
     if (own.filters.active()) own.filters.finish(pairs);
     if (own.groups.some()) part_groups(pairs, own.groups.data());
+    if (ordered_ && finder.varies_order(finder.ran())) order_.sort(pairs.list.data(), pairs.count, store.ids.count());
     if (!store.ids.same()) name_pairs(pairs, store.ids);
   }
 

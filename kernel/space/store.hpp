@@ -176,8 +176,9 @@ template <int D> class Store {
 
   /// Sets the layer and the mask of a box.
   SMALL void filter(u32 slot, u32 layer, u32 mask) {
+    Rule now = own.rule(slot);
+    if (now.layer == layer && now.mask == mask) return;
     before_change();
-    changes().note(slot);  // for the index
     Rule& rule = rule_of(slot);
     rule.layer = layer;
     rule.mask = mask;
@@ -185,22 +186,22 @@ template <int D> class Store {
 
   /// Sets or clears an exclusion bit of a box, or the mark that it is off.
   SMALL void exclude(u32 slot, u32 bit, bool on) {
-    if (!on && !own.filters.active()) return;
-    Rule& rule = rule_of(slot);
-    rule.excluded = on ? rule.excluded | bit : rule.excluded & ~bit;
+    u32 was = own.rule(slot).excluded, is = on ? was | bit : was & ~bit;
+    if (is != was) rule_of(slot).excluded = is;
   }
 
   /// Excludes a box from pairs and queries, or includes it again.
   SMALL void enable(u32 slot, bool on) {
     if (on != own.rule(slot).is_off()) return;
     before_change();
-    changes().note(slot);  // for the index
     exclude(slot, Rule::off, !on);
   }
 
   /// Puts a box into a group, or, with 0, into none.
   SMALL void put_in_group(u32 slot, u32 group) {
-    if (group != own.groups.of(slot)) own.groups.set(slot, group, numbers.capacity());
+    if (group == own.groups.of(slot)) return;
+    own.groups.set(slot, group, numbers.capacity());
+    changes().note(slot);
   }
 
   /// Sets how far a box reaches.
@@ -279,6 +280,7 @@ template <int D> class Store {
   /// The rule of a box, for changing it.
   SMALL Rule& rule_of(u32 slot) {
     if (!own.filters.active()) own.filters.start(ids.count(), numbers.capacity());
+    changes().note(slot);  // also for the index
     return own.filters.change(slot);
   }
 

@@ -106,6 +106,13 @@ template <int D> class Techniques {
     return follows;
   }
 
+  /// Whether earlier updates affect the order of its pairs.
+  bool varies_order(Technique name) {
+    bool varies = false;
+    with(name, [&]<class Kind>(Kind&) { varies = requires { Kind::varies_order; }; });
+    return varies;
+  }
+
   /// Whether the technique records which of its pairs are in doubt (see Pairs::watch). Otherwise all are.
   bool notes_doubts(Technique name) {
     bool notes = false;

@@ -48,8 +48,8 @@ export interface Upkeep {
    * A pair takes 8.
    *
    * From the first call of this or `restore` on, the order of the pairs depends on the contents of the space alone, so
-   * that a restored space gives them in the same order as the original. `auto` then retains nothing between updates,
-   * and `incremental` sorts its pairs.
+   * that a restored space gives them in the same order as the original. `auto` and `incremental` sort their pairs for
+   * that.
    *
    * @throws RangeError that names the first bad box written through `boxes()`; Error if that array was detached, as in
    * {@link BroadPhase.update}

@@ -1,0 +1,92 @@
+// What changes beside the boxes costs by its number: rules, groups and reaches of a few boxes, or a snapshot, in each
+// frame of a world that moves little. What is retained survives that, and the pairs are those of a full rebuild.
+import { BroadPhase } from 'broadphase';
+import { describe, expect, test } from 'vitest';
+import { createRandom } from '../../src/scenes/random.ts';
+
+const count = 3000;
+const some = 10;
+const [started, frames] = [40, 60];
+
+/** Changes a few boxes of a frame, other ones in each. `before`: those of the frame before. */
+type Change = (space: BroadPhase<2 | 3>, now: readonly number[], before: readonly number[]) => void;
+const changes: Record<string, Change> = {
+  'that are off': (space, now, before) => {
+    for (const id of before) space.setEnabled(id, true);
+    for (const id of now) space.setEnabled(id, false);
+  },
+  'that meet nobody': (space, now, before) => {
+    for (const id of before) space.setFilter(id, 1, 1);
+    for (const id of now) space.setFilter(id, 0, 0);
+  },
+  'of another layer': (space, now, before) => {
+    for (const id of before) space.setFilter(id, 1, 1);
+    for (const id of now) space.setFilter(id, 2, 2);
+  },
+  'that are static': (space, now, before) => {
+    for (const id of before) space.setStatic(id, false);
+    for (const id of now) space.setStatic(id);
+  },
+  'of a group': (space, now, before) => {
+    for (const id of before) space.setGroup(id, 0);
+    for (const id of now) space.setGroup(id, 1);
+  },
+  'that reach': (space, now, before) => {
+    for (const id of before) space.setReach(id, 0);
+    for (const id of now) space.setReach(id, 0.2);
+  },
+  'with a snapshot in each frame': (space) => {
+    space.snapshot();
+  },
+};
+
+const keysOf = (space: BroadPhase<2 | 3>) => {
+  const keys = Array.from({ length: space.pairCount }, (_, k) => space.pairs[2 * k]! * count + space.pairs[2 * k + 1]!);
+  return keys.sort((a, b) => a - b);
+};
+
+describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
+  const random = createRandom(5);
+  const side = 1.5 * count ** (1 / dimensions);
+  const start = Array.from({ length: count }, () => Array.from({ length: dimensions }, () => random() * side));
+
+  test.each(Object.keys(changes))('a few boxes %s leave the candidates as they are', (name) => {
+    const kept = new BroadPhase({ dimensions });
+    const rebuilt = new BroadPhase({ dimensions, technique: 'strip-sweep' });
+    const boxes = new Float32Array(2 * dimensions * count);
+    let before: number[] = [];
+    let retained = 0;
+    for (let frame = 0; frame < started + frames; frame++) {
+      boxes.set(
+        start.flatMap((place) => {
+          const lower = place.map((at) => at + 0.02 * random());
+          return [...lower, ...lower.map((at) => at + 1)];
+        }),
+      );
+      const now = Array.from({ length: some }, (_, k) => (frame * 7 + k * 271) % count);
+      for (const space of [kept, rebuilt]) {
+        space.setAll(boxes);
+        changes[name]!(space, now, before);
+        space.update();
+      }
+      before = now;
+      if (frame < started) continue;
+      retained += Number(kept.stats.reason.includes('are retained'));
+      if (frame % 10 === 0) expect(keysOf(kept), `frame ${frame}`).toEqual(keysOf(rebuilt));
+    }
+    expect(retained, `updates of ${frames} in which candidates are retained`).toBeGreaterThan(0.9 * frames);
+  });
+});
+
+test('another technique gets boxes that were off in the order of all', () => {
+  const space = new BroadPhase();
+  const boxes = Float32Array.from({ length: 4 * 100 }, (_, k) => (k >> 2) * 0.6 + (k % 4 < 2 ? 0 : 1));
+  space.setAll(boxes).update();
+  const ordered = Array.from(space.pairs);
+  space.setEnabled(3, false).setEnabled(50, false).update();
+  space.setEnabled(3, true).setEnabled(50, true).update();
+  space.set(0, -1, -1, 0, 0).update();
+  space.set(0, 0, 0, 1, 1).update();
+  space.technique = 'strip-sweep';
+  expect(Array.from(space.update().pairs)).toEqual(ordered);
+});
