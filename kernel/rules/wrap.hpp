@@ -3,11 +3,12 @@
 // ghost of it, of what reaches across, is put at the other side: up to 2^D - 1 ghosts a box. Techniques search boxes
 // and ghosts alike. A pair may be found several times, also by its ghosts. It is kept only when found by the first of
 // these, per axis: the two boxes; the first and the other's ghost; the first's ghost and the other.
+// Most boxes are at home: inside the world on all axes. Two of these meet as in any other world.
 // Exact: a box is its minimum modulo the world, which is exact, and its size as the sum of two doubles, which is too;
 // where rounding could matter, whether two of them touch is the sign of a sum of five doubles, found exactly.
 // One copy for 2D and 3D, since it is small code that counts here.
-// Cost: about 13 ns a box, for a copy of 17 (2D) or 25 (3D) bytes each; about 100 ns for each box that is given outside
-// the world or crosses its border, and for each pair of such boxes, or of ones that are not exact in float32.
+// Cost: about 2 ns a box, for a copy of 17 (2D) or 25 (3D) bytes each, and as much for each pair; about 100 ns for each
+// box that is not at home, and for each pair of one.
 #pragma once
 #include "base/rounding.hpp"
 #include "rules/filters.hpp"
@@ -89,63 +90,40 @@ struct Span {
 };
 
 class Wrap {
-  Buffer<f32> boxes_;  // rounded outward: the boxes, then the ghosts
+  Buffer<f32> boxes_;  // the boxes, then the ghosts: rounded to the nearest if at home, else outward
   Buffer<u32> excluded_;  // of both
   Buffer<u32> owners_;  // per ghost: its box in 24 bits, above them the axes along which it is shifted
-  Buffer<u8> plain_;  // per box, whether it is exact in float32, not moved and without ghosts
+  Buffer<u8> across_;  // per box: the axes along which it crosses the border; whether it is at home
   const Filters* filters_ = nullptr;  // maps the boxes searched to slots
   const f32* given_ = nullptr;
   const f64* doubles_ = nullptr;
   const f64* world_ = nullptr;
-  u32 dimensions_ = 0, count_ = 0;
+  u32 dimensions_ = 0, count_ = 0, ghosts_ = 0;
+  bool changed_ = false;  // some box may have lost a ghost
   bool touching_ = true;
 
  public:
   /// The boxes that are to be searched, and how many there are, with their ghosts. `given`: the boxes by slot, as
   /// float32 and, unless null, as doubles. Also puts the exclusion bits of the ghosts behind those of the boxes.
-  NOINLINE const f32* unfold(u32& count, const u32*& excluded, const Filters& filters, const f32* given,
-                             const f64* doubles, const f64* world, u32 dimensions) {
-    u32 width = 2 * dimensions;
+  /// `in_order`: ghosts have to be in the order of their boxes.
+  SMALL const f32* unfold(u32& count, const u32*& excluded, const Filters& filters, const f32* given,
+                          const f64* doubles, const f64* world, u32 dimensions, bool in_order) {
     dimensions_ = dimensions;
     filters_ = &filters;
     given_ = given;
     doubles_ = doubles;
     world_ = world;
+    u32 had = count_;
     count_ = count;
-    boxes_.grow(u64(count_) * width + 4, 0);
-    plain_.reserve(count_ + 1);
-    u32 ghosts = 0;
-    for (u32 k = 0; k < count_; k++) {
-      f32* box = boxes_.data() + u64(k) * width;
-      u32 across = 0;
-      bool plain = true;
-      for (u32 a = 0; a < dimensions; a++) {
-        f64 lo = number(k, a), hi = number(k, dimensions + a);
-        f32 low = doubles_ ? round_down(lo) : f32(lo), high = doubles_ ? round_up(hi) : f32(hi);
-        if (!(lo >= 0 && hi < world[a])) across |= u32(place(Span::of(lo, hi, world[a]), world[a], low, high)) << a;
-        plain &= f64(low) == lo && f64(high) == hi;
-        box[a] = low;
-        box[dimensions + a] = high;
-      }
-      plain &= across == 0;
-      plain_[k] = plain;
-      // One ghost for each subset of the axes along which it crosses the border.
-      for (u32 some = across; some; some = (some - 1) & across) {
-        u32 next = count_ + ghosts;
-        if (next >= max_slots) fail(Fault::out_of_memory, f64(next) * width * sizeof(f32));
-        boxes_.grow((u64(next) + 1) * width + 4, u64(next) * width);
-        owners_.grow(u64(ghosts) + 1, ghosts);
-        const f32* of = boxes_.data() + u64(k) * width;
-        f32* ghost = boxes_.data() + u64(next) * width;
-        for (u32 a = 0; a < dimensions; a++) {
-          bool moved = some >> a & 1;
-          ghost[a] = moved ? 0 : of[a];
-          ghost[dimensions + a] = moved ? beyond(span(k, a), world[a]) : of[dimensions + a];
-        }
-        owners_[ghosts++] = k | some << 24;
-      }
-    }
-    count = count_ + ghosts;
+    across_.grow(u64(count) + 1, smaller(had, count));
+    if (in_order) had = ghosts_ = 0;
+    if (count > had) __builtin_memset(across_.data() + had, 0, count - had);
+    boxes_.grow(u64(count) * 2 * dimensions + 4, 0);
+    changed_ = had != count;
+    place_all();
+    if (changed_) keep_ghosts();
+    write_ghosts();
+    count += ghosts_;
     if (excluded) {
       u32* bits = excluded_.reserve(count);
       for (u32 k = 0; k < count; k++) bits[k] = excluded[k < count_ ? k : owners_[k - count_] & slot_mask];
@@ -155,23 +133,32 @@ class Wrap {
   }
 
   /// Ghosts to boxes; keeps each overlapping pair once, and those that only touch if that counts.
-  SMALL void fold(Pairs& pairs, bool touching) {
+  NOINLINE void fold(Pairs& pairs, bool touching) {
     touching_ = touching;
+    const bool exact = touching && !doubles_;
+    const u32 width = 2 * dimensions_, all = (1u << dimensions_) - 1;
+    const u8* across = across_.data();
+    const f32* boxes = boxes_.data();
+    u8x16 maxima;  // of the last four numbers of a box
+    for (u32 n = 0; n < 16; n++) maxima[n] = u8(dimensions_ == 2 ? 8 + n % 8 : smaller(4 + n, 15u));
     u64* list = pairs.list.data();
     u64 kept = 0;
     for (u64 p = 0; p < pairs.count; p++) {
-      u32 a = u32(list[p]), b = u32(list[p] >> 32), ghost_a = 0, ghost_b = 0;
-      if (a >= count_) {
-        ghost_a = owners_[a - count_] >> 24;
-        a = owners_[a - count_] & slot_mask;
+      u32 a = u32(list[p]), b = u32(list[p] >> 32);
+      bool keep;
+      if (b < count_ && (across[a] & across[b] & at_home)) {
+        keep = exact;
+        if (!keep) {
+          const f32 *one = boxes + u64(a) * width, *other = boxes + u64(b) * width;
+          f32x4 ends = bits<f32x4>(swizzle(load<u8x16>(one + width - 4), maxima)),
+                its = bits<f32x4>(swizzle(load<u8x16>(other + width - 4), maxima));
+          u32 apart = bitmask((load<f32x4>(one) >= its) | (load<f32x4>(other) >= ends)) & all;
+          keep = !apart || overlap(a, b);
+        }
+      } else {
+        u32 ghost_a = take_owner(a), ghost_b = take_owner(b);
+        keep = a != b && is_first(a, ghost_a, b, ghost_b);
       }
-      if (b >= count_) {
-        ghost_b = owners_[b - count_] >> 24;
-        b = owners_[b - count_] & slot_mask;
-      }
-      if (a == b) continue;
-      bool keep = plain_[a] & plain_[b] & touching;
-      if (!keep) keep = is_first(a, ghost_a, b, ghost_b);
       list[kept] = pair_of(a, b);
       kept += keep;
     }
@@ -182,13 +169,98 @@ class Wrap {
     boxes_.release();
     excluded_.release();
     owners_.release();
-    plain_.release();
+    across_.release();
+    count_ = ghosts_ = 0;
   }
 
  private:
+  static constexpr u32 at_home = 8;  // beside the bits of up to three axes
+
+  /// Copies the boxes into the world, and notes which of them cross its border.
+  NOINLINE void place_all() {
+    const u32 width = 2 * dimensions_;
+    f32x4 below_first, below_last;
+    for (u32 n = 0; n < 4; n++) {
+      below_first[n] = round_down(world_[n % dimensions_]);
+      below_last[n] = round_down(world_[(width - 4 + n) % dimensions_]);
+    }
+    f32* box = boxes_.data();
+    for (u32 k = 0; k < count_; k++, box += width) {
+      const f32* its = given_ + u64(filters_->slot(k)) * width;
+      f32x4 first = load<f32x4>(its), last = load<f32x4>(its + width - 4);
+      store(box, first);
+      store(box + width - 4, last);
+      bool home = bitmask((first > f32x4{}) & (first < below_first) & (last > f32x4{}) & (last < below_last)) == 15;
+      u32 now = home ? at_home : place(k, box), was = across_[k];
+      if (now == was) continue;
+      across_[k] = u8(now);
+      for (u32 some = now & 7; some; some = (some - 1) & now & 7) {  // a ghost for each subset of the axes
+        if (some & ~was) owners_.grow(u64(ghosts_) + 1, ghosts_)[ghosts_++] = k | some << 24;
+      }
+      changed_ |= (was & ~now & 7) != 0;
+    }
+  }
+
+  /// Moves a box into the world; returns the axes along which it crosses the border.
+  SMALL u32 place(u32 k, f32* box) const {
+    u32 across = 0;
+    for (u32 a = 0; a < dimensions_; a++) {
+      f64 lo = number(k, a), hi = number(k, dimensions_ + a), world = world_[a];
+      f32 low = doubles_ ? round_down(lo) : f32(lo), high = doubles_ ? round_up(hi) : f32(hi);
+      if (!(lo >= 0 && hi < world)) across |= u32(place(Span::of(lo, hi, world), world, low, high)) << a;
+      box[a] = low;
+      box[dimensions_ + a] = high;
+    }
+    return across;
+  }
+
+  /// Removes the ghosts that boxes no longer have; the last one takes the place of each.
+  SMALL void keep_ghosts() {
+    for (u32 g = ghosts_; g-- > 0;) {
+      u32 owner = owners_[g] & slot_mask, axes = owners_[g] >> 24;
+      if (owner >= count_ || (axes & ~u32(across_[owner]))) owners_[g] = owners_[--ghosts_];
+    }
+  }
+
+  /// Puts the ghosts behind the boxes.
+  SMALL void write_ghosts() {
+    const u32 width = 2 * dimensions_;
+    u64 all = u64(count_) + ghosts_;
+    if (all > max_slots) fail(Fault::out_of_memory, f64(all) * width * sizeof(f32));
+    boxes_.grow(all * width + 4, u64(count_) * width);
+    for (u32 g = 0; g < ghosts_; g++) {
+      u32 k = owners_[g] & slot_mask, some = owners_[g] >> 24;
+      const f32* of = boxes_.data() + u64(k) * width;
+      f32* ghost = boxes_.data() + (u64(count_) + g) * width;
+      for (u32 a = 0; a < dimensions_; a++) {
+        bool moved = some >> a & 1;
+        ghost[a] = moved ? 0 : of[a];
+        ghost[dimensions_ + a] = moved ? beyond(span(k, a), world_[a]) : of[dimensions_ + a];
+      }
+    }
+  }
+
   f64 number(u32 k, u32 n) const {
     u64 at = u64(filters_->slot(k)) * 2 * dimensions_ + n;
     return doubles_ ? doubles_[at] : f64(given_[at]);
+  }
+
+  /// From a ghost to its box; returns the axes along which it is shifted.
+  u32 take_owner(u32& k) const {
+    if (k < count_) return 0;
+    u32 owner = owners_[k - count_];
+    k = owner & slot_mask;
+    return owner >> 24;
+  }
+
+  /// Whether two boxes at home overlap in the numbers given.
+  SMALL bool overlap(u32 a, u32 b) const {
+    bool overlap = true;
+    for (u32 n = 0; n < dimensions_; n++) {
+      f64 first = number(a, dimensions_ + n) - number(b, n), second = number(b, dimensions_ + n) - number(a, n);
+      overlap &= touching_ ? first >= 0 && second >= 0 : first > 0 && second > 0;
+    }
+    return overlap;
   }
 
   SMALL Span span(u32 k, u32 axis) const {

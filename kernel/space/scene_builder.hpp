@@ -48,7 +48,7 @@ template <int D> class SceneBuilder {
       if (picks) scene.count = filters.searched();
       scene.changes = nullptr;
       scene.filtered |= scene.excluded != nullptr;  // exclusion bits of ghosts may change too
-      scene.boxes = wrap.unfold(scene.count, scene.excluded, filters, boxes, doubles, store.world(), D);
+      scene.boxes = wrap.unfold(scene.count, scene.excluded, filters, boxes, doubles, store.world(), D, in_order);
     } else if (picks) {
       pick(scene, filters);
     }

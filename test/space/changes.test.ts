@@ -1,8 +1,9 @@
 // What changes beside the boxes costs by its number: rules, groups and reaches of a few boxes, or a snapshot, in each
-// frame of a world that moves little. What is retained survives that, and the pairs are those of a full rebuild.
+// frame of a world that moves little; or boxes that cross the border of a wrapped one. What is retained survives that, and the pairs are those of a full rebuild.
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
+import { setBox } from '../support/set-box.ts';
 
 const count = 3000;
 const some = 10;
@@ -70,6 +71,34 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
         space.update();
       }
       before = now;
+      if (frame < started) continue;
+      retained += Number(kept.stats.reason.includes('are retained'));
+      if (frame % 10 === 0) expect(keysOf(kept), `frame ${frame}`).toEqual(keysOf(rebuilt));
+    }
+    expect(retained, `updates of ${frames} in which candidates are retained`).toBeGreaterThan(0.9 * frames);
+  });
+});
+
+describe.each([2, 3] as const)('in a wrapped world of %d dimensions', (dimensions) => {
+  test.each(['float32', 'doubles'])('boxes that cross the border in %s leave the candidates as they are', (kind) => {
+    const random = createRandom(6);
+    const side = 1.5 * count ** (1 / dimensions);
+    const wrap = dimensions === 2 ? ([side, side] as const) : ([side, side, side] as const);
+    const kept = new BroadPhase({ dimensions, wrap });
+    const rebuilt = new BroadPhase({ dimensions, wrap, technique: 'strip-sweep' });
+    const places = Array.from({ length: count * dimensions }, () => random() * side);
+    const speeds = places.map(() => (random() - 0.5) * 0.04);
+    let retained = 0;
+    for (let frame = 0; frame < started + frames; frame++) {
+      for (let k = 0; k < places.length; k++) places[k]! += speeds[k]!;
+      for (const space of [kept, rebuilt]) {
+        for (let id = 0; id < count; id++) {
+          const lower = places.slice(id * dimensions, (id + 1) * dimensions);
+          const box = [...lower, ...lower.map((at) => at + 1)];
+          setBox(space, id, kind === 'float32' ? box.map(Math.fround) : box);
+        }
+        space.update();
+      }
       if (frame < started) continue;
       retained += Number(kept.stats.reason.includes('are retained'));
       if (frame % 10 === 0) expect(keysOf(kept), `frame ${frame}`).toEqual(keysOf(rebuilt));
