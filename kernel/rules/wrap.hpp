@@ -195,7 +195,9 @@ class Wrap {
       if (now == was) continue;
       across_[k] = u8(now);
       for (u32 some = now & 7; some; some = (some - 1) & now & 7) {  // a ghost for each subset of the axes
-        if (some & ~was) owners_.grow(u64(ghosts_) + 1, ghosts_)[ghosts_++] = k | some << 24;
+        if (!(some & ~was)) continue;
+        owners_.grow(u64(ghosts_) + 1, ghosts_);
+        owners_[ghosts_++] = k | some << 24;
       }
       changed_ |= (was & ~now & 7) != 0;
     }

@@ -8,16 +8,17 @@
 #include "search/quantized_sweep.hpp"
 
 template <int D> class SweepList {
-  // Cells hold one item on average; above this mean of the squared counts, a full sort is used instead.
-  static constexpr u64 uneven = 6;
+  // Cells hold one item on average. Above this mean of the squared counts, which is twice the tests per item within
+  // cells, the list is sorted. That takes as long as about 50 tests per item: docs/decisions/0006-one-inner-loop.md.
+  static constexpr u64 uneven = 64;
   // The share of tests that would hit is estimated from this many items, and this many blocks of four for each.
   static constexpr u32 sampled_items = 32, sampled_blocks = 8;
 
   Items<D> ordered_;
-  Lanes<D> lanes_;       // the same items, as the sweep reads them
-  Buffer<u32> cells_;    // per item, its cell
-  Buffer<u32> starts_;   // per cell, where its items begin; later, where they end
-  Buffer<u32> end_;      // per ordered item, the end of its candidates
+  Lanes<D> lanes_;  // the same items, as the sweep reads them
+  Buffer<u32> cells_;  // per item, its cell
+  Buffer<u32> starts_;  // per cell, where its items begin; later, where they end
+  Buffer<u32> end_;  // per ordered item, the end of its candidates
   RadixSort sort_;
   QuantizedSweep<D> quantized_sweep_;
   // Items that there is memory for. It grows by more than needed, since lists differ in length and using new memory for

@@ -151,6 +151,7 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
 
   test('snapshots hold it, in version 2', () => {
     const model = new Modelled({ dimensions, events: true }, seed, whole);
+    model.space.snapshot(); // from the first one on, the order of pairs depends on the boxes alone
     for (let call = 1; call <= 300; call++) {
       step(model);
       if (call % 10) continue;
