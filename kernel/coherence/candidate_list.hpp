@@ -71,8 +71,12 @@ template <int D> class CandidateList {
   /// The statistics of the sweep that made the list.
   const Stats& built() const { return built_; }
 
-  /// The work of this update for late boxes, and of any update without them. `looked`: boxes that it checks.
-  f64 late_work() const { return late_count_ * tuning.late_among(count_) + met_ + extra_.count * tuning.candidate; }
+  /// The work of this update for late boxes, and of any update without them. `looked`: boxes that it checks. If some are
+  /// late, extra candidates are gone through twice: those of boxes that were late before are dropped first.
+  f64 late_work() const {
+    u32 passes = late_count_ > 0 ? 2 : 1;
+    return late_count_ * tuning.late_among(count_) + met_ + passes * tuning.candidate * extra_.count;
+  }
   f64 least_work(f64 looked) const { return candidates_.count * tuning.candidate + looked; }
   /// The work of making the list.
   f64 made_work() const { return tuning.entry * built_.entries + built_.tests + built_.candidates + 2.0 * count_; }

@@ -109,6 +109,14 @@ class Filters {
   /// The place of a slot while `some`; `nowhere` if it is not searched.
   u32 place(u32 slot) const { return places_[slot]; }
 
+  /// Picks, from an array with an entry per slot, those of the boxes that are searched.
+  SMALL const u32* pick(const u32* of_slots, Buffer<u32>& to) const {
+    if (!some()) return of_slots;
+    to.reserve(larger(searched_, 1u));
+    for (u32 place = 0; place < searched_; place++) to[place] = of_slots[slots_[place]];
+    return to.data();
+  }
+
   /// After the search: turns places back into slots, and removes forbidden pairs.
   NOINLINE void finish(Pairs& pairs) const {
     const bool check = classes_.check(), some = some_;

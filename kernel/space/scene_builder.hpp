@@ -40,7 +40,7 @@ template <int D> class SceneBuilder {
     }
     bool picks = filters.some();
     if (groups.some() && !store.world()) {  // ghosts have no groups: then `part_groups` removes the pairs
-      scene.groups = picks ? pick_groups(groups.data(), filters) : groups.data();
+      scene.groups = filters.pick(groups.data(), groups_);
       scene.filtered |= groups.changed();
     }
     groups.updated();
@@ -98,14 +98,6 @@ template <int D> class SceneBuilder {
   }
 
   static void copy_box(const f32* box, f32* to) { store_box<D>(to, load<f32x4>(box), load<f32x4>(box + width - 4)); }
-
-  /// The groups of the boxes that are searched.
-  SMALL const u32* pick_groups(const u32* groups, const Filters& filters) {
-    u32 n = filters.searched();
-    u32* to = groups_.reserve(larger(n, 1u));
-    for (u32 place = 0; place < n; place++) to[place] = groups[filters.slot(place)];
-    return to;
-  }
 
   /// Enlarges the boxes by their reaches. If it is known which have changed, only these.
   SMALL const f32* grow(const Store<D>& store, const Changes& changes) {

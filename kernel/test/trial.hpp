@@ -115,7 +115,8 @@ template <int D> struct Trial {
   template <class Ask> bool asked(Ask ask) {
     // A large space that was never queried may have no copy of what the last update saw.
     if (!was_asked && ids.count() > 4000) update();
-    while (unsure) update();  // an update may run out of memory, but only once
+    // An update may run out of memory, but only once. A change that there was hardly memory for made no copy either.
+    while (unsure || space.store.seen.lost()) update();
     was_asked = true;
     bool done = made(ask);
     if (!done) {
