@@ -25,7 +25,7 @@ template <int D> class Incremental {
   u32 age_ = 0;  // of the list, in updates
   bool ended_ = false;  // a new list is due
   f64 made_ = 0;  // work per box: of making the list
-  f64 growth_ = 1;  // that was expected of the list
+  f64 growth_ = 1, planned_ = 0;  // that was expected of the list; its work per box and update
   f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // since then: for late boxes; the running mean of that; in all
   f64 foretold_ = 0, surplus_ = 0;  // the share of boxes expected to be late; by how much that was too high, at most
   u32 pause_ = 0, pauses_ = tuning.watched;
@@ -141,6 +141,7 @@ template <int D> class Incremental {
     if (margin > 0) plan = {margin, watch_.growth(margin, prospect_), 0, 0};
     list_.begin(scene, plan, watch_.common(), watch_.resting() > 0, Watch<D>::farthest * size());
     growth_ = plan.growth;
+    planned_ = plan.work;
     age_ = 0;
     ended_ = false;
     lateness_ = smooth_ = life_ = 0;
@@ -206,7 +207,8 @@ template <int D> class Incremental {
     f64 foretold = foretell(scene);
     if (is_divided() && foretold * tuning.late_among(n) > most_lateness()) return true;
     if (age_ < tuning.watched) return false;
-    if (watch_.is_new() && choose(scene).work < smooth_ + least) return true;
+    // What this list has cost beyond its plan, such as for boxes that come and go, another one will cost as well.
+    if (watch_.is_new() && choose(scene).work + larger(0.0, life_ / age_ - planned_) < smooth_ + least) return true;
     if (list_.tested() == 0) return false;
     // A new list will not test the pairs of boxes that have come to rest.
     f64 more = watch_.newly_resting([&](u32 slot) { return list_.rests_at(slot); });
