@@ -330,7 +330,7 @@ template <int D> class CandidateList {
   }
 
   /// Adds boxes whose exclusion bits or group have changed to the late boxes, marked as new ones.
-  SMALL void refilter(const Scene<D>& scene, u32 until, u32* list) {
+  NOINLINE void refilter(const Scene<D>& scene, u32 until, u32* list) {
     filtered_ = scene.excluded != nullptr;
     bool were_grouped = grouped_;
     grouped_ = scene.groups != nullptr;

@@ -164,7 +164,7 @@ class Filters {
     moved_.note_all();
   }
 
-  /// Follows each change. Returns false if one needs another class.
+  /// Follows each change. Returns false if one needs another class, and all boxes are in classes.
   SMALL bool follow(u32 count) {
     excluded_.grow(count, smaller(searched_, count));
     if (!some_) searched_ = count;
@@ -178,9 +178,10 @@ class Filters {
       u32 s = changed_.list()[k];
       if (s >= count) continue;
       u32 its = classes_.find(rules_[s], false);
-      if (its == Classes::rest) return false;
+      bool beyond = its == Classes::rest;
+      if (beyond && classes_[its].count == 0) return false;
       if (!classes_[its].lonely) {
-        put(s, classes_[its].bits);
+        put(s, beyond ? rules_[s].excluded : classes_[its].bits);
         continue;
       }
       if (!some_) {

@@ -24,6 +24,9 @@ const changes: Record<string, Change> = {
     for (const id of before) space.setFilter(id, 1, 1);
     for (const id of now) space.setFilter(id, 2, 2);
   },
+  'of filters of their own': (space, now) => {
+    for (const id of now) space.setFilter(id, 1 + (id % 1000), 0xffffffff);
+  },
   'that are static': (space, now, before) => {
     for (const id of before) space.setStatic(id, false);
     for (const id of now) space.setStatic(id);
