@@ -196,7 +196,7 @@ template <int D> class Space {
     search(scene, chosen);
     // With doubles, bounds may have changed by less than float32 shows.
     bool same = pairs.same && !store.numbers.written.renamed && !builder_.doubles;
-    if (store.own.filters.active() || store.world() || !store.ids.same() || ordered_) pairs.stable = 0;
+    if (store.own.filters.active() || store.world() || !store.ids.same()) pairs.stable = 0;
     note_seen();
     if (stats.candidates == 0) stats.candidates = f64(pairs.count);
     stats.pairs = f64(pairs.count);
@@ -207,6 +207,7 @@ template <int D> class Space {
 
   SMALL void search(const Scene<D>& scene, Technique chosen) {
     pairs.count = pairs.doubt_count = 0;
+    if (ordered_) pairs.stable = 0;  // they were sorted, or will be
     pairs.watch = (builder_.doubles || !options_.touching) && !store.world();
     stats = Stats{};
     Settings mapped = options_;

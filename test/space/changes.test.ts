@@ -110,6 +110,21 @@ describe.each([2, 3] as const)('in a wrapped world of %d dimensions', (dimension
   });
 });
 
+test('a world at rest has its pairs in the order of a restored one after the first snapshot', () => {
+  const random = createRandom(7);
+  const boxes = new Float32Array(4 * 500);
+  for (let at = 0; at < boxes.length; at += 4) {
+    const [x, y] = [random() * 30, random() * 30];
+    boxes.set([x, y, x + 1, y + 1], at);
+  }
+  const space = new BroadPhase();
+  for (let frame = 0; frame < 60; frame++) space.setAll(boxes).update();
+  expect([space.stats.reason, space.stats.tests]).toEqual([expect.stringContaining('are retained'), 0]);
+  const restored = new BroadPhase().restore(space.snapshot());
+  expect(Array.from(space.setAll(boxes).update().pairs)).toEqual(Array.from(restored.pairs));
+  expect(Array.from(space.setAll(boxes).update().pairs)).toEqual(Array.from(restored.pairs));
+});
+
 test('another technique gets boxes that were off in the order of all', () => {
   const space = new BroadPhase();
   const boxes = Float32Array.from({ length: 4 * 100 }, (_, k) => (k >> 2) * 0.6 + (k % 4 < 2 ? 0 : 1));
