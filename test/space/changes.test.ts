@@ -1,5 +1,6 @@
 // What changes beside the boxes costs by its number: rules, groups and reaches of a few boxes, or a snapshot, in each
-// frame of a world that moves little; or boxes that cross the border of a wrapped one. What is retained survives that, and the pairs are those of a full rebuild.
+// frame of a world that moves little; or boxes that cross the border of a wrapped one. What is retained survives that, and
+// the pairs are those of a full rebuild.
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
