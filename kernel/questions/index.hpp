@@ -121,7 +121,7 @@ template <int D> class Index {
   SMALL void see(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
                  const f64* world) {
     seen_.count = 0;
-    known_ = smaller(known_, ids.count());
+    know(ids.count());
     built_ = false;
     seen_.see(boxes, exact, ids, rules, reaches, world);
   }
@@ -138,7 +138,7 @@ template <int D> class Index {
       for (u32 s = had; s < n; s++) places_[s] = nowhere;
       known_ = n;
     }
-    known_ = smaller(known_, n);
+    know(n);
     seen_.count = n;
     for (u32 k = 0; k < many; k++) {
       u32 s = slots[k];
@@ -209,6 +209,13 @@ template <int D> class Index {
   }
 
  private:
+  /// There are n slots now: those from there on have no place any more.
+  void know(u32 n) {
+    if (n >= known_) return;
+    known_ = n;
+    holes_ = true;
+  }
+
   /// Writes the bounds of block k of the level below into its lane of its parent. Empty blocks have NaN bounds.
   void bound(u32 level, u32 k) {
     const Block& from = block(level - 1, k);

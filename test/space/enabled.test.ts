@@ -130,6 +130,19 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
     expect(all(fresh)).toEqual([3]);
   });
 
+  test('answers are right if as many boxes are off as are gone afterwards', () => {
+    // As many places in the index as boxes, but not of these boxes.
+    const space = new BroadPhase({ dimensions });
+    space.setAll(Array(20).fill(unit).flat());
+    for (const id of [2, 8, 12]) space.setEnabled(id, false);
+    space.update();
+    expect(all(space)).toHaveLength(17);
+    space.clear();
+    space.setAll(Array(17).fill(unit).flat());
+    space.update();
+    expect(all(space)).toEqual(Array.from({ length: 17 }, (_, id) => id));
+  });
+
   test('a box that is off can be set in all ways, and keeps the new numbers', () => {
     const space = new BroadPhase({ dimensions, events: true });
     setBox(space, 0, unit);

@@ -65,6 +65,12 @@ export class Modelled {
     this.#world = world;
     this.#ids = ids;
     this.#place = place;
+    if (!options.events) return;
+    // Room to note the end of any id, so that no call detaches an array of boxes().
+    const largest = 2 ** 24 - 1;
+    setBox(this.space, largest, Array(2 * this.space.dimensions).fill(0));
+    this.space.delete(largest);
+    this.space.clear();
   }
 
   integer(below: number): number {
