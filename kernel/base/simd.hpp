@@ -40,7 +40,7 @@ template <class T> inline void store(void* at, T value) { __builtin_memcpy(at, &
 inline f32x4 splat(f32 x) { return f32x4{x, x, x, x}; }
 inline f64x2 splat(f64 x) { return f64x2{x, x}; }
 inline u32x4 splat(u32 x) { return u32x4{x, x, x, x}; }
-inline i16x8 splat(i16 x) { return i16x8{x, x, x, x, x, x, x, x}; }
+inline u8x16 splat(u8 x) { return u8x16{x, x, x, x, x, x, x, x, x, x, x, x, x, x, x, x}; }
 
 template <class To, class From> inline To bits(From value) {
   static_assert(sizeof(To) == sizeof(From));
@@ -52,9 +52,14 @@ template <class To, class From> inline To bits(From value) {
 #if defined(__wasm_simd128__)
 /// One bit a lane: its sign.
 inline u32 bitmask(i32x4 v) { return wasm_i32x4_bitmask(bits<v128_t>(v)); }
-/// One bit a lane of two vectors of conditions.
-inline u32 bitmask(i16x8 a, i16x8 b) {
-  return wasm_i8x16_bitmask(wasm_i8x16_narrow_i16x8(bits<v128_t>(a), bits<v128_t>(b)));
+/// One bit a lane: whether it is 0.
+inline u32 zeros(u8x16 v) { return wasm_i8x16_bitmask(wasm_i8x16_eq(bits<v128_t>(v), v128_t{})); }
+/// By how much a is above b, and 0 where it is not.
+inline u8x16 excess(u8x16 a, u8x16 b) { return bits<u8x16>(wasm_u8x16_sub_sat(bits<v128_t>(a), bits<v128_t>(b))); }
+/// Sixteen numbers below 256 as bytes.
+inline u8x16 bytes(u32x4 a, u32x4 b, u32x4 c, u32x4 d) {
+  v128_t first = wasm_i16x8_narrow_i32x4(bits<v128_t>(a), bits<v128_t>(b));
+  return bits<u8x16>(wasm_u8x16_narrow_i16x8(first, wasm_i16x8_narrow_i32x4(bits<v128_t>(c), bits<v128_t>(d))));
 }
 /// Lane k says whether the condition holds in all lanes of the k-th vector.
 inline i32x4 all_lanes(i32x4 a, i32x4 b, i32x4 c, i32x4 d) {
@@ -85,8 +90,11 @@ inline u8x16 swizzle(u8x16 v, u8x16 index) {
 }
 #else
 inline u32 bitmask(i32x4 v) { return u32(_mm_movemask_ps(bits<__m128>(v))); }
-inline u32 bitmask(i16x8 a, i16x8 b) {
-  return u32(_mm_movemask_epi8(_mm_packs_epi16(bits<__m128i>(a), bits<__m128i>(b))));
+inline u32 zeros(u8x16 v) { return u32(_mm_movemask_epi8(_mm_cmpeq_epi8(bits<__m128i>(v), __m128i{}))); }
+inline u8x16 excess(u8x16 a, u8x16 b) { return bits<u8x16>(_mm_subs_epu8(bits<__m128i>(a), bits<__m128i>(b))); }
+inline u8x16 bytes(u32x4 a, u32x4 b, u32x4 c, u32x4 d) {
+  __m128i first = _mm_packs_epi32(bits<__m128i>(a), bits<__m128i>(b));
+  return bits<u8x16>(_mm_packus_epi16(first, _mm_packs_epi32(bits<__m128i>(c), bits<__m128i>(d))));
 }
 inline i32x4 all_lanes(i32x4 a, i32x4 b, i32x4 c, i32x4 d) {
   __m128i first = _mm_packs_epi32(bits<__m128i>(a), bits<__m128i>(b));

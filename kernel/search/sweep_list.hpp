@@ -87,11 +87,21 @@ template <int D> class SweepList {
   /// Appends the pairs of the items that were ordered last.
   void find(u32 count, Pairs& pairs) const { sweep<D>(lanes_, end_.data(), count, pairs); }
 
-  /// The same for items with many candidates, few of which overlap. `world`: a sample of the items.
-  SMALL void find_few(const SceneSample<D>& world, u32 count, Pairs& pairs)
+  /// The same for items with many candidates, few of which overlap. `world`: a sample of all items.
+  SMALL void find_few(SceneSample<D> world, u32 count, Pairs& pairs)
     requires(D == 3)
   {
-    quantized_sweep_.template find<false>(lanes_, world, 0, count, pairs, end_.data());
+    for (int a = 1; a < D; a++) {
+      const f32* from = lanes_.lo(a);
+      f32x4 least = splat(from[0]), most = least;
+      for (u32 k = 0; k < count; k += 4) {
+        least = min(load<f32x4>(from + k), least);  // past the last item: NaN, which is ignored
+        most = max(load<f32x4>(from + k), most);
+      }
+      world.low[a] = larger(world.low[a], f64(-largest(-least)));
+      world.high[a] = smaller(world.high[a], f64(largest(most)));
+    }
+    quantized_sweep_.template find<QuantizedSweep<D>::ends>(lanes_, world, 0, count, pairs, end_.data());
   }
 
   /// Estimates, from a sample, which share of the coming sweep's tests would hit.

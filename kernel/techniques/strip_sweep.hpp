@@ -28,11 +28,14 @@ template <int D> class StripSweep {
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
   static constexpr u32 deepest = 6;
   // A strip is cut again if it has this many candidates per item, this many in all, and fewer hits among them than the
-  // share `wasteful`. In 3D, sixteen are tested at a time if an item has more than `look_factor` candidates, and fewer
-  // than the share `rare` are hits. In 2D, strips can always be made narrow enough.
+  // share `wasteful`.
   static constexpr u64 again_factor = D == 2 ? 24 : 48, again_least = 8192;
-  static constexpr f64 wasteful = 0.25, rare = 0.06;
+  static constexpr f64 wasteful = 0.25;
   static constexpr u64 look_factor = D == 2 ? again_factor : 32;
+  // In 3D, sixteen are tested at a time if an item has more candidates than this, and fewer than the share `rare` are
+  // hits. In 2D, strips can always be made narrow enough.
+  static constexpr u64 sixteen_from = 8;
+  static constexpr f64 rare = 0.15;
   // No cut is made that would lead to more entries per box than this.
   static constexpr u64 most_copies = 8;
 
@@ -93,6 +96,7 @@ template <int D> class StripSweep {
   Strips strips_ = {};
   u32 boxes_ = 0;
   f64 most_ = 0;  // tests
+  u64 found_ = 0;  // pairs before this sweep
   Stats* stats_ = nullptr;
 
  public:
@@ -126,6 +130,7 @@ template <int D> class StripSweep {
   /// Finds the pairs in the strips that were filled. Gives up and returns false if that takes more than `most` tests.
   SMALL bool sweep(Pairs& pairs, f64 most) {
     most_ = most;
+    found_ = pairs.count;
     sweep(cut_, everywhere(), strips_, pairs);
     return stats_->tests <= most;
   }
@@ -407,14 +412,22 @@ template <int D> class StripSweep {
       Strips strips = {0, 0, depth};
       if (again && fill(items, count, cut, base, strips)) return sweep(cut, region, strips, pairs);
     }
+    bool few = D == 3 && tests > sixteen_from * count && are_few(hits, count, pairs);
     stats_->tests += f64(tests);
     if (stats_->tests > most_) return;
     stats_->cells++;
     note(region);
     if constexpr (D == 3) {
-      if (hits < rare) return swept_.find_few(part, count, pairs);
+      if (few) return swept_.find_few(cut_.world, count, pairs);
     }
     swept_.find(count, pairs);
+  }
+
+  /// Whether few tests of the strip that was just ordered will hit: of a sample if `hits` is its share, or if this is the
+  /// first strip; otherwise as in those before.
+  bool are_few(f64 hits, u32 count, const Pairs& pairs) const {
+    if (hits == 1 && stats_->tests > 0) return f64(pairs.count - found_) < rare * stats_->tests;
+    return (hits < 1 ? hits : swept_.hits(count)) < rare;
   }
 
   SMALL void note(const Region& region) {
