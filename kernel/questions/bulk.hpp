@@ -63,6 +63,9 @@ template <int D> class Bulk {
     if (moves(kind) && !index.world()) return cast_all(index, asked, kind, count, best);
     bool may = !index.world() && (kind == Asks::box || kind == Asks::point || kind == Asks::meeting), together = false;
     f64 limit = asked.limit;
+    // All these answers exist: if there is no memory for them, that is known now, not after minutes.
+    bool all = (kind == Asks::nearest || kind == Asks::others) && limit == __builtin_inf() && !index.filtered();
+    if (all) hits.reserve(u64(count) * smaller(most, index.count()));
     for (u32 k = 0, at = 0; k < count; k++) {
       u32 found = offsets_[k], n = k % Areas<D>::most;
       if (n == 0) together = may && found <= u64(k) * crowded;

@@ -200,6 +200,18 @@ test('a box that is off has no neighbours and is not one', () => {
   expect([...ids]).toEqual([2, 3, 2]);
 });
 
+test('more neighbours than memory holds are refused at once, and the space still answers', () => {
+  const space = new BroadPhase();
+  const side = 150;
+  space.setAll(
+    Float64Array.from({ length: 4 * side * side }, (_, k) => [k >> 2, (k >> 2) / side][k % 2]! + (k % 4 > 1 ? 1 : 0)),
+  );
+  space.update();
+  expect(() => space.nearestsOfAll(Number.POSITIVE_INFINITY)).toThrow(/^nearestsOfAll: out of memory: \d+ more bytes/);
+  const all = space.nearests([0, 0, 9, 9], Number.POSITIVE_INFINITY);
+  expect([...all.offsets]).toEqual([0, side * side, 2 * side * side]);
+});
+
 describe('what is refused', () => {
   const space = new BroadPhase();
   space.set(7, 0, 0, 10, 10).update();
