@@ -8,6 +8,10 @@ const lineHeight = 16;
 const keyStep = 80;
 const keyZoom = 1.25;
 
+/** Whether the page scrolls by this event, since the view was not clicked. */
+export const scrollsPage = (event: WheelEvent, view: HTMLElement): boolean =>
+  document.documentElement.scrollHeight > innerHeight && !event.ctrlKey && document.activeElement !== view;
+
 export function panZoom(view: HTMLElement, camera: Camera, changed: () => void): void {
   const fingers = new Map<number, { x: number; y: number }>();
 
@@ -27,8 +31,7 @@ export function panZoom(view: HTMLElement, camera: Camera, changed: () => void):
   view.addEventListener(
     'wheel',
     (event) => {
-      const pageScrolls = document.documentElement.scrollHeight > innerHeight;
-      if (pageScrolls && !event.ctrlKey && document.activeElement !== view) return;
+      if (scrollsPage(event, view)) return;
       event.preventDefault();
       const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? lineHeight : 1;
       const at = locate(event.clientX, event.clientY);

@@ -26,6 +26,7 @@ import {
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { slotCount } from '../../shared/groups.ts';
 import { makePalette } from '../../shared/palette.ts';
+import { scrollsPage } from '../../shared/pan-zoom.ts';
 import { type LabView, onSize } from './view.ts';
 
 const vertexShader = `
@@ -98,6 +99,12 @@ export function createSolidView(element: HTMLElement, moved: () => void): LabVie
   const scene = new Scene();
   const camera = new PerspectiveCamera(fieldOfView);
   const controls = new OrbitControls(camera, element);
+  // As in the plane: the page scrolls by a finger that moves up or down, and by a wheel over a view not clicked.
+  element.style.touchAction = 'pan-y';
+  const leaveToPage = (event: WheelEvent) => {
+    if (scrollsPage(event, element)) event.stopImmediatePropagation();
+  };
+  element.addEventListener('wheel', leaveToPage, { capture: true, passive: true });
   const uniforms = {
     palette: { value: new Float32Array(4 * slotCount) },
     farLow: { value: new Vector3() },
