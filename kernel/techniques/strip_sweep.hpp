@@ -31,11 +31,10 @@ template <int D> class StripSweep {
   // share `wasteful`.
   static constexpr u64 again_factor = D == 2 ? 24 : 48, again_least = 8192;
   static constexpr f64 wasteful = 0.25;
-  static constexpr u64 look_factor = D == 2 ? again_factor : 32;
   // In 3D, sixteen are tested at a time if an item has more candidates than this, and fewer than the share `rare` are
   // hits. In 2D, strips can always be made narrow enough.
-  static constexpr u64 sixteen_from = 8;
-  static constexpr f64 rare = 0.15;
+  static constexpr u64 sixteen_from = D == 2 ? again_factor : 8;
+  static constexpr f64 rare = 0.1;
   // No cut is made that would lead to more entries per box than this.
   static constexpr u64 most_copies = 8;
 
@@ -398,21 +397,20 @@ template <int D> class StripSweep {
 
   /// Sweeps the items of one strip, which were just ordered, or cuts the strip again if that saves work.
   void list(const ItemsAt<D>& items, u32 count, u64 tests, const Region& region, u32 base, u32 depth, Pairs& pairs) {
-    f64 hits = tests > look_factor * count && tests > again_least ? swept_.hits(count) : 1;
-    SceneSample<D> part;
-    if (hits < wasteful) {
-      part = measure<D>(items, count);
+    f64 hits = tests > sixteen_from * count && tests > again_least ? swept_.hits(count) : 1;
+    if (hits < wasteful && tests > again_factor * count && depth < deepest) {
+      SceneSample<D> part = measure<D>(items, count);
       for (int a = 1; a < D; a++) {
         part.low[a] = larger(part.low[a], region.low[a]);
         part.high[a] = smaller(part.high[a], region.high[a]);
         part.size[a] = smaller(part.size[a], larger(0.0, part.high[a] - part.low[a]));
       }
       Cut cut = choose(part, count);
-      bool again = depth < deepest && tests > again_factor * count && cut.lists() > 1;
       Strips strips = {0, 0, depth};
-      if (again && fill(items, count, cut, base, strips)) return sweep(cut, region, strips, pairs);
+      if (cut.lists() > 1 && fill(items, count, cut, base, strips)) return sweep(cut, region, strips, pairs);
     }
-    bool few = D == 3 && tests > sixteen_from * count && are_few(hits, count, pairs);
+    if (hits == 1 && stats_->tests > 0) hits = f64(pairs.count - found_) / stats_->tests;  // as in the strips before
+    bool few = D == 3 && tests > sixteen_from * count && hits < rare;
     stats_->tests += f64(tests);
     if (stats_->tests > most_) return;
     stats_->cells++;
@@ -421,13 +419,6 @@ template <int D> class StripSweep {
       if (few) return swept_.find_few(cut_.world, count, pairs);
     }
     swept_.find(count, pairs);
-  }
-
-  /// Whether few tests of the strip that was just ordered will hit: of a sample if `hits` is its share, or if this is the
-  /// first strip; otherwise as in those before.
-  bool are_few(f64 hits, u32 count, const Pairs& pairs) const {
-    if (hits == 1 && stats_->tests > 0) return f64(pairs.count - found_) < rare * stats_->tests;
-    return (hits < 1 ? hits : swept_.hits(count)) < rare;
   }
 
   SMALL void note(const Region& region) {
