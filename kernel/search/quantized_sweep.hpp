@@ -1,8 +1,8 @@
-// Tests of an item against many others, few of which overlap it.
-// Idea: the items' bounds are also stored as cells of a 254th of the world, in 8 bits. Items whose cells do not touch
+// Sweeps in which each item meets many that start before it ends, few of which overlap it.
+// Idea: on the axes that are not swept, the items' bounds are also stored as cells of a 254th of the world, in 8 bits. Items whose cells do not touch
 // cannot overlap, so sixteen are rejected at a time, with two subtractions per axis that are above 0 where they miss.
 // Items that may overlap are collected without a branch, and tested exactly in batches.
-// Cost: about 1.5 (2D) or 2.5 (3D) ns for sixteen tests; 4 (2D) or 6 (3D) bytes an item.
+// Cost: about 1.5 (2D) or 2.5 (3D) ns for sixteen tests; 2 (2D) or 4 (3D) bytes an item.
 #pragma once
 #include "boxes/cell_map.hpp"
 #include "boxes/scene_sample.hpp"
@@ -19,58 +19,54 @@ template <int D> class QuantizedSweep {
     u32 item, at, which;
   };
 
-  Buffer<u8> cells_;  // per axis: the minima of the items, then the maxima
+  Buffer<u8> cells_;  // per axis but the first: the minima of the items, then the maxima
   Buffer<Near> near_;
 
  public:
-  /// How the items that one is tested against are given: all after it; those before its `end`; or, if items are in
-  /// ascending order of their minima along axis 0, those that start before it ends.
-  enum Until { all, ends, sorted };
-
-  /// Tests each item of [first, last), which is the end of the list, against those after it, and appends the pairs.
-  /// Along axis 0 cells are only compared for `all`. For `sorted`, returns the number of tests.
-  template <Until until = sorted>
+  /// Tests each item of [first, last), which is the end of the list, against those after it and before its `end`, and
+  /// appends the pairs. If `sorted`, items are in ascending order of their minima along axis 0, and no `end` is needed:
+  /// an item is tested against those that start before it ends. Only then, returns the number of tests.
+  template <bool sorted = true>
   NOINLINE u64 find(const Lanes<D>& from, const SceneSample<D>& world, u32 first, u32 last, Pairs& pairs,
                     const u32* end = nullptr) {
-    constexpr int skipped = until == all ? 0 : 1, axes = D - skipped;
     u32 count = last - first, stride = count + 2 * block;
-    u8* row = cells_.reserve(u64(stride) * 2 * axes);
-    const u8* least[D];
-    const u8* most[D];
-    for (int a = 0; a < axes; a++) {
-      Axis axis = Axis::make(world.low[a + skipped], world.high[a + skipped], cells);
-      round(axis, from.lo(a + skipped) + first, row, count);
+    u8* row = cells_.reserve(u64(stride) * 2 * (D - 1));
+    const u8* least[D - 1];
+    const u8* most[D - 1];
+    for (int a = 1; a < D; a++) {
+      Axis axis = Axis::make(world.low[a], world.high[a], cells);
+      round(axis, from.lo(a) + first, row, count);
       store(row + count, splat(u8(cells)));  // past the last item: above all maxima
-      least[a] = row - first;
+      least[a - 1] = row - first;
       row += stride;
-      round(axis, from.hi(a + skipped) + first, row, count);
-      most[a] = row - first;
+      round(axis, from.hi(a) + first, row, count);
+      most[a - 1] = row - first;
       row += stride;
     }
 
     const LaneView<D> lanes = from.view();
-    Near* near = near_.reserve(enough + (last - first) / block + 2);
+    Near* near = near_.reserve(enough + count / block + 2);
     Near* out = near;
     u64 tests = 0;
     i32x4 counted = {};
     for (u32 i = first; i < last; i++) {
       f32 reach = lanes.hi[0][i];
-      u8x16 low[D], high[D];
-      for (int a = 0; a < axes; a++) {
+      u8x16 low[D - 1], high[D - 1];
+      for (int a = 0; a < D - 1; a++) {
         low[a] = splat(least[a][i]);
         high[a] = splat(most[a][i]);
       }
-      u32 j = i + 1, stop = until == all ? last : until == ends ? end[i] : 0;
+      u32 j = i + 1;
       do {
         u8x16 misses = {};
-        for (int a = 0; a < axes; a++)
+        for (int a = 0; a < D - 1; a++)
           misses |= excess(load<u8x16>(least[a] + j), high[a]) | excess(low[a], load<u8x16>(most[a] + j));
         u32 which = zeros(misses);
         *out = {i, j, which};
         out += which != 0;
         j += block;
-      } while (until == sorted ? lanes.lo[0][j - 1] <= reach : j < stop);
-      if constexpr (until == sorted) {
+      } while (sorted ? lanes.lo[0][j - 1] <= reach : j < end[i]);
+      if constexpr (sorted) {
         for (u32 k = j - block; k < j; k += 4) counted -= load<f32x4>(lanes.lo[0] + k) <= splat(reach);
         tests += j - block - i - 1;
       }

@@ -101,7 +101,7 @@ template <int D> class SweepList {
       world.low[a] = larger(world.low[a], f64(-largest(-least)));
       world.high[a] = smaller(world.high[a], f64(largest(most)));
     }
-    quantized_sweep_.template find<QuantizedSweep<D>::ends>(lanes_, world, 0, count, pairs, end_.data());
+    quantized_sweep_.template find<false>(lanes_, world, 0, count, pairs, end_.data());
   }
 
   /// Estimates, from a sample, which share of the coming sweep's tests would hit.
