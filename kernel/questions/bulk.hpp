@@ -64,7 +64,8 @@ template <int D> class Bulk {
     bool may = !index.world() && (kind == Asks::box || kind == Asks::point || kind == Asks::meeting), together = false;
     f64 limit = asked.limit;
     // All these answers exist: if there is no memory for them, that is known now, not after minutes.
-    bool all = (kind == Asks::nearest || kind == Asks::others) && limit == __builtin_inf() && !index.filtered();
+    bool all = (kind == Asks::nearest || kind == Asks::others) && limit == __builtin_inf() && !index.filtered() &&
+               asked.mask;
     if (all) hits.reserve(u64(count) * smaller(most, index.count()));
     for (u32 k = 0, at = 0; k < count; k++) {
       u32 found = offsets_[k], n = k % Areas<D>::most;

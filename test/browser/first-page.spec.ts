@@ -204,6 +204,20 @@ test('zooms by keys, wheel and buttons, and shows everything again', async ({ pa
   await showsAll().toBe(true);
 });
 
+test('a wheel scrolls past a solid scene, and zooms one that was clicked', async ({ page }) => {
+  await page.setViewportSize({ width: 390, height: 700 });
+  await openStill(page, '/lab/?scene=dense3d&boxes=400');
+  await page.locator('#solid').hover();
+  await page.mouse.wheel(0, 100);
+  await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(0);
+  await expect(page).not.toHaveURL(/view=/);
+  await page.locator('#solid').click();
+  const before = await page.evaluate(() => scrollY);
+  await page.mouse.wheel(0, 100);
+  await expect(page).toHaveURL(/view=/);
+  expect(await page.evaluate(() => scrollY)).toBe(before);
+});
+
 test('at no width is a link of the navigation alone below the name: all are beside it, or all start at its left', async ({
   page,
 }) => {
@@ -239,6 +253,23 @@ test('in a low window every control can be reached', async ({ page }) => {
   }
 });
 
+/** Drags a finger over a view in eight steps; returns by how much that scrolled the page, which is then undone. */
+async function dragFinger(page: Page, id: string, across: number, up: number): Promise<number> {
+  const touch = await page.context().newCDPSession(page);
+  const scrolled = () => page.evaluate(() => Math.round(scrollY));
+  const was = await scrolled();
+  const { x, y, height } = (await page.locator(`#${id}`).boundingBox())!;
+  for (let step = 0; step <= 8; step++) {
+    const touchPoints = [{ x: x + 150 + across * step, y: y + 0.8 * height - up * step }];
+    await touch.send('Input.dispatchTouchEvent', { type: step === 0 ? 'touchStart' : 'touchMove', touchPoints });
+  }
+  await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+  await page.waitForTimeout(300);
+  const by = (await scrolled()) - was;
+  await page.evaluate((to) => scrollTo(0, to), was);
+  return by;
+}
+
 test.describe('by touch', () => {
   test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
 
@@ -251,21 +282,10 @@ test.describe('by touch', () => {
     }) => {
       await openStill(page, address);
       const view = page.locator(`#${id}`);
-      const touch = await page.context().newCDPSession(page);
-      const scrolled = () => page.evaluate(() => Math.round(scrollY));
       /** Drags a finger upwards; returns by how much that scrolled the page, and whether the picture changed. */
       const drag = async () => {
-        const [before, was] = [await view.locator('canvas').first().screenshot(), await scrolled()];
-        const { x, y, height } = (await view.boundingBox())!;
-        for (let step = 0; step <= 8; step++) {
-          const points = [{ x: x + 150, y: y + 0.8 * height - 15 * step }];
-          const type = step === 0 ? 'touchStart' : 'touchMove';
-          await touch.send('Input.dispatchTouchEvent', { type, touchPoints: points });
-        }
-        await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
-        await page.waitForTimeout(300);
-        const by = (await scrolled()) - was;
-        await page.evaluate((to) => scrollTo(0, to), was);
+        const before = await view.locator('canvas').first().screenshot();
+        const by = await dragFinger(page, id, 0, 15);
         return { by, moved: !(await view.locator('canvas').first().screenshot()).equals(before) };
       };
       await view.scrollIntoViewIfNeeded();
@@ -285,6 +305,15 @@ test.describe('by touch', () => {
       expect(moved).toBe(false);
     });
   }
+
+  test('a finger that moves up scrolls past a solid scene, and one that moves aside turns it', async ({ page }) => {
+    await openStill(page, '/lab/?scene=dense3d&boxes=400');
+    expect(await dragFinger(page, 'solid', 0, 15)).toBeGreaterThan(60);
+    const seen = await page.locator('#solid').screenshot();
+    expect(await dragFinger(page, 'solid', -15, 0)).toBe(0);
+    expect((await page.locator('#solid').screenshot()).equals(seen)).toBe(false);
+    await expect(page).toHaveURL(/view=/);
+  });
 });
 
 for (const renderer of ['webgl2', 'canvas-2d']) {

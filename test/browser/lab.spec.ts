@@ -429,48 +429,6 @@ test('a solid scene is drawn, turned by keys, and its boxes can be clicked', asy
   await expect(page.locator('#chosen')).toContainText(/Box \d+/);
 });
 
-test.describe('a solid scene on a phone', () => {
-  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
-
-  test('a finger that moves up scrolls past it, and one that moves aside turns it', async ({ page }) => {
-    await openStill(page, 'scene=dense3d&boxes=400');
-    const view = page.locator('#solid');
-    const touch = await page.context().newCDPSession(page);
-    /** Drags a finger; returns by how much that scrolled the page. */
-    const drag = async (across: number, up: number) => {
-      const before = await page.evaluate(() => scrollY);
-      const { x, y, height } = (await view.boundingBox())!;
-      for (let step = 0; step <= 8; step++) {
-        const touchPoints = [{ x: x + 200 + across * step, y: y + 0.8 * height - up * step }];
-        await touch.send('Input.dispatchTouchEvent', { type: step ? 'touchMove' : 'touchStart', touchPoints });
-      }
-      await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
-      await page.waitForTimeout(300);
-      return (await page.evaluate(() => scrollY)) - before;
-    };
-    expect(await drag(0, 15)).toBeGreaterThan(60);
-    await page.evaluate(() => scrollTo(0, 0));
-    const seen = await view.screenshot();
-    expect(await drag(-15, 0)).toBe(0);
-    expect((await view.screenshot()).equals(seen)).toBe(false);
-    await expect(page).toHaveURL(/view=/);
-  });
-});
-
-test('a wheel scrolls past a solid scene, and zooms one that was clicked', async ({ page }) => {
-  await page.setViewportSize({ width: 390, height: 700 });
-  await openStill(page, 'scene=dense3d&boxes=400');
-  await page.locator('#solid').hover();
-  await page.mouse.wheel(0, 100);
-  await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(0);
-  await expect(page).not.toHaveURL(/view=/);
-  await page.locator('#solid').click();
-  const before = await page.evaluate(() => scrollY);
-  await page.mouse.wheel(0, 100);
-  await expect(page).toHaveURL(/view=/);
-  expect(await page.evaluate(() => scrollY)).toBe(before);
-});
-
 test('everything of a solid scene is in view, wide or tall', async ({ page }) => {
   await openStill(page, 'scene=gravity');
   for (const [width, height] of [

@@ -208,6 +208,7 @@ test('more neighbours than memory holds are refused at once, and the space still
   );
   space.update();
   expect(() => space.nearestsOfAll(Number.POSITIVE_INFINITY)).toThrow(/^nearestsOfAll: out of memory: \d+ more bytes/);
+  expect(space.nearestsOfAll(Number.POSITIVE_INFINITY, { mask: 0 }).ids).toHaveLength(0);
   const all = space.nearests([0, 0, 9, 9], Number.POSITIVE_INFINITY);
   expect([...all.offsets]).toEqual([0, side * side, 2 * side * side]);
 });
