@@ -82,17 +82,18 @@ template <int width = 1> SMALL f32 select(f32* points, i32 n, i32 k, int axis = 
   return v[k * width];
 }
 
-/// Stratified sampling: picks n of `count`, one at a pseudorandom place in each of n equal ranges.
+/// Stratified sampling: picks n of `count`, one at a pseudorandom place in each of n ranges of equal size, or one larger.
 class Sampling {
-  u32 stride_, at_ = 0, jitter_ = 0x9e3779b9;
+  u32 size_, larger_, at_ = 0, jitter_ = 0x9e3779b9;
 
  public:
-  Sampling(u32 count, u32 n) : stride_(count / n) {}
+  Sampling(u32 count, u32 n) : size_(count / n), larger_(count % n) {}
   u32 next() {
     jitter_ = jitter_ * 1664525 + 1013904223;
-    u32 from = at_;
-    at_ += stride_;
-    return from + u32((u64(jitter_) * stride_) >> 32);
+    u32 from = at_, size = size_ + (larger_ > 0);
+    larger_ -= larger_ > 0;
+    at_ += size;
+    return from + u32((u64(jitter_) * size) >> 32);
   }
 };
 

@@ -78,8 +78,8 @@ template <int D> class CandidateList {
     return late_count_ * tuning.late_among(count_) + met_ + passes * tuning.candidate * extra_.count;
   }
   f64 least_work(f64 looked) const { return candidates_.count * tuning.candidate + looked; }
-  /// The work of making the list.
-  f64 made_work() const { return tuning.entry * built_.entries + built_.tests + built_.candidates + 2.0 * count_; }
+  /// The work of making the list, while that is the last sweep.
+  f64 made_work() const { return anew_.work() + built_.candidates + 2.0 * count_; }
 
   /// Sets whether pairs in doubt are recorded. If that is new, settled pairs may be in doubt, so the list is dropped.
   void watch(bool watched) {
@@ -387,7 +387,10 @@ template <int D> class CandidateList {
       filter(candidates_, filter_listed);
       filter(settled_, filter_listed);
     }
-    if (were & rests) unsettle();
+    if (were & rests) {
+      met_ += settled_.count;  // each is gone through here, and copied by `report`
+      unsettle();
+    }
     filter(extra_, [&](u32 a, u32 b) { return b < count_ && !(places_.is_marked(a) | places_.is_marked(b)); });
     for (u32 k = 0; k < many && met_ <= enough; k++) enlarge(scene, list[k], larger(margin_, margin), list + many);
     for (u32 k = 0; k < many; k++) tags_[list[k]] &= ~fresh;

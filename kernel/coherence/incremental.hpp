@@ -114,8 +114,8 @@ template <int D> class Incremental {
     pairs.stable = 0;
     anew_.update(scene, options, pairs, stats);
     f64 n = larger(1u, scene.count);
-    prospect_.fresh = (tuning.entry * stats.entries + stats.tests) / n;
-    prospect_.tests = stats.tests / n;
+    prospect_.fresh = anew_.work() / n;
+    prospect_.tests = anew_.tested() / n;
     prospect_.pairs = pairs.count / n;
     if (scene.count >= Watch<D>::least_watched) learn_sizes(scene.count);
   }
@@ -161,10 +161,9 @@ template <int D> class Incremental {
     prospect_.rest = list_.resting() / n;
     // These two estimates may only go down. One that is too low is corrected by the rebuild after the list is given up.
     // One that is too high would keep the list alive, so it would never be corrected.
-    const Stats& built = list_.built();
-    prospect_.tests = smaller(prospect_.tests, built.tests / n / prospect_.more_tests(growth));
-    prospect_.fresh = smaller(prospect_.fresh, tuning.entry * built.entries / n + prospect_.tests);
-    f64 settled = built.candidates - list_.tested();
+    f64 entering = anew_.work() - anew_.tested(), settled = list_.built().candidates - list_.tested();
+    prospect_.tests = smaller(prospect_.tests, anew_.tested() / n / prospect_.more_tests(growth));
+    prospect_.fresh = smaller(prospect_.fresh, entering / n + prospect_.tests);
     prospect_.pairs = (settled + list_.tested() / growth) / n;
     return true;
   }
@@ -198,7 +197,7 @@ template <int D> class Incremental {
     f64 n = scene.count;
     f64 late = list_.late_work() / n;
     f64 looked = scene.listed() ? scene.changes->count() : scene.count;
-    smooth_ += tuning.smoothing * (late - smooth_);
+    smooth_ += (late - smooth_) * 2 / tuning.divided;
     lateness_ += late;
     f64 least = list_.least_work(looked) / n;
     life_ += late + least;

@@ -6,7 +6,6 @@
 /// Work is counted in tests of strip sweep: one box against another in its inner loop. Checking whether a box is in its
 /// region counts as one too.
 template <int D> struct Tuning {
-  f64 entry = D == 2 ? 16 : 20;  // tests: to enter a box into a strip, in order
   f64 candidate = D == 2 ? 2 : 3;  // tests: to test a candidate
   f64 planning = 3000;  // tests: to choose a margin
   f64 late = D == 2 ? 350 : 500;  // tests: to give a box that has left its region a new one
@@ -16,9 +15,8 @@ template <int D> struct Tuning {
   f64 spike = 2;  // of an update's mean work, making the list included: if late boxes take more in one, the list ends
   f64 ahead = 0.85;  // of a plan with a margin alone: one that reaches ahead must promise to cost less
   f64 build = 2;  // of a rebuild: a list that would cost more is not made
-  u32 divided = 5;  // updates: a list that has lived so long is followed by one that is made in two updates
+  u32 divided = 5;  // updates: a list of this age is followed by one made in two; late work is averaged over as many
   u32 watched = 8;  // updates, after which it is known whether a list pays; the first pause is as long
-  f64 smoothing = 0.4;  // weight of an update in the running mean of the work for late boxes
   f64 apart = 8;  // boxes count as no smaller than their spacing divided by this
 
   /// The work for a late box among n: at most three times `late`.

@@ -31,13 +31,13 @@ template <int D> class SweepList {
     if (count > room_) make_room(count);
   }
 
-  /// Orders the items; returns the number of tests that `find` will make.
-  u64 order(const ItemsAt<D>& items, u32 count) {
+  /// Orders the items; returns the number of tests that `find` will make. `world`: where most of them are, if known.
+  u64 order(const ItemsAt<D>& items, u32 count, const SceneSample<D>* world = nullptr) {
     if (count > room_) make_room(room_ ? count + count / 4 : count);
     u32* cells = cells_.data();
     u32* starts = starts_.data();
     __builtin_memset(starts, 0, (count + 1) * sizeof(u32));
-    Axis axis = axis_of(items, count);
+    Axis axis = world ? Axis::make(world->low[0], world->high[0], count) : axis_of(items, count);
     Axes axes(axis, axis, axis, axis);
     u32 whole = count & ~3u;
     for (u32 k = 0; k < whole; k += 4) {

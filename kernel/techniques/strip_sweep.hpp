@@ -35,6 +35,13 @@ template <int D> class StripSweep {
   // hits. In 2D, strips can always be made narrow enough.
   static constexpr u64 sixteen_from = D == 2 ? again_factor : 8;
   static constexpr f64 rare = 0.1;
+  // A world of up to `most_alone` boxes in 3D stays one column, and sixteen are tested at a time, if a box is expected to
+  // overlap fewer than `seldom` others, and nowhere more than `even` times as many as if all were spread evenly.
+  static constexpr u32 most_alone = 5000;
+  static constexpr f64 seldom = 0.4, even = 12;
+  // Work, in tests of four at a time: of a test of sixteen at a time; of entering a box into one of many columns, or into
+  // a strip or the only column.
+  static constexpr f64 light = 0.25, entered_column = 20, entered_strip = 16;
   // No cut is made that would lead to more entries per box than this.
   static constexpr u64 most_copies = 8;
 
@@ -94,7 +101,9 @@ template <int D> class StripSweep {
   Cut cut_ = {};  // the outermost one
   Strips strips_ = {};
   u32 boxes_ = 0;
-  f64 most_ = 0;  // tests
+  f64 alone_ = 0;  // the most tests with which the world stays one column; 0: it is cut
+  f64 tested_ = 0, most_ = 0;  // the work of tests
+  f64 entered_ = 0;
   u64 found_ = 0;  // pairs before this sweep
   Stats* stats_ = nullptr;
 
@@ -112,6 +121,7 @@ template <int D> class StripSweep {
     searched_ = searched;
     boxes_ = scene.count;
     strips_ = {};
+    alone_ = tested_ = 0;
     if (scene.count < 2) return;
     bool cuts = cut_up(scene);
     SceneItems<D> items{scene, order_};
@@ -126,13 +136,19 @@ template <int D> class StripSweep {
     if (searched) index_.reserve(cut_.rows(), strips_.end);
   }
 
-  /// Finds the pairs in the strips that were filled. Gives up and returns false if that takes more than `most` tests.
+  /// Finds the pairs in the strips that were filled. Gives up and returns false if tests take more than `most` work.
   SMALL bool sweep(Pairs& pairs, f64 most) {
     most_ = most;
     found_ = pairs.count;
+    bool columns = D == 3 && !stays_whole();
     sweep(cut_, everywhere(), strips_, pairs);
-    return stats_->tests <= most;
+    entered_ = (columns ? entered_column : entered_strip) * stats_->entries;
+    return tested_ <= most;
   }
+
+  /// The work of the last sweep, in tests of four at a time: all of it; that of tests alone.
+  f64 work() const { return entered_ + tested_; }
+  f64 tested() const { return tested_; }
 
   /// The number of boxes that were swept.
   u32 count() const { return boxes_; }
@@ -181,11 +197,8 @@ template <int D> class StripSweep {
   /// Strip widths that balance entries against candidates: a strip w boxes wide makes 1 / w more entries and
   /// tests w times the neighbours along the sweep axis.
   SMALL static Cut choose(const SceneSample<D>& world, u32 count) {
-    f64 relative[D];  // mean size as a share of the extent
-    for (int a = 0; a < D; a++) {
-      f64 extent = world.high[a] - world.low[a];
-      relative[a] = extent > 0 ? smaller(1.0, larger(world.size[a] / extent, 1e-3 / count)) : 1;
-    }
+    f64 relative[D];
+    for (int a = 0; a < D; a++) relative[a] = share(world, count, a);
     f64 neighbours = world.crowding * count * relative[0];  // along the sweep axis, without strips
     f64 width[D];  // as a share of the extent
     auto one_axis = [&](int axis) {
@@ -222,6 +235,22 @@ template <int D> class StripSweep {
     return cut;
   }
 
+  /// The mean size along an axis, as a share of the extent.
+  SMALL static f64 share(const SceneSample<D>& world, u32 count, int axis) {
+    f64 extent = world.high[axis] - world.low[axis];
+    return extent > 0 ? smaller(1.0, larger(world.size[axis] / extent, 1e-3 / count)) : 1;
+  }
+
+  /// The most tests with which the world stays one column, half as many again as are expected; 0 if it is cut.
+  SMALL static f64 tests_alone(const SceneSample<D>& world, u32 count) {
+    f64 met = world.crowding * count;  // by a box
+    for (int a = 0; a < D; a++) met *= share(world, count, a);
+    bool stays = count <= most_alone && met <= seldom && world.crowding <= even;
+    return stays ? 1.5 * count * count * share(world, count, 0) * cube_root(world.crowding) : 0;
+  }
+
+  bool stays_whole() const { return D == 3 && alone_ > 0; }
+
   SMALL static Region everywhere() {
     Region region;
     for (int a = 0; a < D; a++) {
@@ -239,11 +268,10 @@ template <int D> class StripSweep {
     int a = world.longest();
     order_ = AxisOrder<D>::make(a);
     bool sparse = scene.count * world.size[a] <= again_factor * (world.high[a] - world.low[a]);
-    if (sparse && scene.count < one_strip_below) {
-      cut_.world = world.in(order_);
-      return false;
-    }
-    cut_ = choose(world.in(order_), scene.count);
+    cut_.world = world.in(order_);
+    if (D == 3 && !searched_) alone_ = tests_alone(cut_.world, scene.count);
+    if (stays_whole() || (sparse && scene.count < one_strip_below)) return false;
+    cut_ = choose(cut_.world, scene.count);
     return cut_.lists() > 1;
   }
 
@@ -358,14 +386,14 @@ template <int D> class StripSweep {
   /// Sweeps the strips of a cut.
   SMALL void sweep(const Cut& cut, const Region& region, const Strips& strips, Pairs& pairs) {
     u32 across = cut.across(), depth = strips.depth, begin = strips.begin;
-    for (u32 l = 0; begin < strips.end && stats_->tests <= most_; l++) {
+    for (u32 l = 0; begin < strips.end && tested_ <= most_; l++) {
       u32 end = offsets_[depth][l];  // filling the strip has moved it from the beginning to the end
       if (end == begin) continue;
       Region part = region;
       narrow(part, 1, cut, l / across);
       if constexpr (D == 3) narrow(part, 2, cut, l % across);
       ItemsAt<D> items(entries_, begin);
-      u64 tests = swept_.order(items, end - begin);
+      u64 tests = swept_.order(items, end - begin, stays_whole() ? &cut_.world : nullptr);
       if (searched_ && &strips == &strips_) note_order(l, begin, end);
       list(items, end - begin, tests, part, strips.end, depth + 1, pairs);
       begin = end;
@@ -397,7 +425,9 @@ template <int D> class StripSweep {
 
   /// Sweeps the items of one strip, which were just ordered, or cuts the strip again if that saves work.
   void list(const ItemsAt<D>& items, u32 count, u64 tests, const Region& region, u32 base, u32 depth, Pairs& pairs) {
-    f64 hits = tests > sixteen_from * count && tests > again_least ? swept_.hits(count) : 1;
+    bool alone = D == 3 && tests <= alone_;
+    alone_ = 0;
+    f64 hits = !alone && tests > sixteen_from * count && tests > again_least ? swept_.hits(count) : 1;
     if (hits < wasteful && tests > again_factor * count && depth < deepest) {
       SceneSample<D> part = measure<D>(items, count);
       for (int a = 1; a < D; a++) {
@@ -410,9 +440,10 @@ template <int D> class StripSweep {
       if (cut.lists() > 1 && fill(items, count, cut, base, strips)) return sweep(cut, region, strips, pairs);
     }
     if (hits == 1 && stats_->tests > 0) hits = f64(pairs.count - found_) / stats_->tests;  // as in the strips before
-    bool few = D == 3 && tests > sixteen_from * count && hits < rare;
+    bool few = D == 3 && tests > sixteen_from * count && (alone || hits < rare);
     stats_->tests += f64(tests);
-    if (stats_->tests > most_) return;
+    tested_ += tests * (few ? light : 1);
+    if (tested_ > most_) return;
     stats_->cells++;
     note(region);
     if constexpr (D == 3) {

@@ -92,6 +92,20 @@ TEST("axis puts whole steps in the middle of cells") {
   CHECK(cell_of(axis, 99) == 10 && cell_of(axis, -99) == 0);
 }
 
+TEST("samples are taken from all boxes, the last ones too") {
+  for (u32 count : {16u, 47u, 511u, 2000u, 4095u, 70000u}) {
+    u32 n = count < 64 ? 16 : detail::samples_of(count), behind = 0, largest_gap = 0;
+    detail::Sampling sampling(count, n);
+    for (u32 k = 0; k < n; k++) {
+      u32 slot = sampling.next();
+      CHECK(slot >= behind && slot < count);
+      largest_gap = larger(largest_gap, slot - behind);
+      behind = slot + 1;
+    }
+    CHECK(larger(largest_gap, count - behind) <= 2 * (count / n + 1));
+  }
+}
+
 TEST("statistics leave out outliers") {
   Random random(5);
   Boxes<2> boxes = spread<2>(random, 2000, 0, 100, 4);

@@ -30,7 +30,7 @@ template <int D> struct World {
     prospect.size = 10;
     prospect.pairs = 0.5;
     prospect.tests = 8;
-    prospect.fresh = tuning.entry + prospect.tests;
+    prospect.fresh = (D == 2 ? 16 : 20) + prospect.tests;
     prospect.looked = 1;
     prospect.late = tuning.late;
   }

@@ -40,6 +40,37 @@ test('one box far away does not make a rebuild of a thousand others slower', () 
   expect(tests[1]).toBeLessThan(2 * tests[0]!);
 });
 
+test('a thousand boxes spread evenly in 3D are one column if few overlap, else several', () => {
+  const cells = [6, 40].map((size) => {
+    const random = createRandom(11);
+    const space = new BroadPhase({ dimensions: 3, technique: 'strip-sweep' });
+    for (let id = 0; id < 1000; id++) {
+      const [x, y, z] = [200 * random(), 200 * random(), 200 * random()];
+      space.set(id, x, y, z, x + size, y + size, z + size);
+    }
+    return space.update().stats.cells;
+  });
+  expect(cells[0]).toBe(1);
+  expect(cells[1]).toBeGreaterThan(1);
+});
+
+test('a crowd at rest that some boxes leave in each update is not retained', () => {
+  const [count, leaving, updates] = [1000, 16, 30];
+  const random = createRandom(13);
+  const directions = Array.from({ length: count }, () => [random() - 0.5, random() - 0.5] as const);
+  const space = new BroadPhase();
+  let kept = 0;
+  for (let update = 0; update < updates; update++) {
+    for (let id = 0; id < count; id++) {
+      const far = 6 * Math.max(0, update - Math.floor(id / leaving));
+      space.set(id, ...boxAt(directions[id]!.map((x) => far * x)));
+    }
+    kept += Number(space.update().stats.reason.includes('are retained'));
+  }
+  // The list is tried, and tried again seldom.
+  expect(kept).toBeLessThan(updates / 5);
+});
+
 test.each([true, false])(
   'queries in a loop over the many pairs of a heap leave them attached (events: %s)',
   (events) => {
