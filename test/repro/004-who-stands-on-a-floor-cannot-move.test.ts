@@ -59,6 +59,37 @@ test('a shaft exactly as wide as the box lets it through, one less wide does not
   expect(space.sweep(-0.001, -30, 10, -20, 0, 100)).toEqual({ id: 0, time: 0.2, normal: [0, -1] });
 });
 
+// Decided in docs/decisions/0010-where-boxes-touch.md: without a size it would fall between two boxes that touch.
+describe.each([2, 3] as const)('a box of zero size hits edges too, as a ray does, in %d dimensions', (dimensions) => {
+  const space = new BroadPhase({ dimensions });
+  const at = (x: number, y: number, z = 5) => [x, y, z].slice(0, dimensions);
+  for (let k = 0; k < 3; k++)
+    (space.set as Loose[string]).call(space, k, ...at(10 * k, 10, 0), ...at(10 * k + 10, 20, 10));
+  space.update();
+  const cases: [string, number[], number[], [number, number, number] | undefined][] = [
+    ['stands, in the middle of a tile', [5, 10], [0, 0], undefined],
+    ['moves along it', [5, 10], [4, 0], undefined],
+    ['leaves the last tile', [25, 10], [40, 0], undefined],
+    ['jumps', [10, 10], [1, -1], undefined],
+    ['reaches the next tile', [5, 10], [20, 0], [1, 0.25, -1]],
+    ['starts at the next tile', [10, 10], [20, 0], [1, 0, -1]],
+    ['comes to the first tile', [-5, 10], [20, 0], [0, 0.25, -1]],
+  ];
+  test.each(cases)('%s', (_, [x, y], [dx, dy], hit) => {
+    const asked = [...at(x!, y!), ...at(x!, y!), ...at(dx!, dy!, 0)];
+    const [id, time, side] = hit ?? [];
+    const normal = [side, 0, 0].slice(0, dimensions);
+    expect((space.sweep as Loose[string]).apply(space, asked)).toEqual(hit && { id, time, normal });
+    const { ids, times, normals } = space.sweeps(asked);
+    expect([[...ids], [...times], [...normals]]).toEqual(hit ? [[id], [time], normal] : [[], [], []]);
+  });
+  test('and does not fall between two tiles', () => {
+    const down = [...at(10, 0), ...at(10, 0), ...at(0, 20, 0)];
+    expect((space.sweep as Loose[string]).apply(space, down)).toMatchObject({ id: 0, time: 0.5 });
+    expect([...space.sweeps(down).times]).toEqual([0.5]);
+  });
+});
+
 test('who walks over a seam of tiles under gravity does not run into the next, whichever has the smaller id', () => {
   for (const [here, next] of [
     [0, 1],
