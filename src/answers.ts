@@ -68,7 +68,7 @@ export function point(
   const io = instance.io();
   const good = isPlace(x) && isPlace(y);
   if (instance.width === 4) {
-    if (!good || options !== undefined) badQuery(where, [x, y, z, options], point2, finite);
+    if (!good) badQuery(where, [x, y], point2, finite);
     io[2] = x;
     io[3] = y;
     options = z;

@@ -70,7 +70,7 @@ type Inspect = (value: unknown, options: unknown) => string;
  * update, or it throws. Everything is decided in double precision. Options are read at each call; to make no garbage,
  * reuse the options object with an `out` in it, with roughly constant numbers of answers. All queries throw RangeError
  * for NaN, a minimum above its maximum, infinite points, motions and directions, negative distances, and masks and ids
- * out of range; TypeError for values other than numbers and for a wrong number of arguments.
+ * out of range; TypeError for values other than numbers and for a wrong number of arguments, undefined ones included.
  *
  * @example
  * const space = new BroadPhase();
@@ -330,16 +330,17 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   get ended(): Uint32Array {
     return endedIn(this.#instance);
   }
-  /** The instance, for a query: it is refused if it has more arguments than any can have. */
-  #with(where: string, good: boolean): KernelInstance {
-    if (!good) throw new TypeError(`${where}: got too many arguments, expected none after the options`);
+  /** The instance, for a query: it is refused if it has too many arguments, undefined ones too, as `set` is. */
+  #with(where: string, got: number, most: number): KernelInstance {
+    if (got > most)
+      throw new TypeError(`${where}: got ${got} arguments, expected at most ${most} in ${this.dimensions}D`);
     return this.#instance;
   }
   isColliding(a: number, b: number): boolean {
-    return places.isColliding(this.#with('isColliding', arguments.length <= 2), a, b);
+    return places.isColliding(this.#with('isColliding', arguments.length, 2), a, b);
   }
   collisionsOf(id: number, out: number[] = []): number[] {
-    return places.collisionsOf(this.#with('collisionsOf', arguments.length <= 2), id, out);
+    return places.collisionsOf(this.#with('collisionsOf', arguments.length, 2), id, out);
   }
   pairsWith(other: BroadPhase<D>): Uint32Array {
     if (!(Object(other) === other && #instance in other))
@@ -349,36 +350,31 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
 
   queryBox(...query: BoxQuery<D, BoxOptions>): number[];
   queryBox(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: BoxOptions): number[] {
-    return places.queryBox(this.#with('queryBox', arguments.length <= 7), a, b, c, d, e, f, options);
+    const instance = this.#with('queryBox', arguments.length, 1 + 2 * this.dimensions);
+    return places.queryBox(instance, a, b, c, d, e, f, options);
   }
   queryPoint(...query: PointQuery<D, IdsOptions>): number[];
   queryPoint(x: number, y: number, z?: unknown, options?: IdsOptions): number[] {
-    return places.queryPoint(this.#with('queryPoint', arguments.length <= 4), x, y, z, options);
+    return places.queryPoint(this.#with('queryPoint', arguments.length, 1 + this.dimensions), x, y, z, options);
   }
   queryCircle(...query: D extends 2 ? RoundQuery<2, IdsOptions> : never): number[];
   queryCircle(x: number, y: number, radius: number, options?: IdsOptions): number[] {
-    return places.queryCircle(
-      this.#with('queryCircle', arguments.length <= 2 + this.dimensions),
-      x,
-      y,
-      radius,
-      options,
-    );
+    return places.queryCircle(this.#with('queryCircle', arguments.length, 2 + this.dimensions), x, y, radius, options);
   }
   querySphere(...query: D extends 3 ? RoundQuery<3, IdsOptions> : never): number[];
   querySphere(x: number, y: number, z: number, radius: number, options?: IdsOptions): number[] {
-    return places.querySphere(this.#with('querySphere', arguments.length <= 5), x, y, z, radius, options);
+    return places.querySphere(this.#with('querySphere', arguments.length, 5), x, y, z, radius, options);
   }
   queryPlanes(planes: Float32Array | Float64Array | readonly number[], options?: PlanesOptions): number[] {
-    return queryPlanes(this.#with('queryPlanes', arguments.length <= 2), planes, options);
+    return queryPlanes(this.#with('queryPlanes', arguments.length, 2), planes, options);
   }
   rayCast(...query: RayQuery<D, RayOptions>): RayHit | undefined;
   rayCast(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayOptions) {
-    return ahead.rayCast(this.#with('rayCast', arguments.length <= 7), a, b, c, d, e, f, options);
+    return ahead.rayCast(this.#with('rayCast', arguments.length, 1 + 2 * this.dimensions), a, b, c, d, e, f, options);
   }
   rayCastAll(...query: RayQuery<D, RayAllOptions>): RayHit[];
   rayCastAll(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayAllOptions): RayHit[] {
-    const instance = this.#with('rayCastAll', arguments.length <= 7);
+    const instance = this.#with('rayCastAll', arguments.length, 1 + 2 * this.dimensions);
     return ahead.rayCastAll(instance, this.#spareHits, a, b, c, d, e, f, options);
   }
   sweep(...query: SweepQuery<D, SweepOptions>): SweepHit | undefined;
@@ -394,32 +390,33 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     i?: unknown,
     options?: SweepOptions,
   ) {
-    return ahead.sweep(this.#with('sweep', arguments.length <= 10), a, b, c, d, e, f, g, h, i, options);
+    const instance = this.#with('sweep', arguments.length, 1 + 3 * this.dimensions);
+    return ahead.sweep(instance, a, b, c, d, e, f, g, h, i, options);
   }
   nearest(...query: NearestQuery<D, NearestOptions>): number[];
   nearest(x: number, y: number, z: number, k?: unknown, options?: NearestOptions): number[] {
-    return ahead.nearest(this.#with('nearest', arguments.length <= 5), x, y, z, k, options);
+    return ahead.nearest(this.#with('nearest', arguments.length, 2 + this.dimensions), x, y, z, k, options);
   }
   queryBoxes(boxes: Boxes, options?: ManyBoxOptions): ManyIds {
-    return askMany(this.#with('queryBoxes', arguments.length <= 2), 'queryBoxes', boxes, options, 1);
+    return askMany(this.#with('queryBoxes', arguments.length, 2), 'queryBoxes', boxes, options, 1);
   }
   queryPoints(points: Boxes, options?: ManyAreaOptions): ManyIds {
-    return askMany(this.#with('queryPoints', arguments.length <= 2), 'queryPoints', points, options, 1);
+    return askMany(this.#with('queryPoints', arguments.length, 2), 'queryPoints', points, options, 1);
   }
   queryCircles(circles: Boxes, options?: ManyAreaOptions): ManyIds {
-    return askMany(this.#with('queryCircles', arguments.length <= 2), 'queryCircles', circles, options, 1);
+    return askMany(this.#with('queryCircles', arguments.length, 2), 'queryCircles', circles, options, 1);
   }
   rayCasts(rays: Boxes, options?: ManyFarOptions<ManyRayHits>): ManyRayHits {
-    return askMany(this.#with('rayCasts', arguments.length <= 2), 'rayCasts', rays, options, 1) as ManyRayHits;
+    return askMany(this.#with('rayCasts', arguments.length, 2), 'rayCasts', rays, options, 1) as ManyRayHits;
   }
   sweeps(boxes: Boxes, options?: ManyOptions<ManySweepHits>): ManySweepHits {
-    return askMany(this.#with('sweeps', arguments.length <= 2), 'sweeps', boxes, options, 1) as ManySweepHits;
+    return askMany(this.#with('sweeps', arguments.length, 2), 'sweeps', boxes, options, 1) as ManySweepHits;
   }
   nearests(points: Boxes, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest {
-    return askMany(this.#with('nearests', arguments.length <= 3), 'nearests', points, options, k) as ManyNearest;
+    return askMany(this.#with('nearests', arguments.length, 3), 'nearests', points, options, k) as ManyNearest;
   }
   nearestsOfAll(k: number, options?: Omit<ManyFarOptions<ManyNearestOfAll>, 'ignoreEach'>): ManyNearestOfAll {
-    const instance = this.#with('nearestsOfAll', arguments.length <= 2);
+    const instance = this.#with('nearestsOfAll', arguments.length, 2);
     return askMany(instance, 'nearestsOfAll', nothing, options, k) as ManyNearestOfAll;
   }
 

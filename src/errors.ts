@@ -241,7 +241,7 @@ export function badQuery(
     const high = given[above] as number;
     if (low > high) badValue(`${where}: ${name}`, low, `no more than ${names[above]}, which is ${high}`);
   }
-  throw new TypeError(`${where}: got too many arguments, expected ${names.join(', ')}, and options if any`);
+  badValue(where, given, names.join(', '), true);
 }
 
 export const areNumbers = (

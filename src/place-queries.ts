@@ -38,9 +38,7 @@ export function queryBox(
   const io = instance.io();
   if (instance.width === 4) {
     const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d;
-    if (!good || f !== undefined || options !== undefined) {
-      badQuery('queryBox', [a, b, c, d, e, f, options], corners[2], number);
-    }
+    if (!good) badQuery('queryBox', [a, b, c, d], corners[2], number);
     options = e as BoxOptions | undefined;
   } else {
     const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && isNumber(e) && isNumber(f);

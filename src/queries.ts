@@ -106,9 +106,7 @@ export function sweep(
   const io = instance.io();
   if (instance.width === 4) {
     const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d;
-    if (!(good && isPlace(e) && isPlace(f)) || h !== undefined || i !== undefined || options !== undefined) {
-      badQuery('sweep', [a, b, c, d, e, f, g, h, i, options], sweep2, number);
-    }
+    if (!(good && isPlace(e) && isPlace(f))) badQuery('sweep', [a, b, c, d, e, f], sweep2, number);
     options = g as SweepOptions | undefined;
   } else {
     const all = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && isNumber(e) && isNumber(f);
@@ -160,7 +158,6 @@ export function nearest(
   const flat = instance.width === 4;
   const most = flat ? z : k;
   if (flat) {
-    if (options !== undefined) badQuery('nearest', [x, y, z, k, options], [...point2, 'k'], number);
     options = k as NearestOptions | undefined;
     point(instance, 'nearest', x, y);
   } else {
@@ -210,7 +207,7 @@ function ray<Options extends { maxDistance?: number | undefined }>(
   const io = instance.io();
   const good = isPlace(a) && isPlace(b) && isPlace(c) && isPlace(d);
   if (instance.width === 4) {
-    if (!good || f !== undefined || options !== undefined) badQuery(where, [a, b, c, d, e, f, options], ray2, finite);
+    if (!good) badQuery(where, [a, b, c, d], ray2, finite);
     io[2] = a;
     io[3] = b;
     io[4] = c;

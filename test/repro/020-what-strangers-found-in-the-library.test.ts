@@ -86,8 +86,9 @@ describe('what follows the options of a query is refused', () => {
         (space as never as Record<string, (...all: unknown[]) => unknown>)[name]!(...all);
       call(...args);
       const more = name === 'isColliding' ? [{ mask: 0 }] : [undefined, { mask: 0 }];
+      const got = args.length + more.length;
       expect(() => call(...args, ...more)).toThrow(
-        new TypeError(`${name}: got too many arguments, expected none after the options`),
+        new TypeError(`${name}: got ${got} arguments, expected at most ${got - 1} in ${space.dimensions}D`),
       );
     }
   });
