@@ -14,6 +14,10 @@ import { KernelInstance } from './kernel/instance.ts';
 import { builtDimensions } from './kernel/load.ts';
 import { checkTechnique, isBuilt, type TechniqueName } from './techniques.ts';
 
+/** The type of an option that only `broadphase/all` takes: elsewhere it has no value. */
+type OfAll<Technique extends TechniqueName, Value> = (Record<LeanTechnique, never> &
+  Record<Exclude<TechniqueName, LeanTechnique>, Value>)[Technique];
+
 /** Options of {@link BroadPhase}, all optional. */
 export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends TechniqueName = LeanTechnique> {
   /** 2 or 3. Default 2; in `broadphase/3d` 3. */
@@ -25,12 +29,12 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
    * per axis, above 0. `auto` uses no grid, and ignores it. A size so small that boxes would be in very many cells is
    * doubled until they are not. Default: chosen from the boxes.
    */
-  cellSize?: number | readonly number[] | undefined;
+  cellSize?: OfAll<Technique, number | readonly number[]> | undefined;
   /**
    * For `spatial-grid` and `retained-grid`, in `broadphase/all`: the part of the world that is divided into cells,
    * minima then maxima. Boxes outside are still found.
    */
-  bounds?: readonly number[] | undefined;
+  bounds?: OfAll<Technique, readonly number[]> | undefined;
   /**
    * The size of a world that wraps around, along each axis: what leaves it on one side enters on the other, as in
    * Asteroids. Boxes may be given anywhere; two are a pair if they overlap after both are shifted by whole worlds. A
@@ -52,7 +56,7 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
    * the lists of `auto` and `incremental`. Above 0. Default, and in other entry points always: chosen from the observed
    * motion.
    */
-  margin?: number | undefined;
+  margin?: OfAll<Technique, number> | undefined;
   /** A hint: how many boxes there will be, 0 … 2^24. Avoids growing while they are added. */
   capacity?: number | undefined;
 }
@@ -87,7 +91,7 @@ export function checkNames(where: string, options: unknown): void {
 }
 
 /** Creates a kernel instance with these options. */
-export function open(options: BroadPhaseOptions<Dimensions> = {}): KernelInstance {
+export function open(options: BroadPhaseOptions<Dimensions, TechniqueName> = {}): KernelInstance {
   checkNames('new BroadPhase', options);
   const {
     dimensions = builtDimensions[0]!,

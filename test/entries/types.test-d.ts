@@ -111,6 +111,31 @@ const back: all.BroadPhase = space2;
 record(every);
 record(space2);
 
+// Options of techniques that `broadphase` lacks are refused there, as they are when the code runs.
+// @ts-expect-error: it is in broadphase/all
+new BroadPhase({ cellSize: 8 });
+// @ts-expect-error: it is in broadphase/all
+new BroadPhase({ dimensions: 3, bounds: [0, 0, 0, 9, 9, 9] });
+// @ts-expect-error: it is in broadphase/all
+new BroadPhase({ dimensions: either, margin: 1 });
+// @ts-expect-error: it is in broadphase/all
+findPairs([], { cellSize: [8, 8] });
+// @ts-expect-error: it is in broadphase/all
+new flat.BroadPhase({ margin: 1 });
+// @ts-expect-error: it is in broadphase/all
+flat.findPairs([], { bounds: [0, 0, 9, 9] });
+// @ts-expect-error: it is in broadphase/all
+new solid.BroadPhase({ cellSize: 8 });
+declare const optionsOfAll: all.BroadPhaseOptions;
+// @ts-expect-error: they may have a cell size
+new BroadPhase({ ...optionsOfAll, technique: 'auto' });
+new BroadPhase({ cellSize: undefined, bounds: undefined, margin: undefined });
+new all.BroadPhase({ technique: 'spatial-grid', cellSize: 8, bounds: [0, 0, 9, 9], margin: undefined });
+new all.BroadPhase({ dimensions: 3, cellSize: [8, 8, 8], margin: 1 });
+new all.BroadPhase(options);
+all.findPairs([], { cellSize: 8 });
+all.findPairsBetween([], [], options);
+
 // The entries of one dimension have that one alone.
 const ofFlat = new flat.BroadPhase({ events: true });
 ofFlat.set(1, 0, 0, 1, 1);
