@@ -1,8 +1,8 @@
 // All techniques on the same frames, side by side.
 import { BroadPhase, type TechniqueName } from 'broadphase';
-import { badNumber, badValue } from '../errors.ts';
-import { checkSource, type FrameSource, worldOf } from './format.ts';
-import { begin, type ReplayOptions, timeUpdate } from './replay.ts';
+import { badNumber, checkOptions } from '../errors.ts';
+import { checkProgress, checkSource, checkTechniques, type FrameSource, worldOf } from './format.ts';
+import { begin, type ReplayOptions, spaceOptions, timeUpdate } from './replay.ts';
 import { type Summary, summarize } from './statistics.ts';
 
 /** Options of {@link compare}, including those of the spaces to compare. */
@@ -49,9 +49,12 @@ export interface Compared {
  */
 export function compare(source: FrameSource, options: CompareOptions = {}): Compared[] {
   checkSource('compare', source);
+  const own = ['techniques', 'passes', 'progress'];
+  checkOptions('compare', options, [...own, ...spaceOptions.filter((name) => name !== 'technique')]);
   const { techniques = BroadPhase.techniques, passes = 3, progress, ...settings } = options;
-  if (!Array.isArray(techniques)) badValue('techniques', techniques, 'an array of names', true);
-  if (!(Number.isInteger(passes) && passes > 0)) badNumber('passes', passes, 'an integer, 1 or more');
+  checkTechniques('compare', techniques);
+  if (!(Number.isInteger(passes) && passes > 0)) badNumber('compare: passes', passes, 'an integer, 1 or more');
+  checkProgress('compare', progress);
   const contenders = techniques.map((technique) => ({
     technique,
     space: new BroadPhase({ ...worldOf(source), ...settings, technique, dimensions: source.dimensions }),

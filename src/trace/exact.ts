@@ -1,8 +1,8 @@
 // The exact pairs, computed without the kernel, to check a replay. Sorts along one axis and sweeps, in doubles. A set
 // of pairs is a sorted Float64Array with one number per pair: the smaller id times 2^24, plus the larger.
-import { badValue } from '../errors.ts';
+import { badValue, checkBoolean, checkWrap } from '../errors.ts';
 import type { Own } from '../watch.ts';
-import { checkLength, marks } from './format.ts';
+import { checkEach, checkLength, marks } from './format.ts';
 
 const idLimit = 2 ** 24;
 
@@ -12,7 +12,8 @@ const idLimit = 2 ** 24;
  * wraps around every two boxes are compared.
  *
  * @param given minima then maxima, box after box
- * @throws RangeError for other than 2 or 3 dimensions, and if lengths do not fit
+ * @throws RangeError for other than 2 or 3 dimensions, for no size of a world, and if lengths do not fit; TypeError for no
+ *   array
  * @returns the sorted set of pairs, one number for each: the smaller id times 2^24, plus the larger
  *
  * @example
@@ -27,11 +28,14 @@ export function exactPairs(
   own: Own & { touching?: boolean | undefined } = {},
 ): Float64Array {
   if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
+  if (!Number.isInteger(Object(given).length)) badValue('boxes', given, 'an array of numbers', true);
   const count = Math.floor(given.length / (2 * dimensions));
   checkLength('boxes', given, 2 * dimensions * count);
-  checkLength('ids', ids, count);
+  checkEach('', count, ids, rules, own);
+  if (wrap !== undefined) checkWrap(wrap, dimensions);
   const apart = (a: number, b: number) => (rules && !mayMeet(rules, 3 * a, 3 * b)) || areOne(own.groups, a, b);
   const closed = own.touching ?? true;
+  checkBoolean('touching', closed);
   const boxes = own.reaches ? grownBy(own.reaches, given, dimensions) : given;
   if (wrap) return wrappedPairs(boxes, wrap, ids, apart, closed);
   const width = 2 * dimensions;

@@ -1,11 +1,11 @@
 // Opens whatever holds frames: traces, and recordings of physics engines in the raw layout, each gzipped or not.
 
-import { checkOptions } from '../errors.ts';
+import { badNumber, isSize } from '../errors.ts';
 import { isFloat64Array } from '../values.ts';
 import { givenBytes, uint32At } from './bytes.ts';
 import { checkSource, type Frame, type FrameSource, firstBad, headerBytes, maxBoxes, TraceError } from './format.ts';
 import { type RawRecording, rawMagic, readRecording } from './raw.ts';
-import { type OpenOptions, openTrace } from './reader.ts';
+import { isSalvage, type OpenOptions, openTrace } from './reader.ts';
 
 /** Gzipped files that are larger than this when unpacked are refused, unless more is allowed: 1 GiB. */
 const maxUnpackedBytes = 2 ** 30;
@@ -25,6 +25,7 @@ const maxEmptyFrames = 1e6;
  */
 export async function gunzip(bytes: Uint8Array, most = maxUnpackedBytes): Promise<Uint8Array> {
   const given = givenBytes('gunzip', bytes) as Uint8Array<ArrayBuffer>;
+  if (!isSize(most)) badNumber('gunzip: most', most, 'a number, at least 0');
   const { plain, fault } = await collect(new Blob([given]).stream().pipeThrough(new DecompressionStream('gzip')), most);
   if (fault) throw fault;
   return plain;
@@ -95,8 +96,7 @@ const isRecording = (bytes: Uint8Array) => bytes.length >= 4 && uint32At(bytes, 
  */
 export function importRecording(bytes: Uint8Array, options?: OpenOptions): FrameSource {
   const given = givenBytes('importRecording', bytes);
-  checkOptions('importRecording', options, ['salvage']);
-  const salvage = options?.salvage ?? false;
+  const salvage = isSalvage('importRecording', options);
   let recording: RawRecording;
   try {
     recording = readRecording(given, salvage);

@@ -1,5 +1,5 @@
 // Reads traces: whole ones from bytes, or as a stream while they arrive.
-import { badValue, checkOptions } from '../errors.ts';
+import { badValue, checkBoolean, checkOptions } from '../errors.ts';
 import { givenBytes, uint32At } from './bytes.ts';
 import { crc32 } from './crc32.ts';
 import { FrameDecoder } from './decoder.ts';
@@ -22,6 +22,14 @@ export interface OpenOptions {
    * of throwing. {@link Trace.fault} then says what is wrong.
    */
   salvage?: boolean | undefined;
+}
+
+/** Whether to salvage what is intact; checks the options of `where`. */
+export function isSalvage(where: string, options: OpenOptions | undefined): boolean {
+  checkOptions(where, options, ['salvage']);
+  const { salvage = false } = options ?? {};
+  checkBoolean(`${where}: salvage`, salvage);
+  return salvage;
 }
 
 /**
@@ -52,7 +60,7 @@ export class Trace implements FrameSource {
   /** @throws TraceError that says what is wrong, in which frame, at which byte */
   constructor(bytes: Uint8Array, options?: OpenOptions) {
     this.#bytes = givenBytes('Trace', bytes);
-    checkOptions('openTrace', options, ['salvage']);
+    const salvage = isSalvage('openTrace', options);
     const { dimensions, version, world, checksum } = readHeader(this.#bytes);
     this.dimensions = dimensions;
     this.#version = version;
@@ -64,7 +72,7 @@ export class Trace implements FrameSource {
       // Decoded once here, so that no later iteration meets an error.
       for (const { body, offset } of bodies) if (decoder.decode(body, offset)) frames++;
     } catch (error) {
-      if (!(options?.salvage && error instanceof TraceError)) throw error;
+      if (!(salvage && error instanceof TraceError)) throw error;
       this.fault = error;
     }
     this.frames = frames;

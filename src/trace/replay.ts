@@ -1,7 +1,9 @@
 // Plays frames into a BroadPhase and measures each update.
 import { BroadPhase, type BroadPhaseOptions, type TechniqueName } from 'broadphase';
+import { checkBoolean, checkOptions } from '../errors.ts';
+import { checkSpace } from '../watch.ts';
 import { type Difference, differenceOf, exactPairs, pairKeys } from './exact.ts';
-import { checkSource, type Frame, type FrameSource, marks, worldOf } from './format.ts';
+import { checkEach, checkLength, checkSource, type Frame, type FrameSource, marks, worldOf } from './format.ts';
 import { all } from './state.ts';
 
 /** The last frame played into a space: a copy, since frames are views. */
@@ -20,7 +22,8 @@ const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
  * order too. The caller calls `update()`. Nothing else may change the space between two frames: only differences are
  * set, as in a game.
  *
- * @throws RangeError if the space has other dimensions. All is as before.
+ * @throws RangeError if the space has other dimensions, and if lengths do not fit; TypeError if it is no space. All is as
+ * before.
  *
  * @example
  * const space = new BroadPhase();
@@ -34,12 +37,15 @@ const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
  * copy.pairs; // → Uint32Array [7, 9]
  */
 export function applyFrame(space: BroadPhase<2 | 3>, frame: Frame): void {
+  checkSpace('applyFrame', space);
   const { ids, boxes, count } = frame;
   const { dimensions } = space;
   const theirs = boxes.length / count / 2;
   if (count > 0 && theirs !== dimensions) {
     throw new RangeError(`applyFrame: got a frame of ${theirs} dimensions, expected ${dimensions}`);
   }
+  checkLength('applyFrame: boxes', boxes, 2 * dimensions * count);
+  checkEach('applyFrame: ', count, ids, frame.rules, frame);
   let before = applied.get(space);
   // Boxes with explicit ids are in the order in which they were set, so if ids differ, the space is filled again.
   if (!before || !sameIds(before.ids, ids) || (ids && space.size !== count)) {
@@ -114,6 +120,18 @@ function sameIds(a: Uint32Array | undefined, b: Uint32Array | undefined): boolea
 /** Options of a space to play frames into, which determine its dimensions. */
 export type ReplayOptions = Omit<BroadPhaseOptions, 'dimensions'>;
 
+/** Their names. */
+export const spaceOptions: readonly (keyof ReplayOptions)[] = [
+  'technique',
+  'cellSize',
+  'bounds',
+  'wrap',
+  'touching',
+  'events',
+  'margin',
+  'capacity',
+];
+
 /** The time and the results of one update of a replay. */
 export interface ReplayedFrame {
   /** From 0. */
@@ -156,6 +174,8 @@ export interface ReplayedFrame {
  */
 export function* replay(source: FrameSource, options: ReplayOptions = {}, verify = false): Generator<ReplayedFrame> {
   checkSource('replay', source);
+  checkOptions('replay', options, spaceOptions);
+  checkBoolean('replay: verify', verify);
   const { dimensions } = source;
   const world: ReplayOptions = { ...worldOf(source), ...options };
   const space = new BroadPhase({ ...world, dimensions });

@@ -2,7 +2,7 @@
 
 import { BroadPhase } from 'broadphase';
 import { isFloat64Array } from '../values.ts';
-import { checkSource, type Frame, type FrameSource, worldOf } from './format.ts';
+import { checkProgress, checkSource, type Frame, type FrameSource, worldOf } from './format.ts';
 import { applyFrame } from './replay.ts';
 import { type Bin, doublingHistogram, type Summary, summarize } from './statistics.ts';
 
@@ -57,6 +57,7 @@ export interface Survey {
  */
 export function survey(source: FrameSource, progress?: (done: number, total: number) => void): Survey {
   checkSource('survey', source);
+  checkProgress('survey', progress);
   const { dimensions } = source;
   const middle = source.frames >> 1;
   const space = new BroadPhase({ ...worldOf(source), dimensions });

@@ -5,9 +5,9 @@
 // Machines are noisy, so every time is the fastest of several, candidates take turns, and those far behind the best are
 // dropped early. Whether a technique uses a parameter at all is found by trying: its counters change.
 import { BroadPhase, type TechniqueName } from 'broadphase';
-import { checkOptions } from '../errors.ts';
+import { badNumber, checkBoolean, checkOptions, isSize } from '../errors.ts';
 import type { World } from '../watch.ts';
-import { checkSource, type Frame, type FrameSource, worldOf } from './format.ts';
+import { checkProgress, checkSource, checkTechniques, type Frame, type FrameSource, worldOf } from './format.ts';
 import { applyFrame, begin, timeUpdate } from './replay.ts';
 import { percentile, type Summary, summarize } from './statistics.ts';
 import { longestSides } from './survey.ts';
@@ -168,6 +168,10 @@ export function tune(source: FrameSource, options: TuneOptions = {}): Tuned {
   checkSource('tune', source);
   checkOptions('tune', options, ['techniques', 'seconds', 'exhaustive', 'progress']);
   const { techniques = BroadPhase.techniques, seconds = 8, exhaustive = false, progress } = options;
+  checkTechniques('tune', techniques);
+  if (!isSize(seconds)) badNumber('tune: seconds', seconds, 'a number, at least 0');
+  checkBoolean('tune: exhaustive', exhaustive);
+  checkProgress('tune', progress);
   const { dimensions } = source;
   const frames = keepFrames(source);
   if (frames.length === 0) throw new RangeError('tune: the trace has no frames');

@@ -1,5 +1,5 @@
 // Writes traces: frames in, bytes out. It keeps only the last two frames; the caller stores the bytes.
-import { badValue, checkWrap, isFinitePositive } from '../errors.ts';
+import { badValue, checkBoolean, checkWrap, isFinitePositive } from '../errors.ts';
 import { isFloat64Array, isTypedArray } from '../values.ts';
 import type { Own } from '../watch.ts';
 import { ByteWriter } from './bytes.ts';
@@ -51,11 +51,13 @@ export class TraceWriter {
   /**
    * @param wrap the size of the world along each axis, if it wraps around
    * @param touching whether boxes that only touch are pairs
-   * @throws RangeError for other than 2 or 3 dimensions, and for no size of a world; TypeError if that is no array
+   * @throws RangeError for other than 2 or 3 dimensions, and for no size of a world; TypeError if that is no array, or
+   *   `touching` neither true nor false
    */
   constructor(dimensions: 2 | 3, wrap?: readonly number[], touching = true) {
     if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
-    if (wrap) checkWrap(wrap, dimensions);
+    if (wrap !== undefined) checkWrap(wrap, dimensions);
+    checkBoolean('touching', touching);
     this.dimensions = dimensions;
     this.#wrap = wrap?.slice();
     this.#state = new TraceState(dimensions);
