@@ -141,6 +141,9 @@ function check(context: { getTransform?: unknown }, space: BroadPhase<2 | 3>, op
   checkNames('drawSpace: options', options, optionNames);
   const { rays = [], colors = {}, lineWidth = 1 } = options;
   checkNames('drawSpace: colors', colors, colorNames);
+  for (const name of colorNames) {
+    if (typeof (colors[name] ?? '') !== 'string') bad(`drawSpace: colors.${name}`, colors[name], 'a string');
+  }
   for (const name of switchNames) {
     if (typeof (options[name] ?? true) !== 'boolean') bad(`drawSpace: ${name}`, options[name], 'true or false');
   }

@@ -293,6 +293,7 @@ export class Shard {
    * shard.exchange()[0].ids; // → Uint32Array [7]
    */
   resend(zone: number): void {
+    this.#check('resend');
     checkOther('resend', zone, this.zone, this.#told.length);
     this.#resent.add(zone);
   }

@@ -83,6 +83,7 @@ describe('a shard', () => {
     ['exchange', (shard) => shard.exchange()],
     ['update', (shard) => shard.update()],
     ['forget', (shard) => shard.forget(1)],
+    ['resend', (shard) => shard.resend(1)],
   ];
 
   test.each(changes)('cannot be changed by entered: %s', (name, change) => {
@@ -245,6 +246,8 @@ describe('drawSpace refuses, and draws nothing:', () => {
     ['drawSpace: options: got null, expected an object', draw(null)],
     ['drawSpace: options: got "cell", expected one of boxes, pairs', draw({ cell: true })],
     ['drawSpace: colors: got "red", expected an object', draw({ colors: 'red' })],
+    ['drawSpace: colors.pairs: got 5, expected a string', draw({ colors: { boxes: 'red', pairs: 5 } })],
+    ['drawSpace: colors.rays: got [object Object], expected a string', draw({ colors: { rays: {} } })],
     ['drawSpace: cells: got 1, expected true or false', draw({ cells: 1 })],
     ['drawSpace: lineWidth: got NaN, expected a number above 0', draw({ lineWidth: Number.NaN })],
     ['drawSpace: lineWidth: got -1, expected a number above 0', draw({ lineWidth: -1 })],
