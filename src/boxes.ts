@@ -20,6 +20,8 @@ export function setAll(instance: KernelInstance, boxes: Boxes, count: number | u
     badValue(`${where}: count`, count, `at most ${Math.floor(length / width)}, as ${length} numbers were given`);
   }
   if (Array.isArray(boxes)) checkNumbers(where, boxes, count, dimensions); // typed arrays hold nothing else
+  // The kernel checks values, but making room for them there may detach what boxes() returned.
+  if (instance.exposed !== undefined) checkValues(where, boxes, count, dimensions);
   try {
     const { kernel } = instance;
     const at = (single ? kernel.stage(count) : kernel.stage_exact(count)) >>> 0;
@@ -114,12 +116,23 @@ export function countBoxes(where: string, boxes: Boxes, dimensions: Dimensions):
   }
   return (boxes.length / width) | 0; // as an integer: a double returned from a call would be garbage
 }
+
 /** Checks that the elements of the first `count` boxes are numbers; the kernel checks their values. */
 function checkNumbers(where: string, boxes: ArrayLike<unknown>, count: number, dimensions: Dimensions): void {
   const width = 2 * dimensions;
   for (let k = 0; k < count * width; k++) {
-    if (typeof boxes[k] === 'number') continue;
-    const id = Math.floor(k / width);
-    badBox(where, id, Array.prototype.slice.call(boxes, id * width, (id + 1) * width), dimensions);
+    if (typeof boxes[k] !== 'number') badBoxOf(where, boxes, Math.floor(k / width), dimensions);
   }
+}
+
+/** Checks their values. */
+function checkValues(where: string, boxes: Boxes, count: number, dimensions: Dimensions): void {
+  for (let k = 0; k < 2 * dimensions * count; k += k % dimensions === dimensions - 1 ? dimensions + 1 : 1) {
+    if (!(boxes[k]! <= boxes[k + dimensions]!)) badBoxOf(where, boxes, Math.floor(k / 2 / dimensions), dimensions);
+  }
+}
+
+function badBoxOf(where: string, boxes: ArrayLike<unknown>, id: number, dimensions: Dimensions): never {
+  const at = 2 * dimensions * id;
+  badBox(where, id, Array.prototype.slice.call(boxes, at, at + 2 * dimensions), dimensions);
 }

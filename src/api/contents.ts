@@ -85,7 +85,8 @@ export interface Contents<D extends Dimensions> {
    * @param boxes 4 (2D) or 6 (3D) numbers for each box, as `set` takes them, one box after the other
    * @param count how many boxes to take; default: all in the array
    * @throws RangeError that names the first bad id and its value, or a length that does not fit; TypeError for anything
-   *   but an array of numbers. The space is as before.
+   *   but an array of numbers. The space is as before, and so is the array of `boxes`, unless memory runs out, or it is
+   *   the array given.
    *
    * @example
    * const space = new BroadPhase();
