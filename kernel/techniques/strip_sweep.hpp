@@ -3,7 +3,7 @@
 // Idea: an item enters every strip it touches and is marked "continues" in all but its first (3D: one mark per axis).
 // Two items that both continue into a strip have already met, so their shared mark keeps them from being tested again:
 // every pair is found once, with no table. If a strip has too many candidates that are not hits, it is divided again,
-// along the same axes, by its own statistics.
+// along the same axes, by its own statistics. In 3D, a few thousand boxes that hardly overlap stay one column.
 // Cost: build O(n), pairs O(n + candidates); memory about 48 (2D) or 80 (3D) bytes for each entry.
 // Wins when boxes move further than their size in a frame: box size costs almost nothing, there is no cell size to
 // choose. Loses otherwise: each update is a full rebuild.

@@ -24,7 +24,8 @@ template <int D> void check_swept(const Scene<D>& scene, StripSweep<D>& parts) {
   parts.fill(scene, of_swept, true);
   CHECK(parts.sweep(some, 1e9));
   CHECK(sorted(some) == sorted(all));
-  CHECK(of_swept.entries == stats.entries);
+  // In 3D, columns are made for the search even if the sweep alone takes less time without.
+  CHECK(D == 2 ? of_swept.entries == stats.entries : of_swept.entries >= scene.count);
   whole.release();
   all.list.release();
   some.list.release();
