@@ -59,6 +59,19 @@ function firstFlow() {
   return { nodes, edges };
 }
 
+/**
+ * Where the page scrolls, which the stage's touch-action says, a finger beside the nodes is the page's, and two are the
+ * canvas's. React Flow would take every finger.
+ */
+function shareFingers(stage) {
+  const share = (event) => {
+    if (getComputedStyle(stage).touchAction === 'none' || event.target.closest('.react-flow__node')) return;
+    if (event.touches.length === 1) event.stopPropagation();
+    else event.preventDefault();
+  };
+  stage.addEventListener('touchstart', share, { capture: true, passive: false });
+}
+
 /** The showcase: see examples/page/showcase.mjs. */
 export function nodesDemo(stage, { wake, say }) {
   const by = { broadphase: separate, ...rivals };
@@ -124,6 +137,7 @@ export function nodesDemo(stage, { wake, say }) {
       </ReactFlow>
     );
   }
+  shareFingers(stage);
   createRoot(stage).render(<Canvas />);
 
   const fit = () => requestAnimationFrame(() => flow?.fitView({ padding: 0.08 }));

@@ -142,6 +142,52 @@ test('nodes: one that is dragged stays with the pointer, and the others make roo
   await expect.poll(async () => overlaps(await nodeBoxes(page)), patient).toBe(0);
 });
 
+test.describe('by touch', () => {
+  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+
+  test('nodes: a finger beside the nodes scrolls the page, one on a node drags it, two zoom', async ({ page }) => {
+    const section = await open(page, 'nodes');
+    const stage = section.locator('.stage');
+    await stage.evaluate((element) => element.scrollIntoView({ block: 'center', behavior: 'instant' }));
+    const touch = await page.context().newCDPSession(page);
+    /** Moves fingers by so much in each of eight steps. */
+    const drag = async (fingers: { x: number; y: number; by: [across: number, down: number] }[]) => {
+      for (let step = 0; step <= 8; step++) {
+        const touchPoints = fingers.map(({ x, y, by }, id) => ({ id, x: x + by[0] * step, y: y + by[1] * step }));
+        await touch.send('Input.dispatchTouchEvent', { type: step === 0 ? 'touchStart' : 'touchMove', touchPoints });
+      }
+      await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+      await page.waitForTimeout(300);
+    };
+    const look = async () => ({
+      scroll: await page.evaluate(() => scrollY),
+      view: await stage.locator('.react-flow__viewport').evaluate((view) => (view as HTMLElement).style.transform),
+      nodes: await nodeBoxes(page),
+    });
+    const before = await look();
+    const { x, y, width, height } = (await stage.boundingBox())!;
+    await drag([{ x: x + width - 12, y: y + height - 60, by: [0, -20] }]);
+    const scrolled = await look();
+    expect(scrolled.scroll - before.scroll).toBeGreaterThan(100);
+    expect(scrolled).toEqual({ ...before, scroll: scrolled.scroll });
+
+    const node = (await stage.locator('.react-flow__node').nth(1).boundingBox())!; // near the border, the view would follow
+    await drag([{ x: node.x + node.width / 2, y: node.y + node.height / 2, by: [0, -15] }]);
+    const dragged = await look();
+    expect(dragged.nodes[1]![1]).toBeLessThan(before.nodes[1]![1]! - 100);
+    expect([dragged.scroll, dragged.view]).toEqual([scrolled.scroll, before.view]);
+
+    const top = (await stage.boundingBox())!.y + 60;
+    await drag([
+      { x: x + 20, y: top, by: [0, -2] },
+      { x: x + width - 20, y: top + 20, by: [-5, 20] },
+    ]);
+    const zoomed = await look();
+    expect(zoomed.view).not.toBe(before.view);
+    expect(zoomed.scroll).toBe(scrolled.scroll);
+  });
+});
+
 test('belt: everyone sees about as many of the stones, and the one in the middle is picked by keys', async ({
   page,
 }) => {
