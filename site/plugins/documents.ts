@@ -157,10 +157,10 @@ const nameOf = (file: string, path: string) => (path === 'guides/index.html' ? '
 const linkTo = (page: string, [file, path]: [string, string], attributes = '') =>
   `<a href="${rootFrom(page)}${path.replace('index.html', '')}"${attributes}>${nameOf(file, path)}</a>`;
 
-/** The list beside a document. */
-function listing(page: string): string {
+/** The list beside a document, or below it where there is no room: it is in both places, and one of them is hidden. */
+function listing(page: string, place: 'left' | 'below'): string {
   const links = listed.map((each) => `<li>${linkTo(page, each, each[1] === page ? ' aria-current="page"' : '')}</li>`);
-  return `<nav class="documents" aria-label="Guides"><ul>${links.join('')}</ul></nav>`;
+  return `<nav class="documents ${place}" aria-label="Guides"><ul>${links.join('')}</ul></nav>`;
 }
 
 /** The links to the previous and next document, below one. */
@@ -194,8 +194,9 @@ function documentOf(page: string): string {
   <body>
     <!-- navigation -->
     <div class="page">
-      ${isGuide ? listing(page) : ''}
+      ${isGuide ? listing(page, 'left') : ''}
       <main class="document">${body}${isGuide ? beside(page) : ''}</main>
+      ${isGuide ? listing(page, 'below') : ''}
     </div>
   </body>
 </html>`;

@@ -102,6 +102,32 @@ test('the navigation leads by keyboard from the first page to a guide, and on to
   await expect(page.getByRole('heading', { level: 1 })).toHaveText('API');
 });
 
+for (const width of [390, 800, 1280]) {
+  test(`the tab key goes through a guide as it is read, ${width} pixels wide`, async ({ page }) => {
+    await page.setViewportSize({ width, height: 900 });
+    await page.goto('guides/events/');
+    const places: { part: string; top: number; left: number }[] = [];
+    do {
+      await page.keyboard.press('Tab');
+      places.push(
+        await page.evaluate(() => {
+          const { left, top } = document.activeElement!.getBoundingClientRect();
+          const part = document.activeElement!.closest('.site-nav, .documents, .document')?.classList[0] ?? '';
+          return { part, top: top + scrollY, left: left + scrollX };
+        }),
+      );
+    } while (places.at(-1)!.part !== '');
+    places.pop();
+    const parts = places.map(({ part }) => part).filter((part, k, all) => part !== all[k - 1]);
+    expect(parts).toEqual(width < 1024 ? ['site-nav', 'document', 'documents'] : ['site-nav', 'documents', 'document']);
+    for (const part of parts) {
+      const tops = places.filter((place) => place.part === part).map(({ top }) => Math.round(top / 40));
+      if (part !== 'document') expect(tops, part).toEqual(tops.toSorted((a, b) => a - b)); // code has a button at its top
+    }
+    if (width < 1024) expect(places.at(-1)!.top).toBe(Math.max(...places.map(({ top }) => top)));
+  });
+}
+
 test('a guide leads on to the next and back, and to the reference where it names something of it', async ({ page }) => {
   await page.goto('guides/queries/');
   const beside = page.getByRole('navigation', { name: 'Previous and next' });
