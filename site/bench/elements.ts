@@ -37,3 +37,12 @@ export function fillMenu(
   const wanted = [before, preferred].find((value) => options.some(([each]) => each === value));
   menu.value = wanted ?? options[0]?.[0] ?? '';
 }
+
+/** Disables the options of a menu that lead nowhere, and says in each why. */
+export function allow(menu: HTMLSelectElement, leads: (value: string) => boolean, why: string): void {
+  for (const option of menu.options) {
+    option.dataset.name ??= option.text;
+    option.disabled = !leads(option.value);
+    option.text = option.disabled ? `${option.dataset.name}: ${why}` : option.dataset.name;
+  }
+}

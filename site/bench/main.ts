@@ -2,7 +2,7 @@
 import { figuresOf } from '../../bench/report/page.mjs';
 import { formatCount, formatMilliseconds } from '../shared/format.ts';
 import { asPicture, heat, times } from './charts.ts';
-import { fillMenu, find, make, table } from './elements.ts';
+import { allow, fillMenu, find, make, table } from './elements.ts';
 import { growth } from './growth.ts';
 import { raceFigure } from './race-figure.ts';
 import { advice, curves, ofKind, type Race, type Results, readResults, timed } from './records.ts';
@@ -47,25 +47,33 @@ const numbersOf = (races: readonly Race[]) =>
     .sort((a, b) => a - b)
     .map((each) => [`${each}`, formatCount(each)] as const);
 
-/** The races that the menus select. */
-const filtered = (races: readonly Race[]) =>
-  withTimes(races).filter(
+/** The races that the menus select, or would with another choice. */
+const filtered = (races: readonly Race[], inDimensions = dimensions.value, number = count.value) =>
+  races.filter(
     (race) =>
-      (dimensions.value === '' || race.dimensions === Number(dimensions.value)) &&
-      (count.value === '' || race.count === Number(count.value)),
+      (inDimensions === '' || race.dimensions === Number(inDimensions)) &&
+      (number === '' || race.count === Number(number)),
   );
+
+const isFrame = (number: string, what: string) => (race: Race) => race.name === what && `${race.count}` === number;
 
 function show(): void {
   const results = known.get(machine.value);
+  note.textContent = '';
   for (const id of ['growth', 'heat', 'motions', 'legend']) find(id).hidden = !results;
   if (!results) return;
   const objects = withTimes(ofKind(results, 'objects'));
   const scenes = withTimes(ofKind(results, 'scenes'));
   fillMenu(things, numbersOf(objects), usualThings);
   fillMenu(count, [['', 'any number'], ...numbersOf(scenes)], '100000');
+  // Other results may lack what was chosen before; with one of the other menu they have it.
+  if (!objects.some(isFrame(things.value, moves.value))) {
+    moves.value = objects.find((race) => `${race.count}` === things.value)?.name ?? moves.value;
+  }
+  if (filtered(scenes).length === 0) dimensions.value = '';
   showFrame(objects);
-  showScenes(filtered(scenes));
-  const several = [...seriesOf(results)].filter(([, races]) => races.length > 1).map(([name]) => name);
+  showScenes(scenes);
+  const several = [...seriesOf(results)].filter(([, races]) => linesOf(races).length > 0).map(([name]) => name);
   find('growth').hidden = several.length === 0;
   fillMenu(
     scene,
@@ -73,16 +81,24 @@ function show(): void {
     several[0] ?? '',
   );
   showGrowth(results);
-  showHeat(filtered(scenes));
+  showHeat(scenes);
   showMotions(results);
 }
 
+const textOf = ({ selectedOptions: [chosen] }: HTMLSelectElement) => chosen?.text ?? '';
+
 /** Answers the reader's first question: how long does a frame of my game take? */
 function showFrame(objects: readonly Race[]): void {
-  const race = objects.find(({ name, count }) => name === moves.value && `${count}` === things.value);
+  const race = objects.find(isFrame(things.value, moves.value));
   const place = find('frame-chart');
   place.replaceChildren();
-  find('frame-answer').textContent = race ? answerOf(race) : 'That was not measured.';
+  const many = moves.value === '5 % move' ? ' if one in twenty moves' : ' if all move';
+  const those = things.value ? ` with ${textOf(things)} things` : '';
+  allow(things, (number) => objects.some(isFrame(number, moves.value)), `not measured${many}`);
+  allow(moves, (what) => objects.some(isFrame(things.value, what)), `not measured${those}`);
+  find('frame-answer').textContent = race
+    ? answerOf(race)
+    : 'These results have no whole frames. Choose others at “Measured on”.';
   if (race) place.append(raceFigure(race, Math.max(leastWidth, place.clientWidth), commandOf(race)));
 }
 
@@ -99,12 +115,17 @@ function answerOf(race: Race): string {
   return `${formatCount(race.count)} things: a whole frame takes ${parts.filter(Boolean).join('; ')}.`;
 }
 
-function showScenes(races: readonly Race[]): void {
+function showScenes(scenes: readonly Race[]): void {
+  const races = filtered(scenes);
   const charts = find('charts');
   const columns = Math.max(1, Math.floor((charts.clientWidth + 24) / (480 + 24)));
   const width = Math.max(leastWidth, (charts.clientWidth - 24 * (columns - 1)) / columns);
+  const boxes = count.value ? ` with ${textOf(count)} boxes` : '';
+  allow(count, (number) => filtered(scenes, undefined, number).length > 0, `not measured in ${dimensions.value}D`);
+  allow(dimensions, (each) => filtered(scenes, each).length > 0, `not measured${boxes}`);
+  find('legend').hidden = races.length === 0;
   charts.replaceChildren(...races.map((race) => raceFigure(race, width, commandOf(race))));
-  note.textContent = races.length === 0 ? 'No scene of these results is of that kind.' : '';
+  if (races.length === 0) charts.append('These results have no scenes. Choose others at “Measured on”.');
 }
 
 /** The rows of one name with different numbers of boxes. */
@@ -118,8 +139,10 @@ function seriesOf(results: Results): Map<string, Race[]> {
   return found;
 }
 
+const linesOf = (races: readonly Race[]) => curves(races).filter(({ points }) => points.length > 1);
+
 function showGrowth(results: Results): void {
-  const lines = curves(seriesOf(results).get(scene.value) ?? []).filter(({ points }) => points.length > 1);
+  const lines = linesOf(seriesOf(results).get(scene.value) ?? []);
   const place = find('growth-chart');
   place.replaceChildren();
   if (lines.length === 0) return;
@@ -144,11 +167,24 @@ function showGrowth(results: Results): void {
   );
 }
 
-function showHeat(races: readonly Race[]): void {
-  const several = races.filter((race) => race.numbers === 'float32' && timed(race).length > 4);
-  find('heat').hidden = several.length === 0;
-  if (several.length === 0) return;
+/** What to choose where the scenes that are chosen were measured with a few techniques only. */
+function adviceToChoose(able: readonly Race[]): string {
+  const here = filtered(able, dimensions.value, '');
+  const counts = numbersOf(here).map(([, text]) => text);
+  const choose = counts.length > 0 ? `${counts.join(' or ')} boxes` : '2D and 3D, and any number of boxes';
+  return `The scenes chosen above were measured with a few techniques only. For all techniques, choose ${choose} at “Scene by scene”.`;
+}
+
+function showHeat(scenes: readonly Race[]): void {
+  const able = scenes.filter((race) => race.numbers === 'float32' && timed(race).length > 4);
+  const several = filtered(able);
   const place = find('heat-chart');
+  find('heat').hidden = able.length === 0;
+  place.hidden = several.length === 0;
+  if (several.length === 0) {
+    find('advice').textContent = adviceToChoose(able);
+    return;
+  }
   const chart = heat(several, Math.min(place.clientWidth, 900));
   asPicture(chart, 'A heat map; the table below says the same in words.');
   place.replaceChildren(chart);

@@ -82,6 +82,71 @@ test('growth has a line and a power for each contender, the heat map advice', as
   await expect(page.locator('#advice')).toContainText('best, or within 10 %');
 });
 
+test('no choice leads to nothing: what was not measured cannot be chosen, and says why', async ({ page }) => {
+  test.slow();
+  await openResults(page);
+  const menu = (id: string) => page.locator(`#${id}`);
+  const barred = (id: string) => menu(id).locator('option:disabled').allTextContents();
+  expect(await barred('dimensions')).toEqual(['3D: not measured with 100,000 boxes']);
+  await menu('count').selectOption('any number');
+  expect(await barred('dimensions')).toEqual([]);
+  await menu('dimensions').selectOption('3D');
+  expect(await barred('count')).toEqual(['1,000: not measured in 3D', '100,000: not measured in 3D']);
+
+  await page.reload();
+  await expect(page.locator('#growth')).toBeVisible();
+  for (const machine of await menu('machine').locator('option').allTextContents()) {
+    await menu('machine').selectOption(machine);
+    await menu('moves').selectOption('5 % move');
+    expect(await barred('things')).toContain('2,000: not measured if one in twenty moves');
+    await menu('moves').selectOption('all move');
+    await menu('things').selectOption('2000');
+    expect(await barred('moves')).toEqual(['one in twenty: not measured with 2,000 things']);
+    await menu('things').selectOption('1000');
+    const empty = await page.evaluate(() => {
+      const empty: string[] = [];
+      const of = (id: string) => document.querySelector<HTMLSelectElement>(`#${id}`)!;
+      const choices = (id: string) => [...of(id).options].filter(({ disabled }) => !disabled);
+      const choose = (id: string, value: string) => {
+        of(id).value = value;
+        of(id).dispatchEvent(new Event('change'));
+      };
+      const every = (first: string, second: string, look: () => boolean) => {
+        for (const { value } of [...of(first).options]) {
+          choose(second, choices(second)[0]!.value);
+          if (choices(first).every((each) => each.value !== value)) continue;
+          choose(first, value);
+          for (const each of choices(second)) {
+            choose(second, each.value);
+            if (!look()) empty.push(`${first} ${value}, ${second} ${each.value}`);
+          }
+        }
+      };
+      const full = (id: string) => document.querySelector(`#${id} svg`) !== null;
+      const told = () => /choose .* boxes/i.test(document.querySelector('#advice')!.textContent!);
+      every('things', 'moves', () => full('frame-chart'));
+      every('dimensions', 'count', () => full('charts') && (full('heat-chart:not([hidden])') || told()));
+      for (const { value } of choices('growth-scene')) {
+        choose('growth-scene', value);
+        if (!full('growth-chart')) empty.push(`growth-scene ${value}`);
+      }
+      return empty;
+    });
+    expect(empty).toEqual([]);
+    await menu('dimensions').selectOption('');
+  }
+});
+
+test('results without whole frames or scenes say so', async ({ page }) => {
+  await page.goto('/bench/');
+  await expect(page.locator('#growth')).toBeVisible();
+  const none = JSON.stringify({ date: '2026-01-01', machine: { cpu: 'none' }, rows: [] });
+  const buffer = Buffer.from(none);
+  await page.getByLabel('Your own results').setInputFiles({ name: 'none.json', mimeType: '', buffer });
+  await expect(page.locator('#frame-answer')).toHaveText(/no whole frames\. Choose others at “Measured on”/);
+  await expect(page.locator('#charts')).toHaveText(/no scenes\. Choose others at “Measured on”/);
+});
+
 test('the newest results are shown first, whichever file comes first', async ({ page }) => {
   for (const late of [/amd-/, /intel-/]) {
     await page.route(
