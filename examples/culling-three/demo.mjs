@@ -191,8 +191,8 @@ export const beltDemo =
         }, prepare);
       },
       actions: {
-        'Fly or stop': () => {
-          flying = !flying;
+        Fly() {
+          flying = true;
           wake();
         },
         'None move': setShare(0),
@@ -211,6 +211,9 @@ export const beltDemo =
         if (flying) angle += 20 * flight;
         flying = false;
         draw();
+      },
+      stop() {
+        flying = false;
       },
       get state() {
         return { belt, camera, culler, count: mesh.count, picked };

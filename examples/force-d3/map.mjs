@@ -134,6 +134,9 @@ export function mapDemo(stage, { wake, say }) {
       flight = undefined;
       zoomTo(fit().scale * 8, ...middle());
     },
+    stop() {
+      flight = undefined;
+    },
     get state() {
       return { labels, first, view, scales };
     },

@@ -181,6 +181,10 @@ export function nodesDemo(stage, { wake, say }) {
     settle() {
       if (!resting) make(enough);
     },
+    stop() {
+      resting = true;
+      untangling = false;
+    },
     get nodes() {
       return nodes;
     },

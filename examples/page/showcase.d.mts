@@ -5,6 +5,7 @@ export interface Demo {
   race(key: string): number;
   step(): boolean;
   settle(): void;
+  stop?(): void;
 }
 
 export type Show = (stage: HTMLElement, page: { wake(): void; say(text: string): void }) => Demo;

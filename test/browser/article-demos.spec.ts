@@ -334,6 +334,15 @@ test('with less motion asked for, pointing starts nothing, and a click does', as
   await expect(stage(figure)).toHaveAttribute('data-running', '');
 });
 
+test('what runs stops when less motion is asked for', async ({ page }) => {
+  await page.emulateMedia({ reducedMotion: 'no-preference' });
+  const figure = await open(page, 'fig-9');
+  await canvas(figure).hover();
+  await expect(stage(figure)).toHaveAttribute('data-running', '');
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await expect(stage(figure)).not.toHaveAttribute('data-running', '');
+});
+
 test.describe('by touch', () => {
   test.use({ viewport: { width: 375, height: 812 }, hasTouch: true });
 
@@ -342,6 +351,9 @@ test.describe('by touch', () => {
     await canvas(figure).tap();
     await expect(stage(figure)).toHaveAttribute('data-running', '');
     await expect.poll(() => counter(figure, 'entities')).toBe(105);
+    const hint = () =>
+      stage(figure).evaluate((place) => getComputedStyle(place.querySelector('.stage-hint')!, '::before').content);
+    expect(await hint()).toBe('"Tap elsewhere to stop"');
     await figure.locator('figcaption').tap();
     await expect(stage(figure)).not.toHaveAttribute('data-running', '');
   });

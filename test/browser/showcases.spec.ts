@@ -157,7 +157,12 @@ test.describe('by touch', () => {
         await touch.send('Input.dispatchTouchEvent', { type: step === 0 ? 'touchStart' : 'touchMove', touchPoints });
       }
       await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
-      await page.waitForTimeout(300);
+      // A page that still scrolls from a swipe would take the next finger too.
+      let [before, now] = [-1, 0];
+      while (before !== now) {
+        await page.waitForTimeout(400);
+        [before, now] = [now, await page.evaluate(() => scrollY)];
+      }
     };
     const look = async () => ({
       scroll: await page.evaluate(() => scrollY),
@@ -276,6 +281,51 @@ test('labels: zooming in shows more, panning changes none, and both finders agre
   await section.getByRole('button', { name: 'Zoom in' }).click();
   await expect(status).toContainText('at 1.6 times', patient);
 });
+
+/** What the canvases of a stage show, or where its nodes are. */
+const picture = (section: Locator) =>
+  section
+    .locator('.stage')
+    .evaluate((stage) =>
+      JSON.stringify([
+        Array.from(stage.querySelectorAll('canvas'), (canvas) => canvas.toDataURL()),
+        Array.from(stage.querySelectorAll<HTMLElement>('.react-flow__node'), (node) => node.style.transform),
+      ]),
+    );
+
+for (const [id, start] of [
+  ['nodes', ['Paste 500', 'Untangle']],
+  ['chart', ['2,000 rectangles']],
+  ['map', ['Fly']],
+  ['belt', ['Fly']],
+] as const) {
+  test(`${id}: what moves is stopped by a button, and by asking for less motion`, async ({ page }) => {
+    const section = await open(page, id, 'no-preference');
+    const stop = section.getByRole('button', { name: 'Stop' });
+    const go = async () => {
+      for (const name of start) await section.getByRole('button', { name, exact: true }).click();
+      await expect(stop).toHaveAttribute('aria-disabled', 'false');
+    };
+    const expectRest = async () => {
+      await expect(stop).toHaveAttribute('aria-disabled', 'true');
+      await page.waitForTimeout(300); // a frame may be on its way
+      const before = await picture(section);
+      await page.waitForTimeout(500);
+      expect(await picture(section)).toBe(before);
+    };
+    await expect(stop).toHaveAttribute('aria-disabled', 'true', patient);
+    await go();
+    const begun = await picture(section);
+    await expect.poll(() => picture(section), patient).not.toBe(begun);
+    await stop.focus();
+    await page.keyboard.press('Enter');
+    await expectRest();
+    await expect(stop).toBeFocused();
+    await go();
+    await page.emulateMedia({ reducedMotion: 'reduce' });
+    await expectRest();
+  });
+}
 
 test('the code of each is copied in one piece', async ({ page, context }) => {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);

@@ -6,6 +6,7 @@
 //   actions     functions by the label of their button
 //   step()      runs a frame; returns whether there is more to come
 //   settle()    runs all frames at once, if the visitor prefers reduced motion
+//   stop()      if there is something to forget when the visitor stops it
 
 const make = (name, properties, ...children) => {
   const element = Object.assign(document.createElement(name), properties);
@@ -33,19 +34,41 @@ export function time(work, prepare = () => {}) {
 export function runShowcase(show, stage, controls) {
   const still = matchMedia('(prefers-reduced-motion: reduce)');
   const status = make('p', { className: 'status', role: 'status' });
+  const stopper = make('button', { type: 'button', className: 'button', textContent: 'Stop' });
   let [request, onScreen, moving] = [0, true, false];
 
+  // Not disabled: it would lose the focus when all is at rest.
+  const setMoving = (now) => {
+    moving = now;
+    stopper.ariaDisabled = String(!moving);
+  };
+  setMoving(false);
   const frame = () => {
-    moving = demo.step();
+    setMoving(demo.step());
     request = moving && onScreen ? requestAnimationFrame(frame) : 0;
   };
   const wake = () => {
-    moving = true;
     if (still.matches) {
       cancelAnimationFrame(request);
-      request = requestAnimationFrame(() => demo.settle());
-    } else if (!request && onScreen) request = requestAnimationFrame(frame);
+      setMoving(false);
+      request = requestAnimationFrame(() => {
+        request = 0;
+        demo.settle();
+      });
+      return;
+    }
+    setMoving(true);
+    if (!request && onScreen) request = requestAnimationFrame(frame);
   };
+  const stop = () => {
+    if (!moving) return;
+    cancelAnimationFrame(request);
+    request = 0;
+    setMoving(false);
+    demo.stop?.();
+  };
+  stopper.addEventListener('click', stop);
+  still.addEventListener('change', () => moving && wake());
   const demo = show(stage, { wake, say: (text) => status.textContent !== text && status.replaceChildren(text) });
 
   const outputs = new Map();
@@ -79,7 +102,7 @@ export function runShowcase(show, stage, controls) {
   });
   const legend = make('legend', { textContent: demo.legend });
   controls.append(
-    make('div', { className: 'actions' }, ...buttons),
+    make('div', { className: 'actions' }, ...buttons, stopper),
     make('fieldset', { className: 'contenders' }, legend, ...rows),
     status,
   );

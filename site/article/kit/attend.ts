@@ -55,6 +55,7 @@ export function runWhileAttended(
   document.addEventListener('pointerdown', (event) => {
     if (!around.contains(event.target as Node)) run(false);
   });
+  still.addEventListener('change', () => prefersStill() && run(false));
 
   return {
     get running() {
