@@ -62,7 +62,7 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
 }
 
 /** The names of all options. */
-const optionNames: readonly (keyof BroadPhaseOptions)[] = [
+export const optionNames: readonly (keyof BroadPhaseOptions)[] = [
   'dimensions',
   'technique',
   'cellSize',

@@ -1,6 +1,7 @@
 // Sweeps in which each item meets many that start before it ends, few of which overlap it.
-// Idea: on the axes that are not swept, the items' bounds are also stored as cells of a 254th of the world, in 8 bits. Items whose cells do not touch
-// cannot overlap, so sixteen are rejected at a time, with two subtractions per axis that are above 0 where they miss.
+// Idea: on the axes that are not swept, the items' bounds are also stored as cells of a 254th of the world, in 8 bits.
+// Items whose cells do not touch cannot overlap, so sixteen are rejected at a time, with two subtractions per axis that
+// are above 0 where they miss.
 // Items that may overlap are collected without a branch, and tested exactly in batches.
 // Cost: about 2.2 (2D) or 2.5 (3D) ns for sixteen tests; 2 (2D) or 4 (3D) bytes an item.
 #pragma once

@@ -241,7 +241,7 @@ template <int D> class StripSweep {
     return extent > 0 ? smaller(1.0, larger(world.size[axis] / extent, 1e-3 / count)) : 1;
   }
 
-  /// The most tests with which the world stays one column, half as many again as are expected; 0 if it is cut.
+  /// The most tests with which the world stays one column, 1.5 times as many as are expected; 0 if it is cut.
   SMALL static f64 tests_alone(const SceneSample<D>& world, u32 count) {
     f64 met = world.crowding * count;  // by a box
     for (int a = 0; a < D; a++) met *= share(world, count, a);

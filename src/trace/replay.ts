@@ -1,6 +1,7 @@
 // Plays frames into a BroadPhase and measures each update.
 import { BroadPhase, type BroadPhaseOptions, type TechniqueName } from 'broadphase';
 import { checkBoolean, checkOptions } from '../errors.ts';
+import { optionNames } from '../options.ts';
 import { checkSpace } from '../watch.ts';
 import { type Difference, differenceOf, exactPairs, pairKeys } from './exact.ts';
 import { checkEach, checkLength, checkSource, type Frame, type FrameSource, marks, worldOf } from './format.ts';
@@ -121,16 +122,7 @@ function sameIds(a: Uint32Array | undefined, b: Uint32Array | undefined): boolea
 export type ReplayOptions = Omit<BroadPhaseOptions, 'dimensions'>;
 
 /** Their names. */
-export const spaceOptions: readonly (keyof ReplayOptions)[] = [
-  'technique',
-  'cellSize',
-  'bounds',
-  'wrap',
-  'touching',
-  'events',
-  'margin',
-  'capacity',
-];
+export const spaceOptions = optionNames.filter((name) => name !== 'dimensions');
 
 /** The time and the results of one update of a replay. */
 export interface ReplayedFrame {
