@@ -93,7 +93,7 @@ export class Input {
 
   /** One of the names, or several, separated by commas. */
   names<Name extends string>(name: string, known: readonly Name[]): Name[] | undefined {
-    const names = this.text(name)?.split(',');
+    const names = this.text(name)?.split(/ *, */);
     for (const each of names ?? []) {
       if (!known.includes(each as Name)) {
         throw new UsageError(`--${name}: no ${each || 'empty name'}, expected one of ${known.join(', ')}`);

@@ -32,14 +32,21 @@ export async function openSource(input: Input, terminal: Terminal): Promise<Sele
   const bytes = await readFile(path).catch((error: Error) => {
     throw new FileError(`cannot read ${path}: ${error.message}`);
   });
-  const source = await openAny(bytes, { salvage: input.has('salvage') }).catch((error: unknown) => {
-    if (error instanceof TraceError) error.message = `${path}: ${error.message}`;
+  const salvage = input.has('salvage');
+  const source = await openAny(bytes, { salvage }).catch(async (error: unknown) => {
+    if (error instanceof TraceError) error.message = `${path}: ${error.message}${salvage ? '' : await hintAt(bytes)}`;
     throw error;
   });
   const { fault } = source;
   if (fault) complain(terminal, `${path}: ${counted(source.frames, 'frame')} salvaged; ${fault.message}`);
   const range = input.text('frames');
   return range === undefined ? { source, first: 0 } : slice(source, range);
+}
+
+/** What `--salvage` would read of a trace that is broken, if anything. */
+async function hintAt(bytes: Uint8Array): Promise<string> {
+  const intact = await openAny(bytes, { salvage: true }).catch(() => undefined);
+  return intact?.frames ? `; --salvage reads ${counted(intact.frames, 'intact frame')}` : '';
 }
 
 export async function write(path: string, data: Uint8Array | string): Promise<void> {

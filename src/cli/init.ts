@@ -29,15 +29,15 @@ const manifestOf = (folder: string, spec: string) => ({
 });
 
 /**
- * The tarball that the surrounding project has installed, if any: for a package that is not on npm. The project is the
- * nearest folder, from the current one up, whose package.json names the package.
+ * The tarball or the clone that the surrounding project has installed, if any: for a package that is not on npm. The
+ * project is the nearest folder, from the current one up, whose package.json names the package.
  */
-async function tarballHere(): Promise<string | undefined> {
+async function installedHere(): Promise<string | undefined> {
   for (let folder = process.cwd(); ; folder = dirname(folder)) {
     const manifest = await readFile(join(folder, 'package.json'), 'utf8').catch(() => '');
     const [, spec] = /"broadphase"\s*:\s*"([^"]+)"/.exec(manifest) ?? [];
     if (spec !== undefined) {
-      const [, path] = /^file:(.+\.tgz)$/.exec(spec) ?? [];
+      const [, path] = /^file:(.+)$/.exec(spec) ?? [];
       return path !== undefined && existsSync(resolve(folder, path)) ? resolve(folder, path) : undefined;
     }
     if (dirname(folder) === folder) return undefined;
@@ -62,10 +62,10 @@ export const initCommand: Command = {
     const folder = resolve(name);
     const given = input.text('package');
     if (given !== undefined && !existsSync(given)) throw new FileError(`cannot read ${given}: there is no such file`);
-    const tarball = given ?? (await tarballHere());
+    const installed = given ?? (await installedHere());
     const there = await readdir(folder).catch(() => []);
     if (there.length > 0) throw new UsageError(`${name} is not empty, expected an empty or new folder`);
-    const spec = tarball === undefined ? `^${version}` : `file:${relative(folder, resolve(tarball))}`;
+    const spec = installed === undefined ? `^${version}` : `file:${relative(folder, resolve(installed))}`;
     try {
       await mkdir(folder, { recursive: true });
       await cp(starter!, folder, { recursive: true });

@@ -9,7 +9,7 @@ import { loadDuckDB } from './join/duckdb.ts';
 import { DataError, openSource, type Source } from './join/source.ts';
 import { type Plan, type TileStore, Work } from './join/work.ts';
 import { type Found, workerMark } from './join/worker.ts';
-import { bytes, number, progressBar } from './terminal.ts';
+import { bytes, counted, number, progressBar } from './terminal.ts';
 
 /** The share of the allowed memory for DuckDB; the rest is for Node and the tiles that are searched. */
 const databaseShare = 0.35;
@@ -73,6 +73,9 @@ export const joinCommand: Command = {
       throw new UsageError(`--memory is too little for ${threads} threads; expected more memory or fewer threads`);
     for (const each of paths) await mustExist(each);
     await checkWritable('<pairs>', result, paths, 'an input');
+    if (/\.(csv|tsv|json)(\.gz)?$/i.test(result)) {
+      throw new UsageError(`<pairs> is ${result}, expected a name that ends in .parquet: it is a Parquet file`);
+    }
 
     const work = await Work.open(loadDuckDB(), `${result}.join`, memory * databaseShare, threads);
     const progress = progressBar(terminal);
@@ -117,9 +120,11 @@ interface Facts {
 
 function told(path: string, { pairs, boxes, dimensions, tiles, resumed, seconds, peak }: Facts): string {
   const went = resumed > 0 ? `, ${resumed} of them done before` : '';
+  const [last] = boxes.slice(-1);
+  const all = [...boxes.slice(0, -1).map(number), counted(last, 'box')].join(' and ');
   return (
-    `${path}: ${number(pairs)} pairs of ${boxes.map(number).join(' and ')} boxes in ${dimensions}D\n` +
-    `${tiles} tiles${went}, ${number(seconds)} s, at most ${bytes(peak)} of memory\n`
+    `${path}: ${counted(pairs, 'pair')} of ${all} in ${dimensions}D\n` +
+    `${counted(tiles, 'tile')}${went}, ${number(seconds)} s, at most ${bytes(peak)} of memory\n`
   );
 }
 

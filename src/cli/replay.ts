@@ -9,7 +9,7 @@ import { bytes, complain, counted, number, progressBar, table, time } from './te
 export const techniqueHelp = BroadPhase.techniques.join(', ');
 
 export const cellSizeOption: Record<string, Option> = {
-  'cell-size': { value: 'size', help: 'the side of a cell, or one per axis, separated by commas' },
+  'cell-size': { value: 'size', help: 'the side of a cell, or one per axis, separated by commas; for grids' },
 };
 
 /** `--cell-size` as an option of BroadPhase. */

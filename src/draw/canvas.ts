@@ -1,7 +1,8 @@
 // A space on a 2D canvas. Paths are made in units of the world, under the transform that the context has, and stroked
 // without it: so lines are as thin at every zoom.
 import type { BroadPhase } from 'broadphase';
-import { bad, checkRay, checkSpace, Shapes, type Sink } from './shapes.ts';
+import { bad, checkRay, checkSpace } from './checks.ts';
+import { Shapes, type Sink } from './shapes.ts';
 
 /** The colours of what is drawn, as CSS has them. */
 export interface Colors {

@@ -4,6 +4,7 @@
 // exceed the memory. That space has the class of the space that is drawn, so that users of the small library do not get
 // the large one too.
 import type { BroadPhase } from 'broadphase';
+import { checkSpace } from './checks.ts';
 
 /** How many corners are queried in one call. */
 const atOnce = 1000;
@@ -13,12 +14,15 @@ const atOnce = 1000;
  * contains its lower corner, or in none. Slower than an update: a few hundredths of a second for 100,000 boxes, for an
  * `aabb-tree` seconds.
  *
+ * @throws TypeError for anything but a space
+ *
  * @example
  * const space = new BroadPhase({ technique: 'strip-sweep' });
  * space.setAll([0, 0, 10, 10, 5, 5, 15, 15]).update();
  * boxesInCells(space).length === space.structure().length / 4; // → true
  */
 export function boxesInCells(space: BroadPhase<2 | 3>): Uint32Array {
+  checkSpace('boxesInCells', space, space?.dimensions);
   const { dimensions } = space;
   const width = 2 * dimensions;
   const cells = space.structure().slice();

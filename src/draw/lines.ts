@@ -1,6 +1,7 @@
 // Line segments of what is in a space, for renderers that draw lines from one array.
 import type { BroadPhase } from 'broadphase';
-import { bad, checkRay, checkSpace, Shapes, type Sink } from './shapes.ts';
+import { bad, checkRay, checkSpace } from './checks.ts';
+import { Shapes, type Sink } from './shapes.ts';
 
 /** Whole segments, in 2D and 3D, as renderers want it of an array of points. */
 const firstRoom = 1020;
