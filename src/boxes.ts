@@ -112,7 +112,7 @@ function listIds(instance: KernelInstance): Uint32Array {
 export function countBoxes(where: string, boxes: Boxes, dimensions: Dimensions): number {
   const width = 2 * dimensions;
   if (boxes.length % width !== 0) {
-    badValue(`${where}: length`, boxes.length, `a multiple of ${width}, the numbers of a box in ${dimensions}D`);
+    badValue(`${where}: length`, boxes.length, `a multiple of ${width}: a flat array of ${dimensions}D boxes`);
   }
   return (boxes.length / width) | 0; // as an integer: a double returned from a call would be garbage
 }

@@ -2,6 +2,7 @@
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { BroadPhase, findPairs } from 'broadphase';
 import { boxesInCells } from 'broadphase/draw';
 import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
 import { runCommand } from '../support/command.ts';
@@ -73,4 +74,11 @@ test('boxesInCells says what it expects', () => {
   for (const wrong of [undefined, 7, {}]) {
     expect(() => boxesInCells(wrong as never)).toThrow(/^boxesInCells: got .*, expected a BroadPhase$/);
   }
+});
+
+test('boxes as arrays of their own, as box-intersect takes them, are told from flat ones', () => {
+  const nested = [[0, 0, 1, 1]] as never;
+  const expected = 'length: got 1, expected a multiple of 4: a flat array of 2D boxes';
+  expect(() => findPairs(nested)).toThrow(`findPairs: ${expected}`);
+  expect(() => new BroadPhase().setAll(nested)).toThrow(`setAll: ${expected}`);
 });
