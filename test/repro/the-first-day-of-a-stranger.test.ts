@@ -4,7 +4,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { BroadPhase, findPairs } from 'broadphase';
 import { boxesInCells } from 'broadphase/draw';
-import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, test, vi } from 'vitest';
 import { runCommand } from '../support/command.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'broadphase-'));
@@ -81,4 +81,36 @@ test('boxes as arrays of their own, as box-intersect takes them, are told from f
   const expected = 'length: got 1, expected a multiple of 4: a flat array of 2D boxes';
   expect(() => findPairs(nested)).toThrow(`findPairs: ${expected}`);
   expect(() => new BroadPhase().setAll(nested)).toThrow(`setAll: ${expected}`);
+});
+
+describe('the starter', () => {
+  afterEach(() => vi.unstubAllGlobals());
+
+  /** What its game draws half a second after the start, on a display of so many frames per second. */
+  async function drawnAt(hertz: number): Promise<number[][]> {
+    let drawn: number[][] = [];
+    let next: FrameRequestCallback = () => {};
+    const context = {
+      clearRect: () => (drawn = []),
+      fillRect: (...numbers: number[]) => drawn.push(numbers),
+      fillText: () => {},
+    };
+    const canvas = { width: 400, height: 600, getContext: () => context, addEventListener: () => {} };
+    vi.stubGlobal('document', { querySelector: () => canvas });
+    vi.stubGlobal('addEventListener', () => {});
+    vi.stubGlobal('requestAnimationFrame', (callback: FrameRequestCallback) => {
+      next = callback;
+    });
+    vi.spyOn(Math, 'random').mockReturnValue(0.1);
+    vi.resetModules();
+    await import('../../starter/src/main.ts');
+    for (let frame = 1; frame <= hertz / 2; frame++) next((1000 * frame) / hertz + 1);
+    return drawn;
+  }
+
+  test('is as fast on every display', async () => {
+    const drawn = await drawnAt(60);
+    expect(drawn.length).toBeGreaterThan(5);
+    expect(await drawnAt(120)).toEqual(drawn);
+  });
 });
