@@ -24,6 +24,7 @@ template <int D> class Incremental {
   u32 rested_ = 0;  // boxes at rest when a list last ended since more of them rest
   u32 age_ = 0;  // of the list, in updates
   bool ended_ = false;  // a new list is due
+  bool rejected_ = false;  // by the last measurements, no list pays
   f64 made_ = 0;  // work per box: of making the list
   f64 growth_ = 1, planned_ = 0;  // that was expected of the list; its work per box and update
   f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // since then: for late boxes; the running mean of that; in all
@@ -128,8 +129,10 @@ template <int D> class Incremental {
       pause_--;
       return false;
     }
+    if (list_.is_empty() && rejected_ && !watch_.is_judged()) return false;  // it would be the same plan
     Plan plan = choose(scene);
-    if (plan.work == __builtin_inf()) {
+    rejected_ = plan.work == __builtin_inf();
+    if (rejected_) {
       if (!list_.is_empty() || watch_.known() >= tuning.watched) give_up();
       return false;
     }
@@ -188,6 +191,7 @@ template <int D> class Incremental {
   SMALL void give_up() {
     forget();
     watch_.forget();
+    rejected_ = false;
     pause_ = pauses_;
     pauses_ = smaller(Watch<D>::longest * tuning.watched, pauses_ * 2);
   }
@@ -203,8 +207,7 @@ template <int D> class Incremental {
     life_ += late + least;
     age_++;
     if (least > prospect_.fresh || smooth_ * age_ > made_ + lateness_) return true;
-    f64 foretold = foretell(scene);
-    if (is_divided() && foretold * tuning.late_among(n) > most_lateness()) return true;
+    if (can_divide() && foretell(scene) * tuning.late_among(n) > most_lateness() && is_divided()) return true;
     if (age_ < tuning.watched) return false;
     // What this list has cost beyond its plan, such as for boxes that come and go, another one will cost as well.
     if (watch_.is_new() && choose(scene).work + larger(0.0, life_ / age_ - planned_) < smooth_ + least) return true;
@@ -225,8 +228,10 @@ template <int D> class Incremental {
     return foretold_ - surplus_;
   }
 
-  /// Whether the next list will be made in two updates. Among few boxes, most of the time goes into choosing a margin.
-  bool is_divided() const { return age_ >= tuning.divided && 2 * prospect_.planning < prospect_.fresh; }
+  /// Whether the next list will be made in two updates.
+  bool is_divided() const { return age_ >= tuning.divided && can_divide(); }
+  /// Whether that can pay: among few boxes, most of the time goes into choosing a margin.
+  bool can_divide() const { return 2 * prospect_.planning < prospect_.fresh; }
 
   /// Whether the list has cost less than rebuilds would have.
   bool has_paid() const { return life_ + made_ <= prospect_.fresh * age_; }

@@ -128,6 +128,8 @@ template <int D> class Watch {
   u32 known() const { return known_ ? 1u << (known_ - 1) : 0; }
   /// Whether new samples were taken in this update.
   bool is_new() const { return many_ > 0 && age_ == 0; }
+  /// Whether it was measured in this update how far boxes got.
+  bool is_judged() const { return (age_ & (age_ - 1)) == 0; }
   /// Forgets all measurements; the next `look` takes new samples.
   void forget() { many_ = known_ = 0; }
   SMALL void release() {
@@ -170,7 +172,7 @@ template <int D> class Watch {
     if (!fits) return begin(scene);
     age_++;
     Shift since;
-    bool judged = (age_ & (age_ - 1)) == 0;
+    bool judged = is_judged();
     if (common_ || judged) since = vote(scene);
     if (judged && judge(scene, since, size)) return begin(scene);
     if (!common_) since = {};
