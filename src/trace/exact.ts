@@ -1,5 +1,6 @@
 // The exact pairs, computed without the kernel, to check a replay. Sorts along one axis and sweeps, in doubles. A set
 // of pairs is a sorted Float64Array with one number per pair: the smaller id times 2^24, plus the larger.
+import { checkValues } from '../boxes.ts';
 import { badValue, checkBoolean, checkWrap } from '../errors.ts';
 import type { Own } from '../watch.ts';
 import { checkEach, checkLength, marks } from './format.ts';
@@ -12,8 +13,8 @@ const idLimit = 2 ** 24;
  * wraps around every two boxes are compared.
  *
  * @param given minima then maxima, box after box
- * @throws RangeError for other than 2 or 3 dimensions, for no size of a world, and if lengths do not fit; TypeError for no
- *   array
+ * @throws RangeError for other than 2 or 3 dimensions, for a box with NaN or a minimum above its maximum, for no size of a
+ *   world, and if lengths do not fit; TypeError for no array
  * @returns the sorted set of pairs, one number for each: the smaller id times 2^24, plus the larger
  *
  * @example
@@ -31,6 +32,7 @@ export function exactPairs(
   if (!Number.isInteger(Object(given).length)) badValue('boxes', given, 'an array of numbers', true);
   const count = Math.floor(given.length / (2 * dimensions));
   checkLength('boxes', given, 2 * dimensions * count);
+  checkValues('exactPairs', given, count, dimensions);
   checkEach('', count, ids, rules, own);
   if (wrap !== undefined) checkWrap(wrap, dimensions);
   const apart = (a: number, b: number) => (rules && !mayMeet(rules, 3 * a, 3 * b)) || areOne(own.groups, a, b);
