@@ -151,8 +151,8 @@ export function firstBad(
   return undefined;
 }
 
-/** As options of a space. */
-export const worldOf = ({ wrap, touching }: World): { wrap?: readonly number[]; touching?: boolean } => ({
-  ...(wrap && { wrap }),
-  ...(touching === false && { touching }),
-});
+/** As options of a space. Those `given` that are not undefined replace those of the source. */
+export const worldOf = (source: World, given: World = {}): { wrap?: readonly number[]; touching?: boolean } => {
+  const { wrap = source.wrap, touching = source.touching } = given;
+  return { ...(wrap && { wrap }), ...(touching === false && { touching }) };
+};

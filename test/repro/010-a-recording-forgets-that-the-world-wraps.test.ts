@@ -70,6 +70,18 @@ test.each([
   expect(frames.at(-1)?.pairs).toBe(pairs[3].length);
 });
 
+test('it is not forgotten for options that are undefined', () => {
+  const space = new BroadPhase({ wrap: [100, 50], touching: false });
+  const recording = record(space);
+  space.set(0, 98, 10, 103, 20).set(1, 1, 10, 5, 20).set(2, 5, 10, 9, 20).set(3, 9, 10, 12, 20).update();
+  const trace = openTrace(recording.bytes());
+  const left = { wrap: undefined, touching: undefined };
+  expect(replay(trace, left, true).next().value).toMatchObject({ pairs: 1, difference: null });
+  expect(replay(trace, { wrap: [1000, 50], touching: true }, true).next().value).toMatchObject({ pairs: 2 });
+  const [{ tests }] = compare(trace, { techniques: ['brute-force'], passes: 1 });
+  expect(compare(trace, { ...left, techniques: ['brute-force'], passes: 1 })[0].tests).toBe(tests);
+});
+
 test('the command converts, cuts and describes it', async () => {
   const folder = mkdtempSync(join(tmpdir(), 'wrap-'));
   const [from, to] = [join(folder, 'a.trace'), join(folder, 'b.trace')];
