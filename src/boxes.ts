@@ -126,7 +126,7 @@ function checkNumbers(where: string, boxes: ArrayLike<unknown>, count: number, d
 }
 
 /** Checks their values. */
-export function checkValues(where: string, boxes: ArrayLike<number>, count: number, dimensions: Dimensions): void {
+function checkValues(where: string, boxes: Boxes, count: number, dimensions: Dimensions): void {
   for (let k = 0; k < 2 * dimensions * count; k += k % dimensions === dimensions - 1 ? dimensions + 1 : 1) {
     if (!(boxes[k]! <= boxes[k + dimensions]!)) badBoxOf(where, boxes, Math.floor(k / 2 / dimensions), dimensions);
   }

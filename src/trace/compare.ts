@@ -57,7 +57,7 @@ export function compare(source: FrameSource, options: CompareOptions = {}): Comp
   checkProgress('compare', progress);
   const contenders = techniques.map((technique) => ({
     technique,
-    space: new BroadPhase({ ...settings, ...worldOf(source, settings), technique, dimensions: source.dimensions }),
+    space: new BroadPhase({ ...worldOf(source, settings), technique, dimensions: source.dimensions }),
     times: [] as number[],
     tests: 0,
     bytes: 0,

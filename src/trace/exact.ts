@@ -1,9 +1,8 @@
 // The exact pairs, computed without the kernel, to check a replay. Sorts along one axis and sweeps, in doubles. A set
 // of pairs is a sorted Float64Array with one number per pair: the smaller id times 2^24, plus the larger.
-import { checkValues } from '../boxes.ts';
 import { badValue, checkBoolean, checkWrap } from '../errors.ts';
 import type { Own } from '../watch.ts';
-import { checkEach, checkLength, marks } from './format.ts';
+import { checkBoxes, checkEach, checkLength, marks } from './format.ts';
 
 const idLimit = 2 ** 24;
 
@@ -32,7 +31,7 @@ export function exactPairs(
   if (!Number.isInteger(Object(given).length)) badValue('boxes', given, 'an array of numbers', true);
   const count = Math.floor(given.length / (2 * dimensions));
   checkLength('boxes', given, 2 * dimensions * count);
-  checkValues('exactPairs', given, count, dimensions);
+  checkBoxes('exactPairs', given, dimensions);
   checkEach('', count, ids, rules, own);
   if (wrap !== undefined) checkWrap(wrap, dimensions);
   const apart = (a: number, b: number) => (rules && !mayMeet(rules, 3 * a, 3 * b)) || areOne(own.groups, a, b);

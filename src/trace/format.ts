@@ -137,22 +137,25 @@ export function checkSource(where: string, given: unknown): void {
 }
 
 /** The first minimum that is above its maximum, or NaN, if any: its place, and its box in words. */
-export function firstBad(
-  boxes: Float32Array | Float64Array,
-  dimensions: number,
-): { at: number; what: string } | undefined {
+export function firstBad(boxes: ArrayLike<number>, dimensions: number): { at: number; what: string } | undefined {
   const width = 2 * dimensions;
   for (let box = 0; box < boxes.length; box += width) {
     for (let at = box; at < box + dimensions; at++) {
       if (boxes[at] <= boxes[at + dimensions]) continue;
-      return { at, what: `box ${box / width} is [${[...boxes.subarray(box, box + width)].join(', ')}]` };
+      return { at, what: `box ${box / width} is [${Array.prototype.slice.call(boxes, box, box + width).join(', ')}]` };
     }
   }
   return undefined;
 }
 
-/** As options of a space. Those `given` that are not undefined replace those of the source. */
-export const worldOf = (source: World, given: World = {}): { wrap?: readonly number[]; touching?: boolean } => {
+/** Throws if a minimum is above its maximum, or NaN. */
+export function checkBoxes(where: string, boxes: ArrayLike<number>, dimensions: number): void {
+  const bad = firstBad(boxes, dimensions);
+  if (bad) throw new RangeError(`${where}: ${bad.what}, expected minima not above maxima and no NaN`);
+}
+
+/** As options of a space, with those `given`, of which the ones that are not undefined replace those of the source. */
+export function worldOf<Options extends World = World>(source: World, given = {} as Options): NoInfer<Options> {
   const { wrap = source.wrap, touching = source.touching } = given;
-  return { ...(wrap && { wrap }), ...(touching === false && { touching }) };
-};
+  return { ...given, ...(wrap && { wrap }), ...(touching === false && { touching }) };
+}

@@ -169,7 +169,7 @@ export function* replay(source: FrameSource, options: ReplayOptions = {}, verify
   checkOptions('replay', options, spaceOptions);
   checkBoolean('replay: verify', verify);
   const { dimensions } = source;
-  const world: ReplayOptions = { ...options, ...worldOf(source, options) };
+  const world = worldOf(source, options);
   const space = new BroadPhase({ ...world, dimensions });
   for (const frame of source) {
     if (frame.index === 0) begin(space, frame, true);

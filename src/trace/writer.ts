@@ -5,9 +5,9 @@ import type { Own } from '../watch.ts';
 import { ByteWriter } from './bytes.ts';
 import { crc32 } from './crc32.ts';
 import {
+  checkBoxes,
   checkLength,
   doublesFlag,
-  firstBad,
   formatVersion,
   frameHeaderBytes,
   frameKind,
@@ -114,7 +114,7 @@ export class TraceWriter {
     if (!Number.isInteger(count) || count > maxBoxes) {
       throw new RangeError(`trace: ${boxes.length} numbers, expected ${width} for each of at most ${maxBoxes} boxes`);
     }
-    checkBoxes(boxes, this.dimensions);
+    checkBoxes('trace', boxes, this.dimensions);
     if (ids) checkIds(ids, count, this.#seen);
     checkEach('rules', rules, 'Uint32Array', count, 3);
     checkEach('groups', own.groups, 'Uint32Array', count);
@@ -318,11 +318,6 @@ function checkEach(name: string, numbers: ArrayLike<number> | undefined, kind: s
   if (numbers === undefined) return;
   checkKind(name, numbers, kind);
   checkLength(`trace: ${name}`, numbers, each * count);
-}
-
-function checkBoxes(boxes: Float32Array | Float64Array, dimensions: number): void {
-  const bad = firstBad(boxes, dimensions);
-  if (bad) throw new RangeError(`trace: ${bad.what}, expected minima not above maxima and no NaN`);
 }
 
 function checkIds(ids: ArrayLike<number>, count: number, seen: IdSet): void {
