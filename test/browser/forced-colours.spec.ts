@@ -118,6 +118,28 @@ for (const colorScheme of ['light', 'dark'] as const) {
       await expectMarked(label(':has(:checked)'), label(':not(:has(:checked))'));
     });
 
+    test('the reference: what was searched for is legible, the result and the page are marked', async ({ page }) => {
+      await page.goto('/api/classes/broadphase.BroadPhase.html');
+      const links = page.locator('.site-nav a');
+      await expectMarked(links.filter({ hasText: 'API' }), links.filter({ hasText: 'Guides' }));
+      const names = page.locator('.tsd-navigation a');
+      await expectMarked(
+        names.locator('xpath=self::*[contains(@class, "current")]').first(),
+        names.filter({ hasText: /^init$/ }),
+      );
+      await page.locator('#tsd-search-trigger').click();
+      await page.locator('#tsd-search-input').fill('queryb');
+      const results = page.locator('#tsd-search-results > li');
+      await expect(results.nth(1)).toBeVisible();
+      const mark = results.first().locator('mark');
+      const [background, , , colour] = await lookOf(mark);
+      expect(colour).not.toBe(background);
+      await page.keyboard.press('ArrowDown');
+      const chosen = page.locator('#tsd-search-results > [aria-selected="true"]');
+      await expectMarked(chosen, page.locator('#tsd-search-results > :not([aria-selected="true"])').first());
+      await expect(page.locator('#tsd-search')).not.toHaveCSS('border-top-width', '0px');
+    });
+
     test('the showcases: a node with the focus, and bars', async ({ page }) => {
       await page.goto('/showcases/#nodes');
       const nodes = page.locator('#nodes .react-flow__node');
