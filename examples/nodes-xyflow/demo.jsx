@@ -72,83 +72,120 @@ function shareFingers(stage) {
   stage.addEventListener('touchstart', share, { capture: true, passive: false });
 }
 
-/** The showcase: see examples/page/showcase.mjs. */
-export function nodesDemo(stage, { wake, say }) {
-  const by = { broadphase: separate, ...rivals };
-  const first = firstFlow();
-  let { nodes } = first;
-  let heap = withHeap(nodes);
-  let work = separate;
-  let relaxing = false;
-  /** Nothing moves after other nodes were given, until someone moves one or asks for it. */
-  let resting = true;
+/** Nodes that are shown again when others are given. */
+class Nodes {
+  #nodes;
+  #listeners = new Set();
+
+  constructor(nodes) {
+    this.#nodes = nodes;
+  }
+
+  get = () => this.#nodes;
+
+  show(nodes) {
+    this.#nodes = nodes;
+    for (const listener of this.#listeners) listener();
+  }
+
+  subscribe = (listener) => {
+    this.#listeners.add(listener);
+    return () => this.#listeners.delete(listener);
+  };
+}
+
+function Canvas({ nodes, edges, changed, started }) {
+  return (
+    <ReactFlow
+      nodes={useSyncExternalStore(nodes.subscribe, nodes.get)}
+      edges={edges}
+      nodeTypes={nodeTypes}
+      edgesFocusable={false}
+      onNodesChange={changed}
+      onInit={started}
+      colorMode="system"
+      minZoom={0.1}
+      preventScrolling={false}
+      fitView
+    >
+      <Background />
+    </ReactFlow>
+  );
+}
+
+const fixed = (node) => node.dragging === true;
+
+/** Moves nodes apart, some iterations a frame, by the contender who is chosen. */
+class Separation {
+  work = separate;
   /** Until none overlap; then all of them are brought into view, which dragging a node does not do. */
-  let untangling = false;
-  let flow;
-  const listeners = new Set();
-  const show = (next) => {
-    nodes = next;
-    for (const listener of listeners) listener();
-  };
-  const subscribe = (listener) => {
-    listeners.add(listener);
-    return () => listeners.delete(listener);
-  };
-  const fixed = (node) => node.dragging === true;
-  const make = (maxIterations) => {
+  untangling = false;
+  /** Nothing moves after other nodes were given, until someone moves one or asks for it. */
+  resting = true;
+  #nodes;
+  #say;
+  #fit;
+
+  constructor(nodes, say, fit) {
+    this.#nodes = nodes;
+    this.#say = say;
+    this.#fit = fit;
+  }
+
+  /** Returns whether there is more to come. */
+  run(maxIterations) {
+    if (this.resting) return false;
+    const nodes = this.#nodes.get();
     const started = performance.now();
-    const next = work(nodes, { padding, maxIterations, fixed });
+    const next = this.work(nodes, { padding, maxIterations, fixed });
     const taken = performance.now() - started;
     const apart = next === nodes;
-    relaxing = !apart || nodes.some(fixed);
-    if (!apart) show(next);
-    if (untangling && (apart || maxIterations === enough)) {
-      untangling = false;
-      fit();
+    if (!apart) this.#nodes.show(next);
+    if (this.untangling && (apart || maxIterations === enough)) {
+      this.untangling = false;
+      this.#fit();
     }
-    say(`${nodes.length} nodes; this step took ${taken.toFixed(2)} ms${apart ? '; none overlap' : ''}`);
-  };
+    this.#say(`${nodes.length} nodes; this step took ${taken.toFixed(2)} ms${apart ? '; none overlap' : ''}`);
+    return !apart || nodes.some(fixed);
+  }
+
+  stop() {
+    this.resting = true; // a frame of before may be on its way
+    this.untangling = false;
+  }
+}
+
+const by = { broadphase: separate, ...rivals };
+
+/** The showcase: see examples/page/showcase.mjs. */
+export function nodesDemo(stage, { wake, say }) {
+  const first = firstFlow();
+  const nodes = new Nodes(first.nodes);
+  let heap = withHeap(first.nodes);
+  let flow;
+  const fit = () => requestAnimationFrame(() => flow?.fitView({ padding: 0.08 }));
+  const separation = new Separation(nodes, say, fit);
   const run = () => {
-    resting = false;
+    separation.resting = false;
     wake();
   };
   const changed = (changes) => {
-    show(applyNodeChanges(changes, nodes));
+    nodes.show(applyNodeChanges(changes, nodes.get()));
     if (changes.some(({ type }) => type === 'position')) run();
   };
-
-  function Canvas() {
-    return (
-      <ReactFlow
-        nodes={useSyncExternalStore(subscribe, () => nodes)}
-        edges={first.edges}
-        nodeTypes={nodeTypes}
-        edgesFocusable={false}
-        onNodesChange={changed}
-        onInit={(instance) => {
-          flow = instance;
-        }}
-        colorMode="system"
-        minZoom={0.1}
-        preventScrolling={false}
-        fitView
-      >
-        <Background />
-      </ReactFlow>
-    );
-  }
+  const started = (instance) => {
+    flow = instance;
+  };
   shareFingers(stage);
-  createRoot(stage).render(<Canvas />);
+  createRoot(stage).render(<Canvas nodes={nodes} edges={first.edges} changed={changed} started={started} />);
 
-  const fit = () => requestAnimationFrame(() => flow?.fitView({ padding: 0.08 }));
   const start = (given) => {
-    relaxing = untangling = false;
-    resting = true; // a frame of before may be on its way
-    show(given);
+    separation.stop();
+    nodes.show(given);
     say(`${given.length} nodes`);
     fit();
   };
-  say(`${nodes.length} nodes, some over others: drag one, or press Untangle`);
+  say(`${first.nodes.length} nodes, some over others: drag one, or press Untangle`);
   return {
     legend: 'Ten iterations with 540 nodes, by',
     contenders: {
@@ -159,34 +196,25 @@ export function nodesDemo(stage, { wake, say }) {
       naive: 'every two',
     },
     use(key) {
-      work = by[key];
+      separation.work = by[key];
     },
     race: (key) => time(() => by[key](heap, { padding, maxIterations: 10 })),
     actions: {
       Untangle: () => {
-        untangling = true;
+        separation.untangling = true;
         run();
       },
       'Paste 500': () => {
-        heap = withHeap(nodes.slice(0, first.nodes.length));
-        start(withHeap(nodes));
+        heap = withHeap(nodes.get().slice(0, first.nodes.length));
+        start(withHeap(nodes.get()));
       },
       'Start over': () => start(first.nodes),
     },
-    step() {
-      if (resting) return false;
-      make(2);
-      return relaxing;
-    },
-    settle() {
-      if (!resting) make(enough);
-    },
-    stop() {
-      resting = true;
-      untangling = false;
-    },
+    step: () => separation.run(2),
+    settle: () => separation.run(enough),
+    stop: () => separation.stop(),
     get nodes() {
-      return nodes;
+      return nodes.get();
     },
   };
 }

@@ -30,47 +30,66 @@ export function time(work, prepare = () => {}) {
   return faster.reduce((sum, taken) => sum + taken, 0) / faster.length;
 }
 
-/** Runs a showcase in `stage`, with its controls in `controls`. */
-export function runShowcase(show, stage, controls) {
-  const still = matchMedia('(prefers-reduced-motion: reduce)');
-  const status = make('p', { className: 'status', role: 'status' });
-  const stopper = make('button', { type: 'button', className: 'button', textContent: 'Stop' });
-  let [request, onScreen, moving] = [0, true, false];
+/** The frames of a showcase: they run while something moves and is on the screen, and a button stops them. */
+class Frames {
+  /** To be set before the first of them runs. */
+  demo;
+  stopper = make('button', { type: 'button', className: 'button', textContent: 'Stop' });
+  #still = matchMedia('(prefers-reduced-motion: reduce)');
+  #request = 0;
+  #onScreen = true;
+  #moving = false;
 
-  // Not disabled: it would lose the focus when all is at rest.
-  const setMoving = (now) => {
-    moving = now;
-    stopper.ariaDisabled = String(!moving);
-  };
-  setMoving(false);
-  const frame = () => {
-    setMoving(demo.step());
-    request = moving && onScreen ? requestAnimationFrame(frame) : 0;
-  };
-  const wake = () => {
-    if (still.matches) {
-      cancelAnimationFrame(request);
-      setMoving(false);
-      request = requestAnimationFrame(() => {
-        request = 0;
-        demo.settle();
+  constructor() {
+    this.#setMoving(false);
+    this.stopper.addEventListener('click', () => this.#stop());
+    this.#still.addEventListener('change', () => this.#moving && this.wake());
+  }
+
+  wake = () => {
+    if (this.#still.matches) {
+      this.#cancel();
+      this.#request = requestAnimationFrame(() => {
+        this.#request = 0;
+        this.demo.settle();
       });
       return;
     }
-    setMoving(true);
-    if (!request && onScreen) request = requestAnimationFrame(frame);
+    this.#setMoving(true);
+    if (!this.#request && this.#onScreen) this.#request = requestAnimationFrame(this.#frame);
   };
-  const stop = () => {
-    if (!moving) return;
-    cancelAnimationFrame(request);
-    request = 0;
-    setMoving(false);
-    demo.stop?.();
-  };
-  stopper.addEventListener('click', stop);
-  still.addEventListener('change', () => moving && wake());
-  const demo = show(stage, { wake, say: (text) => status.textContent !== text && status.replaceChildren(text) });
 
+  show(onScreen) {
+    this.#onScreen = onScreen;
+    if (onScreen && this.#moving) this.wake();
+  }
+
+  #frame = () => {
+    this.#setMoving(this.demo.step());
+    this.#request = this.#moving && this.#onScreen ? requestAnimationFrame(this.#frame) : 0;
+  };
+
+  #stop() {
+    if (!this.#moving) return;
+    this.#cancel();
+    this.demo.stop?.();
+  }
+
+  #cancel() {
+    cancelAnimationFrame(this.#request);
+    this.#request = 0;
+    this.#setMoving(false);
+  }
+
+  /** The button is not disabled: it would lose the focus when all is at rest. */
+  #setMoving(now) {
+    this.#moving = now;
+    this.stopper.ariaDisabled = String(!now);
+  }
+}
+
+/** The contenders to choose from, each with its milliseconds, and what times them all. */
+function contendersOf(demo) {
   const outputs = new Map();
   const name = `contender-${Math.random().toString(36).slice(2)}`;
   const rows = Object.entries(demo.contenders).map(([key, label], k) => {
@@ -95,20 +114,27 @@ export function runShowcase(show, stage, controls) {
       }
     }
   };
+  const legend = make('legend', { textContent: demo.legend });
+  return { list: make('fieldset', { className: 'contenders' }, legend, ...rows), raceAll };
+}
+
+/** Runs a showcase in `stage`, with its controls in `controls`. */
+export function runShowcase(show, stage, controls) {
+  const status = make('p', { className: 'status', role: 'status' });
+  const frames = new Frames();
+  const say = (text) => status.textContent !== text && status.replaceChildren(text);
+  const demo = show(stage, { wake: frames.wake, say });
+  frames.demo = demo;
+  const { list, raceAll } = contendersOf(demo);
   const buttons = Object.entries({ ...demo.actions, 'Race again': raceAll }).map(([label, act]) => {
     const button = make('button', { type: 'button', className: 'button', textContent: label });
     button.addEventListener('click', act);
     return button;
   });
-  const legend = make('legend', { textContent: demo.legend });
-  controls.append(
-    make('div', { className: 'actions' }, ...buttons, stopper),
-    make('fieldset', { className: 'contenders' }, legend, ...rows),
-    status,
-  );
+  controls.append(make('div', { className: 'actions' }, ...buttons, frames.stopper), list, status);
   new IntersectionObserver((entries) => {
-    onScreen = entries.at(-1).isIntersecting;
-    if (onScreen && moving) wake();
+    const onScreen = entries.at(-1).isIntersecting;
+    frames.show(onScreen);
     if (onScreen && !demo.raced) {
       demo.raced = true;
       void raceAll();
