@@ -93,6 +93,9 @@ const phaser = new Phaser.Game({
   transparent: true,
   banner: false,
   audio: { noAudio: true },
+  // Within a page, it leaves the focus, the wheel and a finger that scrolls to the page.
+  autoFocus: false,
+  input: { mouse: { preventDefaultWheel: false }, touch: { capture: false } },
   scale: { mode: Phaser.Scale.FIT, autoCenter: Phaser.Scale.CENTER_BOTH },
   scene: Hell,
 });
@@ -105,9 +108,14 @@ function report() {
 }
 setInterval(() => playing && report(), 250);
 
-playButton(document.getElementById('play'), (now) => {
-  playing = now;
-});
+// From the first frame on. While it pauses, Phaser draws nothing either.
+phaser.events.once(Phaser.Core.Events.POST_RENDER, () =>
+  playButton(document.getElementById('play'), (now) => {
+    playing = now;
+    if (playing) phaser.loop.wake();
+    else phaser.loop.sleep();
+  }),
+);
 document.getElementById('plain').addEventListener('change', ({ target }) => {
   plain = target.checked;
   search.mean();

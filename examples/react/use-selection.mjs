@@ -32,6 +32,8 @@ export function useSelection(boxes) {
   const [state, put] = useReducer((old, change) => ({ ...old, ...change }), nothing);
   const { space } = useBroadPhase(boxes);
   const start = useRef(undefined);
+  /** What was selected before the band, if the page takes the finger to scroll. */
+  const undo = useRef(undefined);
 
   const within = (box) => {
     const started = performance.now();
@@ -48,6 +50,7 @@ export function useSelection(boxes) {
       if (event.button !== 0) return;
       event.currentTarget.setPointerCapture(event.pointerId);
       start.current = at(event);
+      undo.current = { selected: state.selected, active: state.active, anchor: state.anchor };
       const more = event.shiftKey || event.ctrlKey || event.metaKey;
       const { ids, took } = within(bandOf(start.current, start.current));
       const before = more ? state.selected : new Set();
@@ -61,7 +64,7 @@ export function useSelection(boxes) {
       put({ band, selected: both(state.before, ids), took });
     },
     onPointerUp: () => end(),
-    onPointerCancel: () => end(),
+    onPointerCancel: () => end(undo.current),
     onKeyDown(event) {
       const { key, shiftKey } = event;
       if (arrows[key]) move(arrows[key], shiftKey);
@@ -73,9 +76,9 @@ export function useSelection(boxes) {
     },
   };
 
-  function end() {
+  function end(change) {
     start.current = undefined;
-    put({ band: undefined });
+    put({ ...change, band: undefined });
   }
 
   /** Makes the next box in a direction the active one; with Shift, selects all between there and the anchor. */

@@ -1,5 +1,6 @@
 // npm i && npm start: balls bounce between walls and platforms; the button saves the recording so far.
 import Phaser from 'phaser';
+import { playButton } from './page/page.mjs';
 import { recordPhaser } from './record-phaser.mjs';
 
 const balls = 200;
@@ -25,13 +26,24 @@ class Bouncing extends Phaser.Scene {
   }
 }
 
-new Phaser.Game({
+const game = new Phaser.Game({
   type: Phaser.CANVAS,
   parent: 'game',
   scale: { mode: Phaser.Scale.FIT, autoCenter: Phaser.Scale.CENTER_BOTH, width: 640, height: 400 },
   transparent: true,
   banner: false,
   audio: { noAudio: true },
+  // Within a page, it leaves the focus, the wheel and a finger that scrolls to the page.
+  autoFocus: false,
+  input: { mouse: { preventDefaultWheel: false }, touch: { capture: false } },
   physics: { default: 'arcade', arcade: { gravity: { x: 0, y: 200 } } },
   scene: Bouncing,
 });
+
+// From the first frame on.
+game.events.once(Phaser.Core.Events.POST_RENDER, () =>
+  playButton(document.getElementById('play'), (playing) => {
+    if (playing) game.loop.wake();
+    else game.loop.sleep();
+  }),
+);

@@ -38,12 +38,39 @@ const frameOf = (name: string, page: string) => `
     <figcaption><a href="${rootFrom(page)}live/${name}/">Alone in the window</a>. ${waysTo(`examples/${name}`, manifest)}</figcaption>
   </figure>`;
 
+/**
+ * Within a page, an example leaves the visitor the page's scrolling: a finger that moves up or down, and the wheel until
+ * the example has been clicked. A finger sideways, and two fingers, are the example's. Libraries set touch-action on
+ * their canvas, hence the !important; what is dragged, as a note is, keeps its own.
+ */
+const framed: Plugin = {
+  name: 'framed',
+  transformIndexHtml: () => [
+    {
+      tag: 'style',
+      children: `
+        .framed .stage { touch-action: pan-y }
+        .framed .stage canvas { touch-action: pan-y !important }`,
+    },
+    {
+      tag: 'script',
+      children: `
+        if (parent !== window) {
+          document.documentElement.classList.add('framed');
+          const leave = (event) => event.ctrlKey || document.hasFocus() || event.stopImmediatePropagation();
+          addEventListener('wheel', leave, { capture: true, passive: true });
+        }`,
+    },
+  ],
+};
+
 let served: Promise<ViteDevServer> | undefined;
 
 /** A second server, started with the first request for an example. It reports changes through the site's own server. */
 const serve = (site: HttpServer) =>
   createServer({
     configFile,
+    plugins: [framed],
     base: '/live/',
     cacheDir: path('../../build/live'),
     logLevel: 'warn',
@@ -76,6 +103,7 @@ export const live: Plugin = {
     const input = Object.fromEntries(names.map((name) => [name, `${examples}${name}/index.html`]));
     await build({
       configFile,
+      plugins: [framed],
       base: './',
       logLevel: 'warn',
       build: {
