@@ -199,6 +199,7 @@ async function openAt(frame: number, look: readonly number[] | undefined, signal
   await recorder.end('Something else was opened. ', () => pilot.ask('recording'));
   signal.throwIfAborted();
   if (source.kind !== 'scene') say('Loading the recording.');
+  else if (frame > 0) say(`Making the frames before frame ${formatCount(frame)}.`);
   const now = await pilot.ask('open', source, frame);
   signal.throwIfAborted();
   opened = now;

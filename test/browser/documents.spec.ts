@@ -56,6 +56,27 @@ test('no page of the site asks others for anything', async ({ page, baseURL }) =
   expect(strangers).toEqual([]);
 });
 
+test('on paper no line of code and no column is cut off', async ({ page }) => {
+  await page.setViewportSize({ width: 718, height: 1000 }); // A4 within the margins of Chromium
+  await page.emulateMedia({ media: 'print' });
+  for (const address of [
+    'guides/queries/',
+    'guides/figures/',
+    'guides/worth-it/',
+    'guides/command/',
+    'examples/react/',
+  ]) {
+    await page.goto(address);
+    const blocks = page.locator('.document :is(pre, .scroll)');
+    expect(await blocks.count(), address).toBeGreaterThan(2);
+    const cut = await blocks.evaluateAll((all) =>
+      all.filter((each) => each.scrollWidth > each.clientWidth).map((each) => each.textContent!.slice(0, 40)),
+    );
+    expect(cut, address).toEqual([]);
+    await expect(page.locator('.site-nav')).toBeHidden();
+  }
+});
+
 for (const colorScheme of ['light', 'dark'] as const) {
   for (const [device, width, height] of [
     ['phone', 390, 844],
