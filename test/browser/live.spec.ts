@@ -119,6 +119,11 @@ test.describe('by touch', () => {
     await swipe(page, [stage.x + 20, stage.y + 40], [160, 60]);
     await expect.poll(() => inside.locator('[aria-selected=true]').count()).toBeGreaterThan(4);
     expect(await scrolled(page)).toBe(before);
+    const selected = await inside.locator('[aria-selected=true]').count();
+    const tile = (await inside.locator('.tile').first().boundingBox())!;
+    await swipe(page, [tile.x + 5, tile.y + 5], [0, 200]);
+    expect(await scrolled(page)).toBeLessThan(Math.max(1, before - 30));
+    await expect(inside.locator('[aria-selected=true]')).toHaveCount(selected);
 
     await openLive(page, 'vue');
     const note = inside.locator('.note').first();
