@@ -24,7 +24,6 @@ template <int D> class Incremental {
   u32 rested_ = 0;  // boxes at rest when a list last ended since more of them rest
   u32 age_ = 0;  // of the list, in updates
   bool ended_ = false;  // a new list is due
-  bool rejected_ = false;  // by the last measurements, no list pays
   f64 made_ = 0;  // work per box: of making the list
   f64 growth_ = 1, planned_ = 0;  // that was expected of the list; its work per box and update
   f64 lateness_ = 0, smooth_ = 0, life_ = 0;  // since then: for late boxes; the running mean of that; in all
@@ -129,10 +128,10 @@ template <int D> class Incremental {
       pause_--;
       return false;
     }
-    if (list_.is_empty() && rejected_ && !watch_.is_judged()) return false;  // it would be the same plan
+    if (list_.is_empty() && watch_.known() < tuning.watched && !watch_.is_judged())
+      return false;  // nothing new is known
     Plan plan = choose(scene);
-    rejected_ = plan.work == __builtin_inf();
-    if (rejected_) {
+    if (plan.work == __builtin_inf()) {
       if (!list_.is_empty() || watch_.known() >= tuning.watched) give_up();
       return false;
     }
@@ -191,7 +190,6 @@ template <int D> class Incremental {
   SMALL void give_up() {
     forget();
     watch_.forget();
-    rejected_ = false;
     pause_ = pauses_;
     pauses_ = smaller(Watch<D>::longest * tuning.watched, pauses_ * 2);
   }
