@@ -37,11 +37,11 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
   bounds?: OfAll<Technique, readonly number[]> | undefined;
   /**
    * The size of a world that wraps around, along each axis: what leaves it on one side enters on the other, as in
-   * Asteroids. Boxes may be given anywhere; those inside, from 0 to this size, cost least. Two are a pair if they
-   * overlap after both are shifted by whole worlds. A box as long as the world, or infinite, reaches all around. The
-   * numbers stay as they were given. Queries see a copy of each box in every repetition of the world, and return each
-   * box once: see the guide to queries. Numbers above 0, up to 1e300, which no box reaches: along that axis the world
-   * does not wrap. Default: the world is unbounded.
+   * Asteroids. Boxes may be given anywhere; those from 0 to this size, or from minus half of it to half of it, cost
+   * least. Two are a pair if they overlap after both are shifted by whole worlds. A box as long as the world, or
+   * infinite, reaches all around. The numbers stay as they were given. Queries see a copy of each box in every
+   * repetition of the world, and return each box once: see the guide to queries, also for worlds that wrap along one
+   * axis only. Numbers above 0, up to 1e300. Default: the world is unbounded.
    */
   wrap?: readonly number[] | undefined;
   /**

@@ -3,6 +3,7 @@
 // ghost of it, of what reaches across, is put at the other side: up to 2^D - 1 ghosts a box. Techniques search boxes
 // and ghosts alike. A pair may be found several times, also by its ghosts. It is kept only when found by the first of
 // these, per axis: the two boxes; the first and the other's ghost; the first's ghost and the other.
+// Along each axis the world begins at 0, or at minus half its size where that leaves more boxes as they were given.
 // Most boxes are at home: inside the world on all axes. Two of these meet as in any other world.
 // Exact: a box is its minimum modulo the world, which is exact, and its size as the sum of two doubles, which is too;
 // where rounding could matter, whether two of them touch is the sign of a sum of five doubles, found exactly.
@@ -15,18 +16,21 @@
 
 /// A box along one axis of a world that wraps around: from low + shift to low + shift + size + rest.
 struct Span {
-  f64 low, size, rest;  // low: in ]-world, world[
-  f64 shift;  // 0, or the world where low is negative
+  f64 low, size, rest;  // low: in ]-world, world[, or in [-world / 2, world / 2[ if the world begins there
+  f64 shift;  // 0, or the world where low is below its beginning
   bool full;  // it covers the whole axis
 
-  SMALL static Span of(f64 lo, f64 hi, f64 world) {
+  /// `from`: where the world begins, 0 or -world / 2.
+  SMALL static Span of(f64 lo, f64 hi, f64 world, f64 from = 0) {
     f64 size = hi - lo;
     f64 back = size - hi;  // -lo, as far as size holds it
     f64 rest = (hi - (size - back)) - (lo + back);
     // A box that is infinite, or as long as the world, covers the whole axis.
     if (!(size < world || (size == world && rest < 0))) return {0, world, 0, 0, true};
-    f64 low = lo >= 0 && lo < world ? lo : remainder(lo, world);
-    return {low, size, rest, low < 0 ? world : 0, false};
+    f64 low = lo >= from && lo < from + world ? lo : remainder(lo, world);
+    if (from < 0 && low >= from + world) low -= world;  // exact, as the sum below
+    if (from < 0 && low < from) low += world;
+    return {low, size, rest, low < from ? world : 0, false};
   }
 
   /// Whether it ends behind where another one begins that is shifted by `further`, a whole number of worlds; or just
@@ -98,6 +102,7 @@ class Wrap {
   const f32* given_ = nullptr;
   const f64* doubles_ = nullptr;
   const f64* world_ = nullptr;
+  f64 from_[3] = {};  // where the world begins
   u32 dimensions_ = 0, count_ = 0, ghosts_ = 0;
   bool changed_ = false;  // some box may have lost a ghost
   bool touching_ = true;
@@ -120,6 +125,7 @@ class Wrap {
     if (count > had) __builtin_memset(across_.data() + had, 0, count - had);
     boxes_.grow(u64(count) * 2 * dimensions + 4, 0);
     changed_ = had != count;
+    choose_beginning();
     place_all();
     if (changed_) keep_ghosts();
     write_ghosts();
@@ -174,15 +180,32 @@ class Wrap {
   }
 
  private:
+  static constexpr u32 least_looked_at = 32;  // boxes
   static constexpr u32 at_home = 8;  // beside the bits of up to three axes
+
+  /// Chooses where the world begins along each axis: at minus half its size if many more boxes are inside then.
+  SMALL void choose_beginning() {
+    for (u32 a = 0; a < dimensions_; a++) {
+      f64 world = world_[a];
+      i32 more = 0, looked = 0;
+      for (u32 k = 0; k < count_; k += 1 + count_ / (2 * least_looked_at), looked++) {
+        f64 lo = number(k, a), hi = number(k, dimensions_ + a);
+        more += (lo >= -world / 2 && hi < world / 2) - (lo >= 0 && hi < world);
+      }
+      from_[a] = 4 * more > looked ? -world / 2 : 0;
+    }
+  }
 
   /// Copies the boxes into the world, and notes which of them cross its border.
   NOINLINE void place_all() {
     const u32 width = 2 * dimensions_;
-    f32x4 below_first, below_last;
+    f32x4 above_first, above_last, below_first, below_last;
     for (u32 n = 0; n < 4; n++) {
-      below_first[n] = round_down(world_[n % dimensions_]);
-      below_last[n] = round_down(world_[(width - 4 + n) % dimensions_]);
+      u32 one = n % dimensions_, other = (width - 4 + n) % dimensions_;
+      above_first[n] = round_up(from_[one]);
+      above_last[n] = round_up(from_[other]);
+      below_first[n] = round_down(from_[one] + world_[one]);
+      below_last[n] = round_down(from_[other] + world_[other]);
     }
     f32* box = boxes_.data();
     for (u32 k = 0; k < count_; k++, box += width) {
@@ -190,8 +213,8 @@ class Wrap {
       f32x4 first = load<f32x4>(its), last = load<f32x4>(its + width - 4);
       store(box, first);
       store(box + width - 4, last);
-      bool home = bitmask((first > f32x4{}) & (first < below_first) & (last > f32x4{}) & (last < below_last)) == 15;
-      u32 now = home ? at_home : place(k, box), was = across_[k];
+      i32x4 inside = (first > above_first) & (first < below_first) & (last > above_last) & (last < below_last);
+      u32 now = bitmask(inside) == 15 ? at_home : place(k, box), was = across_[k];
       if (now == was) continue;
       across_[k] = u8(now);
       for (u32 some = now & 7; some; some = (some - 1) & now & 7) {  // a ghost for each subset of the axes
@@ -207,9 +230,9 @@ class Wrap {
   SMALL u32 place(u32 k, f32* box) const {
     u32 across = 0;
     for (u32 a = 0; a < dimensions_; a++) {
-      f64 lo = number(k, a), hi = number(k, dimensions_ + a), world = world_[a];
+      f64 lo = number(k, a), hi = number(k, dimensions_ + a), from = from_[a], until = from + world_[a];
       f32 low = doubles_ ? round_down(lo) : f32(lo), high = doubles_ ? round_up(hi) : f32(hi);
-      if (!(lo >= 0 && hi < world)) across |= u32(place(Span::of(lo, hi, world), world, low, high)) << a;
+      if (!(lo >= from && hi < until)) across |= u32(place(span(k, a), world_[a], until, low, high)) << a;
       box[a] = low;
       box[dimensions_ + a] = high;
     }
@@ -236,8 +259,8 @@ class Wrap {
       f32* ghost = boxes_.data() + (u64(count_) + g) * width;
       for (u32 a = 0; a < dimensions_; a++) {
         bool moved = some >> a & 1;
-        ghost[a] = moved ? 0 : of[a];
-        ghost[dimensions_ + a] = moved ? beyond(span(k, a), world_[a]) : of[dimensions_ + a];
+        ghost[a] = moved ? round_down(from_[a]) : of[a];
+        ghost[dimensions_ + a] = moved ? beyond(span(k, a), world_[a], from_[a]) : of[dimensions_ + a];
       }
     }
   }
@@ -266,14 +289,14 @@ class Wrap {
   }
 
   SMALL Span span(u32 k, u32 axis) const {
-    return Span::of(number(k, axis), number(k, dimensions_ + axis), world_[axis]);
+    return Span::of(number(k, axis), number(k, dimensions_ + axis), world_[axis], from_[axis]);
   }
 
   /// A bound for the rounding errors.
   static f64 slack(f64 world) { return world * 0x1p-50; }
 
-  /// The box moved into the world, rounded outward; returns whether it may cross the border.
-  SMALL static bool place(const Span& span, f64 world, f32& low, f32& high) {
+  /// The box moved into the world, which ends at `until`, rounded outward; returns whether it may cross the border.
+  SMALL static bool place(const Span& span, f64 world, f64 until, f32& low, f32& high) {
     if (span.full) {
       low = -__builtin_inff();
       high = __builtin_inff();
@@ -282,12 +305,12 @@ class Wrap {
     f64 more = slack(world), lo = span.low + span.shift, hi = lo + span.size;
     low = round_down(lo - more);
     high = round_up(hi + more);
-    return hi + more >= world;
+    return hi + more >= until;
   }
 
   /// The upper end of the ghost, rounded up.
-  static f32 beyond(const Span& span, f64 world) {
-    return round_up(larger(0.0, span.low + span.shift + span.size - world + 2 * slack(world)));
+  static f32 beyond(const Span& span, f64 world, f64 from) {
+    return round_up(larger(from, span.low + span.shift + span.size - world + 2 * slack(world)));
   }
 
   /// Whether these are the boxes or ghosts by which the pair is to be reported.

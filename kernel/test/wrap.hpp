@@ -24,12 +24,13 @@ template <int D> PairList wrapped_pairs(const Boxes<D>& boxes, const std::array<
 template <int D> void check_wrapped() {
   Random random(31);
   const std::array<i32, 3> world{40, 25, 33};
-  for (u32 count : {0, 1, 2, 7, 30, 200}) {
-    testing::Where where(std::to_string(count) + " boxes");
-    Boxes<D> boxes(count);
-    for (u32 k = 0; k < count; k++) {
+  // Boxes anywhere, or most of them in a world whose middle is the origin.
+  for (auto [count, worlds] : {std::pair{0, 4}, {1, 4}, {2, 4}, {7, 4}, {30, 4}, {200, 4}, {7, 1}, {30, 1}, {200, 1}}) {
+    testing::Where where(std::to_string(count) + " boxes in " + std::to_string(worlds) + " worlds");
+    Boxes<D> boxes{size_t(count)};
+    for (i32 k = 0; k < count; k++) {
       for (u32 a = 0; a < D; a++) {
-        boxes[k][a] = f64(random.below(4 * u32(world[a]))) - 2 * world[a];
+        boxes[k][a] = f64(random.below(u32(worlds * world[a]))) - worlds * world[a] / 2;
         boxes[k][D + a] = boxes[k][a] + random.below(k % 10 ? 6 : 2 * u32(world[a]));
       }
     }

@@ -27,9 +27,12 @@ function remember(key: string, find: () => Float64Array): Float64Array {
 
 describe(`in a world that wraps around (SEED=${seed})`, { tags: 'long' }, () => {
   test.each(combinations)('%s in %d dimensions finds the pairs of the reference', (technique, dimensions) => {
-    const boxes = aWorld.chain((world) => {
+    const boxes = fc.tuple(aWorld, fc.boolean()).chain(([world, middle]) => {
       const wrap = world.slice(0, dimensions);
-      return fc.record({ wrap: fc.constant(wrap), boxes: fc.array(aBox(wrap), { maxLength: 40, size: 'max' }) });
+      return fc.record({
+        wrap: fc.constant(wrap),
+        boxes: fc.array(aBox(wrap, middle), { maxLength: 40, size: 'max' }),
+      });
     });
     const property = fc.property(boxes, ({ wrap, boxes }) => {
       const space = new BroadPhase({ technique, dimensions, wrap });

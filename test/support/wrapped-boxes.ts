@@ -3,8 +3,11 @@ import fc from 'fast-check';
 
 export const aWorld = fc.constantFrom([10, 7, 4], [0.1, 0.3, 0.7], [1000, 1e-3, 3], [1, 1e-320, 1e300]);
 
-/** The start and length of a box along an axis of this length: mostly whole steps and borders, and hostile values. */
-function aSpan(world: number): fc.Arbitrary<[number, number]> {
+/**
+ * The start and length of a box along an axis of this length: mostly whole steps and borders, and hostile values.
+ * @param middle whether the origin is in the middle of the world
+ */
+function aSpan(world: number, middle: boolean): fc.Arbitrary<[number, number]> {
   const place = fc.oneof(
     { weight: 8, arbitrary: fc.integer({ min: 0, max: 9 }).map((tenths) => (world * tenths) / 10) },
     { weight: 3, arbitrary: fc.integer({ min: -30, max: 30 }).map((tenths) => (world * tenths) / 10) },
@@ -23,8 +26,13 @@ function aSpan(world: number): fc.Arbitrary<[number, number]> {
     },
     { weight: 1, arbitrary: fc.double({ min: 0, max: 1.1 * world, noNaN: true }) },
   );
-  return fc.tuple(place, length).map(([from, size]) => [from, Math.max(from, from + size) || from]);
+  return fc.tuple(place, length).map(([at, size]) => {
+    const from = middle ? at - world / 2 : at;
+    return [from, Math.max(from, from + size) || from];
+  });
 }
 
-export const aBox = (wrap: readonly number[]): fc.Arbitrary<number[]> =>
-  fc.tuple(...wrap.map(aSpan)).map((spans) => [...spans.map(([from]) => from), ...spans.map(([, to]) => to)]);
+export const aBox = (wrap: readonly number[], middle = false): fc.Arbitrary<number[]> =>
+  fc
+    .tuple(...wrap.map((world) => aSpan(world, middle)))
+    .map((spans) => [...spans.map(([from]) => from), ...spans.map(([, to]) => to)]);
