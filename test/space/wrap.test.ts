@@ -124,6 +124,20 @@ describe(`in a world that wraps around (SEED=${seed})`, { tags: 'long' }, () => 
     expect(space.set(1, 2e-17, 0, 0.5, 1).update().pairCount).toBe(0);
   });
 
+  test.each([
+    [0, [200, 200]],
+    [-50, [200, 200]],
+    [-50, [200, 1e300]],
+  ])('boxes from %d on in a world of %j are searched where they are', (from, wrap) => {
+    const random = createRandom(3);
+    const inside = () => from + 1 + random() * 95;
+    const boxes = Array.from({ length: 500 }, () => [inside(), inside()]).flatMap(([x, y]) => [x!, y!, x! + 3, y! + 3]);
+    const unbounded = new BroadPhase({ technique: 'strip-sweep' }).setAll(boxes).update();
+    const space = new BroadPhase({ technique: 'strip-sweep', wrap }).setAll(boxes).update();
+    expect(space.stats.tests).toBe(unbounded.stats.tests);
+    expect(space.pairCount).toBe(unbounded.pairCount);
+  });
+
   test('a ray goes once around, or up to its limit; too large a limit is refused by name', () => {
     const space = new BroadPhase({ wrap: [100, 50] }).set(1, 10, 10, 20, 20).update();
     expect(space.rayCast(50, 15, 1, 0)).toEqual({ id: 1, distance: 60, normal: [-1, 0] });
