@@ -180,7 +180,7 @@ class Wrap {
   }
 
  private:
-  static constexpr u32 least_looked_at = 32;  // boxes
+  static constexpr u32 most_looked_at = 64;  // boxes
   static constexpr u32 at_home = 8;  // beside the bits of up to three axes
 
   /// Chooses where the world begins along each axis: at minus half its size if many more boxes are inside then.
@@ -188,7 +188,7 @@ class Wrap {
     for (u32 a = 0; a < dimensions_; a++) {
       f64 world = world_[a];
       i32 more = 0, looked = 0;
-      for (u32 k = 0; k < count_; k += 1 + count_ / (2 * least_looked_at), looked++) {
+      for (u32 k = 0; k < count_; k += 1 + count_ / most_looked_at, looked++) {
         f64 lo = number(k, a), hi = number(k, dimensions_ + a);
         more += (lo >= -world / 2 && hi < world / 2) - (lo >= 0 && hi < world);
       }
