@@ -6,7 +6,7 @@
 // the answers equal those of testing box by box.
 // In a world that wraps around, the planes are shifted by whole worlds and the search is repeated, one turn per shift:
 // a box is tested at its place in the world and one world further along each axis, and taken in the first turn in which
-// it is behind no plane.
+// it is behind no plane. What is inside in the first turn needs no further test.
 // Cost, of 500,000 boxes in 3D: 0.03 ms for a view of 600 of them, 0.2 ms for 15,000, 1 ms for 66,000.
 // From: N. Greene, "Detecting Intersection of a Rectangular Solid and a Convex Polyhedron", Graphics Gems IV, 1994;
 // U. Assarsson and T. Möller, "Optimized View Frustum Culling Algorithms for Bounding Boxes", 2000.
@@ -28,10 +28,11 @@ template <int D> class PlaneQuery {
   const Index<D>& index_;
   const Planes<D>& planes_;
   f64 offset_[Planes<D>::most_planes];  // of the planes, shifted for the present turn
+  f64 doubt_[Planes<D>::most_planes] = {};  // a box further in front than that is so in spite of rounding errors
   const f64* const world_;  // its size if it wraps around, else null
   const f64 origin_[D] = {};
   Copies copies_;  // used only then: copies of the origin
-  u32 turn_ = 0;
+  u32 turn_ = 0, turns_seen_ = 1;  // turns in which some boxes may be in front, a bit each
   const Wanted<D> wanted_;
   const bool touching_;  // whether a box that only touches a plane from behind is in front of it
   const bool takes_all_;  // whether all boxes of a block that is inside are taken without tests
@@ -47,7 +48,7 @@ template <int D> class PlaneQuery {
         world_(index.world()),
         wanted_(index, asked),
         touching_(asked.touching),
-        takes_all_(wanted_.all() && !index.holes() && !world_) {
+        takes_all_(wanted_.all() && !index.holes()) {
     __builtin_memcpy(offset_, planes.offset, sizeof(offset_));
     if (world_) copies_.begin(world_, D, origin_, origin_);
   }
@@ -58,8 +59,10 @@ template <int D> class PlaneQuery {
   SMALL u32 search(u32& from, u32 most, Buffer<u32>& answers) {
     most_ = most;
     u32 places = index_.places(), turns = world_ ? Copies::turns(D) : 1;
+    if (world_) look_around();
     turn_ = world_ ? from / places : 0;
     for (from_ = from - turn_ * places; turn_ < turns; turn_++, from_ = 0) {
+      if (!(turns_seen_ >> turn_ & 1)) continue;
       if (world_) aim();
       if (walk(index_.top(), 0, (1u << planes_.count) - 1, answers)) continue;
       from = turn_ * places + from_;
@@ -70,6 +73,17 @@ template <int D> class PlaneQuery {
   }
 
  private:
+  /// Leaves out turns in which all boxes are behind a plane.
+  SMALL void look_around() {
+    turns_seen_ = 0;
+    for (turn_ = 0; turn_ < Copies::turns(D); turn_++) {
+      u32 front[Planes<D>::most_planes];
+      aim();
+      bool some = look(index_.block(index_.top(), 0), (1u << planes_.count) - 1, front);
+      turns_seen_ |= u32(some) << turn_;
+    }
+  }
+
   /// Shifts the planes for a turn, and moves them back a little, by a bound for the rounding errors.
   SMALL void aim() {
     copies_.take(turn_);
@@ -79,6 +93,7 @@ template <int D> class PlaneQuery {
         moved -= planes_.normal[p][a] * (copies_.turn(a) * world_[a]);
         size += __builtin_fabs(planes_.normal[p][a]) * 4 * world_[a];
       }
+      doubt_[p] = size * 0x1p-47;
       offset_[p] = moved + size * 0x1p-48;
     }
   }
@@ -104,7 +119,7 @@ template <int D> class PlaneQuery {
           hindmost += splat(normal) * __builtin_convertvector(load<f32x2>((up ? block.lo : block.hi)[a] + lane), f64x2);
         }
         foremost += splat(offset_[p]);
-        hindmost += splat(offset_[p]);
+        hindmost += splat(offset_[p] - doubt_[p]);
         left &= ~((touching_ ? below(foremost, f64x2{}) : at_most(foremost, f64x2{})) << lane);
         front[p] |= (touching_ ? at_most(f64x2{}, hindmost) : below(f64x2{}, hindmost)) << lane;
       }
@@ -136,15 +151,18 @@ template <int D> class PlaneQuery {
   /// found the box.
   SMALL u32 exactly_around(const f64* box) const {
     Copies at = copies_;
+    Copies::Home home = at.home_of(box);
     u32 least = behind;
-    for (u32 turn = 0; turn < Copies::turns(D); turn++) {
+    for (u32 left = turns_seen_; left; left &= left - 1) {
+      u32 turn = u32(__builtin_ctz(left));
       f64 copy[2 * D];
       at.take(turn);
-      at.copy(box, copy);
+      at.copy(home, box, copy);
       u32 cut = exactly(copy, (1u << planes_.count) - 1);
       if (turn < turn_ && cut != behind) return behind;
       if (turn == turn_ && cut == behind) return behind;
       if (least != 0 && cut != behind) least = cut;
+      if (least == 0 && turn >= turn_) return 0;  // the other turns change nothing
     }
     return least;
   }
@@ -170,7 +188,7 @@ template <int D> class PlaneQuery {
   }
 
   bool offer(u32 place, u32 cut, Buffer<u32>& answers) {
-    if (world_ || (cut && index_.rounded())) {
+    if (turn_ > 0 || (cut && index_.rounded())) {
       f64 box[2 * D];
       index_.box(place, box);
       cut = world_ ? exactly_around(box) : exactly(box, cut);
@@ -187,7 +205,7 @@ template <int D> class PlaneQuery {
   bool descend(u32 level, u32 child, u32 cut, Buffer<u32>& answers) {
     u32 first = child << (3 * level), end = smaller((child + 1) << (3 * level), index_.places());
     if (end <= from_) return true;
-    if (cut || !takes_all_) return walk(level - 1, child, cut, answers);
+    if (cut || turn_ > 0 || !takes_all_) return walk(level - 1, child, cut, answers);
     first = larger(first, from_);
     u32 taken = smaller(end - first, most_ - found_);
     answers.grow(u64(found_) + taken, found_);

@@ -40,7 +40,7 @@ template <int D> class Queries {
         names_(asked.layer ? index.slots() : index.ids()),
         wanted_(index, asked),
         all_wanted_(wanted_.all()) {
-    if (world_) copies_.begin(world_, D, asked.lo, asked.hi);
+    if (world_) begin_around();
   }
 
   /// The number of blocks visited.
@@ -55,7 +55,7 @@ template <int D> class Queries {
     // In a world that wraps around, each turn counts its places on from those of the turn before.
     u32 places = index_.places(), turn = world_ ? from / places : 0;
     for (from_ = from - turn * places; turn < turns(); turn++, from_ = 0) {
-      if (world_ && !copies_.take(turn)) continue;
+      if (world_ && !(copies_.take(turn) && copies_.may_meet())) continue;
       aim_area();
       if (walk(index_.top(), 0, answers)) continue;
       from = turn * places + from_;
@@ -93,6 +93,11 @@ template <int D> class Queries {
   }
 
  private:
+  SMALL void begin_around() {
+    copies_.begin(world_, D, asked_.lo, asked_.hi);
+    copies_.limit(reinterpret_cast<const f32*>(&index_.block(index_.top(), 0)), larger(0.0, asked_.radius));
+  }
+
   /// The bounds of the query, as searched in this turn.
   f64 low(int a) const { return world_ ? copies_.end(a, false) : asked_.lo[a]; }
   f64 high(int a) const { return world_ ? copies_.end(a, true) : asked_.hi[a]; }
@@ -384,27 +389,34 @@ template <int D> class Queries {
   /// How the moving box meets a box in a world that wraps around; false where it does not, or earlier in another turn.
   SMALL bool meets_around(const f64* box, u32 id, Hit& hit, f64 limit) const {
     f64 copy[2 * D];
-    copies_.copy(box, copy);
+    Copies::Home home = copies_.home_of(box);
+    copies_.copy(home, box, copy);
     if (!asked_.hits(copy, id, hit) || hit.rank > limit) return false;
     struct Others {
       const Queries& asks;
+      const Copies::Home& home;
       const f64* box;
       const Hit& hit;
       Copies at;
       bool first, before;
-    } others{*this, box, hit, copies_, true, true};
+    } others{*this, home, box, hit, copies_, true, true};
+    // Only what it meets by then can come first.
+    f64 until = hit.rank < asked_.limit ? hit.rank / asked_.limit + 1e-9 : 1;
     others.at.pass(
         reach_,
         [](void* given) {
-          auto& [asks, box, hit, at, first, before] = *static_cast<Others*>(given);
+          auto& [asks, home, box, hit, at, first, before] = *static_cast<Others*>(given);
+          if (at.same_turn(asks.copies_)) {
+            before = false;
+            return;
+          }
           f64 copy[2 * D];
           Hit other;
-          before &= !at.same_turn(asks.copies_);
-          at.copy(box, copy);
+          at.copy(home, box, copy);
           if (first && asks.asked_.hits(copy, hit.id & ~Hit::corner, other))
             first = !(other < hit) && (!before || hit < other);
         },
-        &others);
+        &others, 0, 0, until);
     return others.first;
   }
 

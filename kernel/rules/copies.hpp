@@ -5,7 +5,8 @@
 // of its first or nearest hit: so nothing comes twice, and nothing has to be remembered. Exact: touching is decided as
 // for pairs. Distances and times are those to the copy of a box with the numbers min + k * world and max + k * world,
 // computed in doubles.
-// Cost: up to 9 (2D) or 27 (3D) searches, most of which end at the root.
+// Cost: up to 9 (2D) or 27 (3D) searches, less those in which an area, a ray or a sweep is beside all boxes; about 60 ns
+// for each box that may be an answer.
 // One copy for 2D and 3D, since it is small code that counts here.
 #pragma once
 #include "rules/wrap.hpp"
@@ -18,8 +19,15 @@ class Copies {
   Span span_[3];
   f64 worlds_[3];  // how many worlds the query is away from `span_`
   f64 turn_[3];  // how many worlds it is shifted in this turn
+  f64 least_[3], most_[3];  // where the query may meet boxes; never beyond two worlds
 
  public:
+  /// A box: how many worlds it is away from where the index has it, along each axis, and whether it covers that.
+  struct Home {
+    f64 worlds[3];
+    bool full[3];
+  };
+
   /// The number of turns for areas and nearest boxes.
   static constexpr u32 turns(int axes) { return axes == 2 ? 9 : 27; }
 
@@ -37,6 +45,11 @@ class Copies {
   SMALL static void place(const f64* world, int axes, const f64* box, f32* to) {
     for (int a = 0; a < axes; a++) {
       f64 lo = box[a], hi = box[axes + a];
+      if (lo >= 0 && hi < world[a]) {
+        to[a] = round_down(lo);
+        to[axes + a] = round_up(hi);
+        continue;
+      }
       Span span = Span::of(lo, hi, world[a]);
       f64 at = span.low + span.shift, more = at == lo ? 0 : slack_of(lo, hi, world[a]);
       to[a] = span.full ? -__builtin_inff() : round_down(at - more);
@@ -53,6 +66,22 @@ class Copies {
       span_[a] = Span::of(lo[a], hi[a], world[a]);
       worlds_[a] = worlds_of(lo[a], span_[a], world[a]);
       turn_[a] = 0;
+      least_[a] = 0;
+      most_[a] = 2 * world[a];
+    }
+  }
+
+  /// Leaves out turns in which the query, `further` in all directions, meets none of the eight boxes of the root.
+  SMALL void limit(const f32* root, f64 further) {
+    for (int a = 0; a < axes_; a++) {
+      f64 lo = __builtin_inf(), hi = -lo;
+      for (int k = 8 * a; k < 8 * a + 8; k++) {
+        lo = smaller(lo, f64(root[k]));  // NaN is ignored
+        hi = larger(hi, f64(root[8 * axes_ + k]));
+      }
+      f64 more = further + (further + world_[a]) * 1e-9 + slack_of(lo_[a], hi_[a], 2 * world_[a]);
+      least_[a] = larger(least_[a], lo) - more;
+      most_[a] = smaller(most_[a], hi) + more;
     }
   }
 
@@ -65,6 +94,16 @@ class Copies {
     return true;
   }
 
+  /// Whether the query may meet boxes in this turn, if it does not move.
+  SMALL bool may_meet() const {
+    bool may = true;
+    for (int a = 0; a < axes_; a++) {
+      f64 low = span_[a].low + span_[a].shift + turn_[a] * world_[a];
+      may &= span_[a].full || (low <= most_[a] && low + span_[a].size >= least_[a]);
+    }
+    return may;
+  }
+
   /// Takes each turn in which a query that moves by `way` may meet boxes, and calls `at`.
   SMALL void pass(const f64* way, void (*at)(void*), void* given, int a = 0, f64 from = 0, f64 until = 1) {
     if (a == axes_) return at(given);
@@ -72,12 +111,13 @@ class Copies {
     constexpr f64 more = 1e-9;
     f64 world = world_[a], lo = span_[a].low + span_[a].shift, hi = lo + span_[a].size;
     f64 first = way[a] * from, last = way[a] * until;
-    f64 least = __builtin_ceil(-(hi + larger(first, last)) / world - more);
-    f64 most = __builtin_floor((2 * world - (lo + smaller(first, last))) / world + more);
-    for (f64 turn = least; turn <= most; turn++) {
+    f64 least = __builtin_ceil((least_[a] - (hi + larger(first, last))) / world - more);
+    f64 most = __builtin_floor((most_[a] - (lo + smaller(first, last))) / world + more);
+    for (f64 n = 0; n <= most - least; n++) {
+      f64 turn = way[a] > 0 ? most - n : least + n;  // in the order in which it enters the world
       f64 enter = from, leave = until;
       if (way[a] != 0) {
-        f64 one = (-hi - turn * world) / way[a], other = (2 * world - lo - turn * world) / way[a];
+        f64 one = (least_[a] - hi - turn * world) / way[a], other = (most_[a] - lo - turn * world) / way[a];
         f64 some = more * (1 + __builtin_fabs(one) + __builtin_fabs(other));
         enter = larger(enter, smaller(one, other) - some);
         leave = smaller(leave, larger(one, other) + some);
@@ -104,9 +144,19 @@ class Copies {
     return upper ? moved + span_[a].size + more : moved - more;
   }
 
+  SMALL Home home_of(const f64* box) const {
+    Home home;
+    for (int a = 0; a < axes_; a++) {
+      Span its = Span::of(box[a], box[axes_ + a], world_[a]);
+      home.worlds[a] = worlds_of(box[a], its, world_[a]);
+      home.full[a] = its.full;
+    }
+    return home;
+  }
+
   /// Shifts a box that was met in this turn to where the query was asked.
-  SMALL void copy(const f64* box, f64* to) const {
-    for (int a = 0; a < axes_; a++) copy(a, turn_[a], box, to[a], to[axes_ + a]);
+  SMALL void copy(const Home& home, const f64* box, f64* to) const {
+    for (int a = 0; a < axes_; a++) copy(a, turn_[a], home, box, to[a], to[axes_ + a]);
   }
 
   /// Whether the query overlaps a box, or contains it, in this turn and in no earlier one. `touching`: touching is
@@ -135,11 +185,12 @@ class Copies {
 
   /// The distance of a box along each axis; false if it is nearer in another turn.
   SMALL bool away(const f64* box, f64* to) const {
+    Home home = home_of(box);
     for (int a = 0; a < axes_; a++) {
       u32 best = 0;
       for (u32 n = 0; n < 3; n++) {
         f64 lo, hi;
-        copy(a, number_of(n), box, lo, hi);
+        copy(a, number_of(n), home, box, lo, hi);
         f64 apart = larger(0.0, larger(lo - hi_[a], lo_[a] - hi));
         if (n > 0 && apart >= to[a]) continue;
         to[a] = apart;
@@ -163,11 +214,10 @@ class Copies {
     return __builtin_floor((lo - span.low) / world + 0.5) - (span.shift > 0 ? 1 : 0);
   }
 
-  SMALL void copy(int a, f64 turn, const f64* box, f64& lo, f64& hi) const {
-    Span its = Span::of(box[a], box[axes_ + a], world_[a]);
-    f64 world = world_[a], moved = (worlds_[a] - worlds_of(box[a], its, world) - turn) * world;
-    lo = its.full ? -__builtin_inf() : box[a] + moved;
-    hi = its.full ? __builtin_inf() : box[axes_ + a] + moved;
+  void copy(int a, f64 turn, const Home& home, const f64* box, f64& lo, f64& hi) const {
+    f64 moved = (worlds_[a] - home.worlds[a] - turn) * world_[a];
+    lo = home.full[a] ? -__builtin_inf() : box[a] + moved;
+    hi = home.full[a] ? __builtin_inf() : box[axes_ + a] + moved;
   }
 
   SMALL bool touches(int a, const Span& its, f64 turn, bool holds, bool touching) const {

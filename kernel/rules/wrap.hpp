@@ -36,7 +36,10 @@ struct Span {
   /// Whether it ends behind where another one begins that is shifted by `further`, a whole number of worlds; or just
   /// there, if `touching` counts.
   SMALL bool reaches(const Span& other, f64 further, bool touching) const {
-    return is_below({other.low, -low, -size, -rest, other.shift - shift + further}, touching);
+    f64 shifted = other.shift - shift + further, about = other.low - low - size + shifted;
+    f64 all = __builtin_fabs(other.low) + __builtin_fabs(low) + size + __builtin_fabs(shifted);
+    if (__builtin_fabs(about) > all * 0x1p-48) return about < 0;
+    return is_below({other.low, -low, -size, -rest, shifted}, touching);
   }
 
   /// Whether it lies within another one that is shifted by `further`.

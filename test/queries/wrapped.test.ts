@@ -62,13 +62,16 @@ interface Met {
 class Copied extends Modelled {
   readonly wrap: readonly number[];
   readonly #whole: boolean;
+  /** Of the world along each axis, from 0 on: where boxes begin. */
+  readonly #part: number;
   /** What the last update saw. */
   seen: Entries = new Map();
 
-  constructor(wrap: readonly number[], seed: number, whole: boolean) {
+  constructor(wrap: readonly number[], seed: number, whole: boolean, part: number) {
     super({ dimensions: wrap.length, wrap } as never, seed);
     this.wrap = wrap;
     this.#whole = whole;
+    this.#part = part;
   }
 
   update(): void {
@@ -77,7 +80,7 @@ class Copied extends Modelled {
   }
 
   override box(): number[] {
-    return this.asked(this.pick(0, 0.05, 0.1, 0.1, 0.4, 0.9, 1.2));
+    return this.asked(this.#part * this.pick(0, 0.05, 0.1, 0.1, 0.4, 0.9, 1.2), this.#part);
   }
 
   isFull(box: readonly number[], axis: number): boolean {
@@ -204,11 +207,11 @@ class Copied extends Modelled {
     return from[this.integer(from.length)]!;
   }
 
-  /** Anywhere in the world, at times some worlds away, often in whole steps. */
-  point(): number[] {
+  /** Anywhere in this part of the world, at times some worlds away, often in whole steps. */
+  point(part = 1): number[] {
     const steps = 32;
     return this.wrap.map((size) => {
-      const at = this.#whole ? (this.integer(steps) * size) / steps : this.random() * size;
+      const at = this.#whole ? (this.integer(steps * part) * size) / steps : this.random() * size * part;
       return at + this.pick(0, 0, 0, 0, size, -size, -3 * size, 1000 * size);
     });
   }
@@ -216,8 +219,8 @@ class Copied extends Modelled {
     const reach = this.pick(0.2, 1, 1, 2.6);
     return this.wrap.map((size) => this.pick(0, 1, -1, this.random() - 0.5, 2 * this.random() - 1) * reach * size);
   }
-  asked(size = this.pick(0, 0.1, 0.4, 0.9, 1.2)): number[] {
-    const point = this.point();
+  asked(size = this.pick(0, 0.1, 0.4, 0.9, 1.2), part = 1): number[] {
+    const point = this.point(part);
     const box = [...point, ...point.map((x, a) => x + size * (this.#whole ? 1 : this.random()) * this.wrap[a]!)];
     if (this.random() < 0.03) box[this.integer(box.length)] = Number.NaN;
     return box.map((x, k) => (Number.isNaN(x) ? (k < point.length ? -Infinity : Infinity) : x));
@@ -321,12 +324,14 @@ const worlds = [
   [16, 8, 32],
 ];
 const cases = worlds.flatMap((world) =>
-  [2, 3].flatMap((d) => [true, false].map((whole) => [world.slice(0, d), whole] as const)),
+  [2, 3].flatMap((d) =>
+    ([true, false] as const).flatMap((whole) => [1, 0.25].map((part) => [world.slice(0, d), whole, part] as const)),
+  ),
 );
 
 describe(`what is near and ahead, in a world that wraps around (SEED=${seed})`, () => {
-  test.each(cases)('of %j, in whole steps: %s', { tags: 'long' }, (wrap, whole) => {
-    const scene = new Copied(wrap, seed, whole);
+  test.each(cases)('of %j, in whole steps: %s, boxes in %d of it', { tags: 'long' }, (wrap, whole, part) => {
+    const scene = new Copied(wrap, seed, whole, part);
     for (let round = 0; round < runs(12); round++) {
       for (let n = scene.pick(3, 40); n > 0; n--) scene.step();
       scene.update();
@@ -336,6 +341,36 @@ describe(`what is near and ahead, in a world that wraps around (SEED=${seed})`, 
       for (let n = 0; n < 3; n++) scene.query();
     }
   });
+});
+
+test.each([2, 3] as const)('the outermost boxes of a world that is mostly empty are found, in %iD', (dimensions) => {
+  const wrap = [64, 32, 128].slice(0, dimensions);
+  const aSpan = fc.tuple(
+    ...wrap.map((size) => fc.tuple(fc.nat(size), fc.nat(size / 8), fc.integer({ min: -2, max: 2 }))),
+  );
+  const property = fc.property(fc.array(aSpan, { minLength: 1, maxLength: 12 }), (spans) => {
+    const boxes = spans.map((axes) => [...axes.map(([at]) => at), ...axes.map(([at, long]) => at + long)]);
+    const space = new BroadPhase({ dimensions, wrap } as never).setAll(boxes.flat()).update();
+    const ask = space as unknown as Loose;
+    for (const [id, box] of boxes.entries()) {
+      for (const corner of [0, 1]) {
+        const worlds = spans[id]!.map(([, , away], a) => away * wrap[a]!);
+        const at = worlds.map((away, a) => away + box[a + corner * dimensions]!);
+        const aside = (far: number) => [at[0]! + (corner ? far : -far), ...at.slice(1)];
+        const back = wrap.map((_, a) => (a > 0 ? 0 : corner ? -3 : 3));
+        const ids = (answer: unknown) => (answer as { id: number }[]).map((hit) => hit.id);
+        expect(ask.queryPoint(...at)).toContain(id);
+        expect(ask.queryBox(...at, ...at)).toContain(id);
+        expect(ask[dimensions === 2 ? 'queryCircle' : 'querySphere'](...aside(3), 3)).toContain(id);
+        expect(ids(ask.rayCastAll(...at, ...back.map((x) => -x)))).toContain(id);
+        expect(ids(ask.rayCastAll(...aside(3), ...back, { maxDistance: 3 }))).toContain(id);
+        const met: number[] = [];
+        ask.sweep(...aside(3), ...aside(3), ...back, { visit: (other: number) => met.push(other) });
+        expect(met).toContain(id);
+      }
+    }
+  });
+  fc.assert(property, { seed, numRuns: runs(60) });
 });
 
 test.each([2, 3] as const)('a view of many boxes comes in parts, each box once, in %iD', (dimensions) => {
