@@ -13,15 +13,16 @@ const cellsLookedAt = 100;
 
 /** Draws pairs as lines, or clears those of before. */
 function drawLines(
-  context: CanvasRenderingContext2D,
+  canvas: HTMLCanvasElement,
   ends: Float32Array | undefined,
   { x, y, scale, width, height }: Camera,
 ): void {
+  const context = canvas.getContext('2d')!;
   context.clearRect(0, 0, width, height);
   if (!ends) return;
   const left = width / 2 - x * scale;
   const top = height / 2 + y * scale;
-  context.strokeStyle = getComputedStyle(context.canvas).color;
+  context.strokeStyle = getComputedStyle(canvas).color;
   context.lineWidth = Math.max(1, Math.min(2, devicePixelRatio));
   context.globalAlpha = 0.7;
   context.beginPath();
@@ -46,7 +47,6 @@ function mostAreSmaller({ drawn, cells }: Picture, size: number): boolean {
 /** The element holds two canvases, the upper one for lines. */
 export function createFlatView(element: HTMLElement, moved: () => void, kind?: RendererKind): LabView {
   const [canvas, upper] = element.querySelectorAll('canvas');
-  const above = upper.getContext('2d')!;
   const camera = new Camera();
   let picture: Picture | undefined;
   let world: World = [0, 0, 1, 1];
@@ -58,7 +58,7 @@ export function createFlatView(element: HTMLElement, moved: () => void, kind?: R
     if (!picture) return;
     const { drawn, slots, cells, boxes, lines } = picture;
     renderer.draw(drawn, slots, cells + boxes, camera);
-    drawLines(above, lines, camera);
+    drawLines(upper, lines, camera);
   };
   const redraw = () => {
     cancelAnimationFrame(awaited);
