@@ -158,19 +158,19 @@ function drawMap(map, { matrices }, culler, { position }, seen) {
 /** A showcase: see examples/page/showcase.mjs. */
 class BeltDemo {
   legend = 'A frame’s culling, without the drawing, by';
-  #stone = new IcosahedronGeometry(1, 0);
-  #share = 0.01;
-  #flying = false;
+  stone = new IcosahedronGeometry(1, 0);
+  share = 0.01;
+  flying = false;
 
   constructor(count, stage, { wake, say }) {
     this.say = say;
     this.belt = new Belt(count);
-    this.culler = new Culler(this.#stone, this.belt.matrices);
+    this.culler = new Culler(this.stone, this.belt.matrices);
     /** Who finds what is drawn. */
     this.user = this.culler;
     this.drawSoon = inNextFrame(() => this.#draw());
     stage.tabIndex = 0;
-    this.view = new View(stage, this.#stone, this.belt, this.culler, this.drawSoon);
+    this.view = new View(stage, this.stone, this.belt, this.culler, this.drawSoon);
     this.map = makeMap(stage);
     this.contenders = {
       broadphase: 'broadphase',
@@ -179,12 +179,12 @@ class BeltDemo {
       ...(count <= mostInTree && { tree: 'the tree of instanced-mesh' }),
     };
     const setShare = (share) => () => {
-      this.#share = share;
+      this.share = share;
       wake();
     };
     this.actions = {
       Fly: () => {
-        this.#flying = true;
+        this.flying = true;
         wake();
       },
       'None move': setShare(0),
@@ -195,7 +195,7 @@ class BeltDemo {
   }
 
   #contender(key) {
-    return key === 'broadphase' ? this.culler : new rivals[key](this.#stone, this.belt.matrices);
+    return key === 'broadphase' ? this.culler : new rivals[key](this.stone, this.belt.matrices);
   }
 
   use(key) {
@@ -207,7 +207,7 @@ class BeltDemo {
     const contender = this.#contender(key);
     let moved;
     const prepare = () => {
-      moved = this.belt.move(this.#share);
+      moved = this.belt.move(this.share);
       if (contender !== this.culler) tell(this.culler, moved.first, moved.many);
     };
     return time(() => {
@@ -218,10 +218,10 @@ class BeltDemo {
 
   /** Moves the stones by one frame, and the camera by some if it flies. */
   #move(frames) {
-    const { first, many } = this.belt.move(this.#share);
+    const { first, many } = this.belt.move(this.share);
     tell(this.culler, first, many);
     if (this.user !== this.culler) tell(this.user, first, many);
-    if (this.#flying) this.view.angle += frames * flight;
+    if (this.flying) this.view.angle += frames * flight;
   }
 
   #draw() {
@@ -231,7 +231,7 @@ class BeltDemo {
     const seen = user === culler ? ours : user.visible(view.camera);
     view.draw(seen);
     drawMap(this.map, belt, culler, view.camera, seen);
-    const [all, moving] = [whole.format(belt.count), whole.format(Math.round(this.#share * belt.count))];
+    const [all, moving] = [whole.format(belt.count), whole.format(Math.round(this.share * belt.count))];
     const pick = view.picked < 0 ? '' : `; stone ${whole.format(view.picked)} is under the pointer`;
     this.say(`${whole.format(seen.length)} of ${all} stones in view, ${moving} move in each frame${pick}`);
   }
@@ -239,17 +239,17 @@ class BeltDemo {
   step() {
     this.#move(1);
     this.#draw();
-    return this.#flying;
+    return this.flying;
   }
 
   settle() {
     this.#move(20);
-    this.#flying = false;
+    this.flying = false;
     this.#draw();
   }
 
   stop() {
-    this.#flying = false;
+    this.flying = false;
   }
 }
 

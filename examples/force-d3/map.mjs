@@ -67,7 +67,7 @@ class View {
     this.#changed();
   }
 
-  point() {}
+  point() {} // nothing is picked
 }
 
 /** Draws the labels in view: the names of those that are shown, dots for the others. Returns how many are shown. */

@@ -183,7 +183,7 @@ class Layout {
   moveGuest(x, y) {
     const side = Math.min(110, this.stage.clientWidth / 5);
     Object.assign(this.guest, { fx: x, fy: y, width: side, height: side });
-    this.simulation.force('collide').initialize(this.nodes);
+    this.simulation.force('collide').initialize(this.nodes); // it reads the sizes of all only then
     this.#stir(0.25);
   }
 
