@@ -9,6 +9,12 @@ export const dimensions = [2];
 /** Seconds. A step of 0 does nothing. */
 const instant = 1e-7;
 
+const isStill = (frame, previous, k) =>
+  frame[k] === previous[k] &&
+  frame[k + 1] === previous[k + 1] &&
+  frame[k + 2] === previous[k + 2] &&
+  frame[k + 3] === previous[k + 3];
+
 export async function create({ count, boxes, fixed = 0 }) {
   const b2 = await load();
   const worldDef = b2.b2DefaultWorldDef();
@@ -49,14 +55,7 @@ export async function create({ count, boxes, fixed = 0 }) {
   return {
     update(frame) {
       for (let id = 0, k = 0; id < count; id++, k += 4) {
-        if (
-          frame[k] === previous[k] &&
-          frame[k + 1] === previous[k + 1] &&
-          frame[k + 2] === previous[k + 2] &&
-          frame[k + 3] === previous[k + 3]
-        ) {
-          continue;
-        }
+        if (isStill(frame, previous, k)) continue;
         const width = frame[k + 2] - frame[k];
         const height = frame[k + 3] - frame[k + 1];
         if (resized(sizes[2 * id], width, frame[k + 2]) || resized(sizes[2 * id + 1], height, frame[k + 3])) {

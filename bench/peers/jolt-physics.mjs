@@ -10,8 +10,8 @@ const layer = 0;
 /** The bits of a body's id that are its index. */
 const indexBits = 0x7fffff;
 
-export async function create({ count, boxes }) {
-  const Jolt = await load();
+/** A physics system in which everything is in one layer. */
+function createSystem(Jolt, count) {
   const settings = new Jolt.JoltSettings();
   settings.mMaxBodies = count;
   settings.mObjectLayerPairFilter = new Jolt.ObjectLayerPairFilterTable(1);
@@ -24,8 +24,30 @@ export async function create({ count, boxes }) {
     settings.mObjectLayerPairFilter,
     1,
   );
-  const jolt = new Jolt.JoltInterface(settings);
-  const system = jolt.GetPhysicsSystem();
+  return new Jolt.JoltInterface(settings).GetPhysicsSystem();
+}
+
+/** Calls `hit` with the index of each body that a search finds. */
+function createCollector(Jolt, hit) {
+  const collector = new Jolt.CollideShapeBodyCollectorJS();
+  collector.Reset = () => {};
+  collector.SetContext = () => {};
+  collector.AddHit = (body) => hit(Jolt.HEAPU32[body >> 2] & indexBits);
+  return collector;
+}
+
+/** Whether the box at `at` is not as large as it was. */
+function grown(halves, id, boxes, at) {
+  for (let axis = 0; axis < 3; axis++) {
+    const size = (boxes[at + axis + 3] - boxes[at + axis]) / 2;
+    if (resized(halves[3 * id + axis], size, boxes[at + axis + 3])) return true;
+  }
+  return false;
+}
+
+export async function create({ count, boxes }) {
+  const Jolt = await load();
+  const system = createSystem(Jolt, count);
   const bodies = system.GetBodyInterface();
   const query = system.GetBroadPhaseQuery();
   const anyLayer = new Jolt.BroadPhaseLayerFilter();
@@ -51,14 +73,6 @@ export async function create({ count, boxes }) {
     return place;
   }
 
-  function grown(id, at) {
-    for (let axis = 0; axis < 3; axis++) {
-      const size = (boxes[at + axis + 3] - boxes[at + axis]) / 2;
-      if (resized(halves[3 * id + axis], size, boxes[at + axis + 3])) return true;
-    }
-    return false;
-  }
-
   const ids = new Uint32Array(count);
   const handles = Array.from({ length: count }, (_, id) => {
     const at = 6 * id;
@@ -79,17 +93,15 @@ export async function create({ count, boxes }) {
   system.OptimizeBroadPhase();
 
   let tell;
-  const collector = new Jolt.CollideShapeBodyCollectorJS();
-  collector.Reset = () => {};
-  collector.SetContext = () => {};
-  collector.AddHit = (body) => tell(ids[Jolt.HEAPU32[body >> 2] & indexBits]);
+  const collector = createCollector(Jolt, (index) => tell(ids[index]));
   const box = new Jolt.AABox();
   return movingPairs({
     dimensions: 3,
     count,
     boxes,
     move(id, at) {
-      if (grown(id, at)) bodies.SetShape(handles[id], shapeOf(id, at), false, Jolt.EActivation_DontActivate);
+      if (grown(halves, id, boxes, at))
+        bodies.SetShape(handles[id], shapeOf(id, at), false, Jolt.EActivation_DontActivate);
       bodies.SetPosition(handles[id], placeAt(at), Jolt.EActivation_DontActivate);
     },
     ready: () => system.OptimizeBroadPhase(),

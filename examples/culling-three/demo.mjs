@@ -19,7 +19,7 @@ import {
 } from 'three';
 import { Belt } from './belt.mjs';
 import { Culler } from './culler.mjs';
-import { time } from './page/showcase.mjs';
+import { inNextFrame, time } from './page/showcase.mjs';
 import { moveView } from './page/view.mjs';
 import { EachByThree, FlatSpheres, InstancedMeshTree, tell } from './rivals.mjs';
 
@@ -35,9 +35,9 @@ const [closest, widest] = [15, 75];
 const mapSize = 148;
 
 const whole = new Intl.NumberFormat('en');
-const makers = { broadphase: Culler, each: EachByThree, flat: FlatSpheres, tree: InstancedMeshTree };
+const rivals = { each: EachByThree, flat: FlatSpheres, tree: InstancedMeshTree };
 
-/** The scene without the stones: see `beltDemo`. */
+/** The scene without the stones. */
 function makeScene() {
   const scene = new Scene();
   const sun = new DirectionalLight(0xfff0dd, 2.6);
@@ -45,6 +45,87 @@ function makeScene() {
   scene.fog = new Fog(0, sight / 3, sight);
   scene.add(new HemisphereLight(0xdde6ff, 0x554433, 1.3), sun);
   return scene;
+}
+
+/** What a camera sees that flies in the middle of the belt. The pointer turns it, and picks a stone. */
+class View {
+  camera = new PerspectiveCamera(50, 1, 0.5, sight);
+  angle = 0;
+  /** The stone under the pointer, or -1. */
+  picked = -1;
+  #yaw = 0;
+  #pitch = -0.08;
+  #scene = makeScene();
+  #renderer = new WebGLRenderer({ antialias: true });
+  #ray = new Raycaster();
+  #mesh;
+  #marked;
+
+  constructor(stage, stone, belt, culler, changed) {
+    Object.assign(this, { stage, belt, culler, changed });
+    this.#renderer.domElement.setAttribute('aria-hidden', 'true');
+    stage.append(this.#renderer.domElement);
+    this.#mesh = new InstancedMesh(stone, new MeshLambertMaterial({ flatShading: true }), mostDrawn);
+    this.#mesh.frustumCulled = false; // it has only stones in view
+    this.#marked = new Mesh(stone, new MeshLambertMaterial({ color: 0xff7a1a, flatShading: true }));
+    this.#marked.matrixAutoUpdate = this.#marked.frustumCulled = false;
+    this.#scene.add(this.#mesh, this.#marked);
+    new ResizeObserver(() => this.#resize()).observe(stage);
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', changed);
+    moveView(stage, this);
+  }
+
+  #resize() {
+    const { clientWidth, clientHeight } = this.stage;
+    this.#renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.#renderer.setSize(clientWidth, clientHeight);
+    this.camera.aspect = clientWidth / Math.max(1, clientHeight);
+    this.camera.updateProjectionMatrix();
+    this.changed();
+  }
+
+  pan(dx, dy) {
+    this.#yaw -= 0.004 * dx;
+    this.#pitch = Math.max(-1.2, Math.min(1.2, this.#pitch + 0.004 * dy));
+    this.changed();
+  }
+
+  zoom(factor) {
+    this.camera.fov = Math.max(closest, Math.min(widest, this.camera.fov / factor));
+    this.camera.updateProjectionMatrix();
+    this.changed();
+  }
+
+  point(x, y) {
+    const { clientWidth, clientHeight } = this.stage;
+    this.#ray.setFromCamera(new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
+    const hit = this.culler.pick(this.#ray.ray);
+    this.picked = hit && hit.distance < sight ? hit.id : -1;
+    this.changed();
+  }
+
+  /** Puts the camera where it has flown to, and turns it. */
+  aim() {
+    this.camera.position.set(this.belt.radius * Math.cos(this.angle), 0, this.belt.radius * Math.sin(this.angle));
+    this.camera.rotation.set(this.#pitch, -this.angle - this.#yaw, 0, 'YXZ');
+    this.camera.updateMatrixWorld();
+  }
+
+  /** Draws the stones with these ids. */
+  draw(seen) {
+    const [from, to] = [this.belt.matrices, this.#mesh.instanceMatrix.array];
+    this.#mesh.count = Math.min(seen.length, mostDrawn);
+    for (let k = 0; k < this.#mesh.count; k++) {
+      for (let n = 0; n < 16; n++) to[16 * k + n] = from[16 * seen[k] + n];
+    }
+    this.#mesh.instanceMatrix.needsUpdate = true;
+    this.#marked.visible = this.picked >= 0;
+    if (this.picked >= 0) this.#marked.matrix.fromArray(from, 16 * this.picked).scale(new Vector3(1.05, 1.05, 1.05));
+    const page = new Color(getComputedStyle(document.body).backgroundColor);
+    this.#scene.fog.color = this.#scene.background = page;
+    this.#mesh.material.color.set(page.getHSL({}).l < 0.5 ? 0x8f9bd8 : 0x7f88b4);
+    this.#renderer.render(this.#scene, this.camera);
+  }
 }
 
 /** The canvas of the map, in a corner of the stage. */
@@ -57,166 +138,120 @@ function makeMap(stage) {
   return map.getContext('2d');
 }
 
-/** The showcase, with this many stones: see examples/page/showcase.mjs. */
-export const beltDemo =
-  (count) =>
-  (stage, { wake, say }) => {
-    const belt = new Belt(count);
-    const stone = new IcosahedronGeometry(1, 0);
-    const culler = new Culler(stone, belt.matrices);
-    let user = culler;
-    let [share, flying, angle, yaw, pitch] = [0.01, false, 0, 0, -0.08];
+/** Draws the stones around the camera as dots, those that it sees in another colour. */
+function drawMap(map, { matrices }, culler, { position }, seen) {
+  const dot = (id) => {
+    const at = (axis) => mapSize * (1 + (matrices[16 * id + 12 + axis] - position.getComponent(axis)) / sight);
+    map.fillRect(at(0) - 1, at(2) - 1, 2, 2);
+  };
+  const { color } = getComputedStyle(map.canvas);
+  map.clearRect(0, 0, 2 * mapSize, 2 * mapSize);
+  map.fillStyle = `color-mix(in srgb, ${color} 12%, transparent)`;
+  map.fillRect(0, 0, 2 * mapSize, 2 * mapSize);
+  map.fillStyle = `color-mix(in srgb, ${color} 35%, transparent)`;
+  const around = new Box3().setFromCenterAndSize(position, new Vector3(1, 1, 1).multiplyScalar(2 * sight));
+  for (const id of culler.within(around)) dot(id);
+  map.fillStyle = '#ff7a1a';
+  for (const id of seen) dot(id);
+}
 
-    const scene = makeScene();
-    const camera = new PerspectiveCamera(50, 1, 0.5, sight);
-    const renderer = new WebGLRenderer({ antialias: true });
-    renderer.domElement.setAttribute('aria-hidden', 'true');
-    stage.append(renderer.domElement);
-    const mesh = new InstancedMesh(stone, new MeshLambertMaterial({ flatShading: true }), mostDrawn);
-    mesh.frustumCulled = false; // it has only stones in view
-    const marked = new Mesh(stone, new MeshLambertMaterial({ color: 0xff7a1a, flatShading: true }));
-    marked.matrixAutoUpdate = marked.frustumCulled = marked.visible = false;
-    scene.add(mesh, marked);
-    const map = makeMap(stage);
-    const around = new Box3();
-    const ray = new Raycaster();
-    let picked = -1;
+/** A showcase: see examples/page/showcase.mjs. */
+class BeltDemo {
+  legend = 'A frame’s culling, without the drawing, by';
+  stone = new IcosahedronGeometry(1, 0);
+  share = 0.01;
+  flying = false;
 
-    function aim() {
-      camera.position.set(belt.radius * Math.cos(angle), 0, belt.radius * Math.sin(angle));
-      camera.rotation.set(pitch, -angle - yaw, 0, 'YXZ');
-      camera.updateMatrixWorld();
-    }
-    function move() {
-      const { first, many } = belt.move(share);
-      tell(culler, first, many);
-      if (user !== culler) tell(user, first, many);
-    }
-    function drawMap(seen) {
-      const dot = (id) => {
-        const at = (axis) =>
-          mapSize * (1 + (belt.matrices[16 * id + 12 + axis] - camera.position.getComponent(axis)) / sight);
-        map.fillRect(at(0) - 1, at(2) - 1, 2, 2);
-      };
-      const { color } = getComputedStyle(stage);
-      map.clearRect(0, 0, 2 * mapSize, 2 * mapSize);
-      map.fillStyle = `color-mix(in srgb, ${color} 12%, transparent)`;
-      map.fillRect(0, 0, 2 * mapSize, 2 * mapSize);
-      map.fillStyle = `color-mix(in srgb, ${color} 35%, transparent)`;
-      const reach = new Vector3(sight, sight, sight);
-      for (const id of culler.within(around.setFromCenterAndSize(camera.position, reach.multiplyScalar(2)))) dot(id);
-      map.fillStyle = '#ff7a1a';
-      for (const id of seen) dot(id);
-    }
-    function draw() {
-      aim();
-      const ours = culler.visible(camera); // also for the map and the pointer
-      const seen = user === culler ? ours : user.visible(camera);
-      mesh.count = Math.min(seen.length, mostDrawn);
-      const to = mesh.instanceMatrix.array;
-      for (let k = 0; k < mesh.count; k++) {
-        for (let n = 0; n < 16; n++) to[16 * k + n] = belt.matrices[16 * seen[k] + n];
-      }
-      mesh.instanceMatrix.needsUpdate = true;
-      marked.visible = picked >= 0;
-      if (picked >= 0) marked.matrix.fromArray(belt.matrices, 16 * picked).scale(new Vector3(1.05, 1.05, 1.05));
-      const page = new Color(getComputedStyle(document.body).backgroundColor);
-      scene.fog.color = scene.background = page;
-      mesh.material.color.set(page.getHSL({}).l < 0.5 ? 0x8f9bd8 : 0x7f88b4);
-      renderer.render(scene, camera);
-      drawMap(seen);
-      const pick = picked < 0 ? '' : `; stone ${whole.format(picked)} is under the pointer`;
-      say(
-        `${whole.format(seen.length)} of ${whole.format(count)} stones in view, ${whole.format(Math.round(share * count))} move in each frame${pick}`,
-      );
-    }
-    let request = 0;
-    const drawSoon = () => {
-      cancelAnimationFrame(request);
-      request = requestAnimationFrame(draw);
+  constructor(count, stage, { wake, say }) {
+    this.say = say;
+    this.belt = new Belt(count);
+    this.culler = new Culler(this.stone, this.belt.matrices);
+    /** Who finds what is drawn. */
+    this.user = this.culler;
+    this.drawSoon = inNextFrame(() => this.#draw());
+    stage.tabIndex = 0;
+    this.view = new View(stage, this.stone, this.belt, this.culler, this.drawSoon);
+    this.map = makeMap(stage);
+    this.contenders = {
+      broadphase: 'broadphase',
+      each: 'each, as BatchedMesh does',
+      flat: 'a loop over spheres',
+      ...(count <= mostInTree && { tree: 'the tree of instanced-mesh' }),
     };
-    const setShare = (wanted) => () => {
-      share = wanted;
+    const setShare = (share) => () => {
+      this.share = share;
       wake();
     };
-    stage.tabIndex = 0;
-    moveView(stage, {
-      pan(dx, dy) {
-        yaw -= 0.004 * dx;
-        pitch = Math.max(-1.2, Math.min(1.2, pitch + 0.004 * dy));
-        drawSoon();
+    this.actions = {
+      Fly: () => {
+        this.flying = true;
+        wake();
       },
-      zoom(factor) {
-        camera.fov = Math.max(closest, Math.min(widest, camera.fov / factor));
-        camera.updateProjectionMatrix();
-        drawSoon();
-      },
-      point(x, y) {
-        ray.setFromCamera(new Vector2((2 * x) / stage.clientWidth - 1, 1 - (2 * y) / stage.clientHeight), camera);
-        const hit = culler.pick(ray.ray);
-        picked = hit && hit.distance < sight ? hit.id : -1;
-        drawSoon();
-      },
-    });
-    new ResizeObserver(() => {
-      renderer.setPixelRatio(Math.min(2, devicePixelRatio));
-      renderer.setSize(stage.clientWidth, stage.clientHeight);
-      camera.aspect = stage.clientWidth / Math.max(1, stage.clientHeight);
-      camera.updateProjectionMatrix();
-      drawSoon();
-    }).observe(stage);
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawSoon);
-    return {
-      legend: 'A frame’s culling, without the drawing, by',
-      contenders: {
-        broadphase: 'broadphase',
-        each: 'each, as BatchedMesh does',
-        flat: 'a loop over spheres',
-        ...(count <= mostInTree && { tree: 'the tree of instanced-mesh' }),
-      },
-      use(key) {
-        user = key === 'broadphase' ? culler : new makers[key](stone, belt.matrices);
-        drawSoon();
-      },
-      race(key) {
-        const contender = key === 'broadphase' ? culler : new makers[key](stone, belt.matrices);
-        let moved;
-        const prepare = () => {
-          moved = belt.move(share);
-          if (contender !== culler) tell(culler, moved.first, moved.many);
-        };
-        return time(() => {
-          tell(contender, moved.first, moved.many);
-          contender.visible(camera);
-        }, prepare);
-      },
-      actions: {
-        Fly() {
-          flying = true;
-          wake();
-        },
-        'None move': setShare(0),
-        '1 % move': setShare(0.01),
-        '10 % move': setShare(0.1),
-        'All move': setShare(1),
-      },
-      step() {
-        move();
-        if (flying) angle += flight;
-        draw();
-        return flying;
-      },
-      settle() {
-        move();
-        if (flying) angle += 20 * flight;
-        flying = false;
-        draw();
-      },
-      stop() {
-        flying = false;
-      },
-      get state() {
-        return { belt, camera, culler, count: mesh.count, picked };
-      },
+      'None move': setShare(0),
+      '1 % move': setShare(0.01),
+      '10 % move': setShare(0.1),
+      'All move': setShare(1),
     };
-  };
+  }
+
+  #contender(key) {
+    return key === 'broadphase' ? this.culler : new rivals[key](this.stone, this.belt.matrices);
+  }
+
+  use(key) {
+    this.user = this.#contender(key);
+    this.drawSoon();
+  }
+
+  race(key) {
+    const contender = this.#contender(key);
+    let moved;
+    const prepare = () => {
+      moved = this.belt.move(this.share);
+      if (contender !== this.culler) tell(this.culler, moved.first, moved.many);
+    };
+    return time(() => {
+      tell(contender, moved.first, moved.many);
+      contender.visible(this.view.camera);
+    }, prepare);
+  }
+
+  /** Moves the stones by one frame, and the camera by some if it flies. */
+  #move(frames) {
+    const { first, many } = this.belt.move(this.share);
+    tell(this.culler, first, many);
+    if (this.user !== this.culler) tell(this.user, first, many);
+    if (this.flying) this.view.angle += frames * flight;
+  }
+
+  #draw() {
+    const { belt, culler, user, view } = this;
+    view.aim();
+    const ours = culler.visible(view.camera); // also for the map and the pointer
+    const seen = user === culler ? ours : user.visible(view.camera);
+    view.draw(seen);
+    drawMap(this.map, belt, culler, view.camera, seen);
+    const [all, moving] = [whole.format(belt.count), whole.format(Math.round(this.share * belt.count))];
+    const pick = view.picked < 0 ? '' : `; stone ${whole.format(view.picked)} is under the pointer`;
+    this.say(`${whole.format(seen.length)} of ${all} stones in view, ${moving} move in each frame${pick}`);
+  }
+
+  step() {
+    this.#move(1);
+    this.#draw();
+    return this.flying;
+  }
+
+  settle() {
+    this.#move(20);
+    this.flying = false;
+    this.#draw();
+  }
+
+  stop() {
+    this.flying = false;
+  }
+}
+
+/** The showcase, with this many stones. */
+export const beltDemo = (count) => (stage, tools) => new BeltDemo(count, stage, tools);

@@ -92,7 +92,14 @@ function keepWithin(nodes, width, height) {
   }
 }
 
+const contenders = {
+  broadphase: 'broadphase',
+  rbush: 'rbush',
+  quadtree: 'a quadtree',
+  circles: 'forceCollide, circles around',
+};
 const colliders = { broadphase: forceCollideRect, ...rivals };
+const colliderOf = (key) => colliders[key](widthOf, heightOf, padding);
 
 /** How many pairs of rectangles overlap by more than half a pixel. */
 function overlapsOf(nodes) {
@@ -130,144 +137,166 @@ function makeNodes(kind, count, width, height, seed) {
   return nodes;
 }
 
+const sizeOf = (stage) => [stage.clientWidth, stage.clientHeight];
+
+/** A simulation of rectangles, laid out for the size of a stage. One of them, the guest, is where the pointer is. */
+class Layout {
+  /** How long the force took in the last tick, in milliseconds. */
+  took = 0;
+  guest = { label: '', group: 0, width: 0, height: 0, guest: true };
+
+  constructor(kind, count, seed, stage) {
+    const [width, height] = sizeOf(stage);
+    const { middleOf, pull } = kinds[kind];
+    const to = (axis) => (node) => middleOf(node, width, height)[axis];
+    const [acrossPull, downPull] = pull(width, height);
+    Object.assign(this.guest, { x: width / 2, y: -1e4, fx: width / 2, fy: -1e4 });
+    this.stage = stage;
+    this.size = `${width} ${height}`;
+    this.nodes = [...makeNodes(kind, count, width, height, seed), this.guest];
+    this.nodesAtFirst = this.nodes.map((node) => ({ ...node, vx: 0, vy: 0 }));
+    this.simulation = forceSimulation(this.nodes)
+      .stop()
+      .alphaDecay(0.025)
+      .velocityDecay(0.1)
+      .force('x', fading(forceX(to(0)).strength(acrossPull)))
+      .force('y', fading(forceY(to(1)).strength(downPull)));
+  }
+
+  /** From now on a contender pushes the rectangles apart. */
+  use(key) {
+    const collide = colliderOf(key);
+    const force = () => {
+      this.took = 0;
+      for (let turn = 0; turn < iterations; turn++) {
+        const started = performance.now();
+        collide();
+        this.took += performance.now() - started;
+        keepWithin(this.nodes, ...sizeOf(this.stage));
+      }
+    };
+    force.initialize = collide.initialize;
+    this.simulation.force('collide', force);
+    this.#stir(0.3);
+  }
+
+  moveGuest(x, y) {
+    const side = Math.min(110, this.stage.clientWidth / 5);
+    Object.assign(this.guest, { fx: x, fy: y, width: side, height: side });
+    this.simulation.force('collide').initialize(this.nodes); // it reads the sizes of all only then
+    this.#stir(0.25);
+  }
+
+  #stir(alpha) {
+    this.simulation.alpha(Math.max(alpha, this.simulation.alpha()));
+  }
+
+  get moves() {
+    return this.simulation.alpha() > 0.005;
+  }
+
+  /** What the last tick took, and what overlaps once hardly anything moves. */
+  get report() {
+    const calm = this.simulation.alpha() < 0.01;
+    const over = calm ? `; ${overlapsOf(this.nodes.filter((node) => node !== this.guest))} overlap` : '';
+    return `this tick took ${this.took.toFixed(2)} ms${over}`;
+  }
+
+  /** Milliseconds of a contender for the rectangles as they were at first. */
+  race(key) {
+    const force = colliderOf(key);
+    const copies = this.nodesAtFirst.map((node) => ({ ...node }));
+    force.initialize(copies, Math.random);
+    return time(force, () => {
+      for (const node of copies) node.vx = node.vy = 0;
+    });
+  }
+}
+
+function draw(context, kind, { nodes, guest }, colours) {
+  context.textAlign = 'center';
+  context.textBaseline = 'middle';
+  for (const node of nodes) if (node !== guest) paint[kind](context, node, colours);
+  if (guest.width === 0) return;
+  context.strokeStyle = colours.text;
+  context.setLineDash([4, 4]);
+  context.strokeRect(guest.x - guest.width / 2, guest.y - guest.height / 2, guest.width, guest.height);
+}
+
+/** Calls move(x, y) where the pointer goes; an arrow key moves on from the place that from() returns. */
+function followPointer(stage, from, move) {
+  const follow = ({ clientX, clientY }) => {
+    const { left, top } = stage.getBoundingClientRect();
+    move(clientX - left, clientY - top);
+  };
+  stage.addEventListener('pointermove', follow);
+  stage.addEventListener('pointerdown', follow);
+  stage.tabIndex = 0;
+  stage.addEventListener('keydown', (event) => {
+    const way = arrows[event.key];
+    if (!way) return;
+    event.preventDefault();
+    const [x, y] = from();
+    move(x + keyStep * way[0], y + keyStep * way[1]);
+  });
+}
+
 /** Makes the showcase 'chart' or 'cloud': see examples/page/showcase.mjs. */
 export const rectanglesDemo =
   (kind) =>
   (stage, { wake, say }) => {
     const things = kind === 'chart' ? 'rectangles' : 'words';
-    let count = few;
-    let seed = 1;
-    let nodes = [];
-    let raceNodes = [];
-    let key = 'broadphase';
-    let simulation;
-    let took = 0;
-    /** The size of the stage for which there is a layout. */
-    let size = '';
-    let resized = 0;
-    const guest = { label: '', group: 0, width: 0, height: 0, guest: true };
+    let [count, seed, key] = [few, 1, 'broadphase'];
+    let layout;
     const redraw = canvasIn(stage, (context, _width, _height, colours) => {
-      context.textAlign = 'center';
-      context.textBaseline = 'middle';
-      for (const node of nodes) if (!node.guest) paint[kind](context, node, colours);
-      if (guest.width === 0) return;
-      context.strokeStyle = colours.text;
-      context.setLineDash([4, 4]);
-      context.strokeRect(guest.x - guest.width / 2, guest.y - guest.height / 2, guest.width, guest.height);
+      if (layout) draw(context, kind, layout, colours);
     });
-    const collider = (name) => colliders[name](widthOf, heightOf, padding);
 
-    function start() {
-      const [width, height] = [stage.clientWidth, stage.clientHeight];
-      size = `${width} ${height}`;
-      Object.assign(guest, { x: width / 2, y: -1e4, fx: width / 2, fy: -1e4, width: 0, height: 0 });
-      nodes = [...makeNodes(kind, count, width, height, seed), guest];
-      raceNodes = nodes.map((node) => ({ ...node, vx: 0, vy: 0 }));
-      const to = (axis) => (node) => kinds[kind].middleOf(node, width, height)[axis];
-      const [acrossPull, downPull] = kinds[kind].pull(width, height);
-      simulation = forceSimulation(nodes)
-        .stop()
-        .alphaDecay(0.025)
-        .velocityDecay(0.1)
-        .force('x', fading(forceX(to(0)).strength(acrossPull)))
-        .force('y', fading(forceY(to(1)).strength(downPull)));
+    function start(wantedCount, wantedSeed) {
+      [count, seed] = [wantedCount, wantedSeed];
+      layout = new Layout(kind, count, seed, stage);
       use(key);
     }
-    function use(name) {
-      key = name;
-      const collide = collider(name);
-      const timed = () => {
-        took = 0;
-        for (let turn = 0; turn < iterations; turn++) {
-          const started = performance.now();
-          collide();
-          took += performance.now() - started;
-          keepWithin(nodes, stage.clientWidth, stage.clientHeight);
-        }
-      };
-      timed.initialize = collide.initialize;
-      simulation.force('collide', timed).alpha(Math.max(0.3, simulation.alpha()));
+    function use(wantedKey) {
+      key = wantedKey;
+      layout.use(key);
       wake();
     }
-    function tell() {
-      const rest = simulation.alpha() < 0.01;
-      const over = rest ? `; ${overlapsOf(nodes.filter((node) => !node.guest))} overlap` : '';
-      say(`${count} ${things}; this tick took ${took.toFixed(2)} ms${over}`);
+    function show() {
+      redraw();
+      say(`${count} ${things}; ${layout.report}`);
     }
-    function move(x, y) {
-      const side = Math.min(110, stage.clientWidth / 5);
-      Object.assign(guest, { fx: x, fy: y, width: side, height: side });
-      simulation.force('collide').initialize(nodes);
-      simulation.alpha(Math.max(0.25, simulation.alpha()));
+    const guestAt = () =>
+      layout.guest.width > 0 ? [layout.guest.fx, layout.guest.fy] : sizeOf(stage).map((size) => size / 2);
+    followPointer(stage, guestAt, (x, y) => {
+      layout.moveGuest(x, y);
       wake();
-    }
-    const place = ({ clientX, clientY }) => {
-      const { left, top } = stage.getBoundingClientRect();
-      move(clientX - left, clientY - top);
-    };
-    stage.addEventListener('pointermove', place);
-    stage.addEventListener('pointerdown', place);
-    stage.tabIndex = 0;
-    stage.addEventListener('keydown', (event) => {
-      const way = arrows[event.key];
-      if (!way) return;
-      event.preventDefault();
-      const [x, y] = guest.width > 0 ? [guest.fx, guest.fy] : [stage.clientWidth / 2, stage.clientHeight / 2];
-      move(x + keyStep * way[0], y + keyStep * way[1]);
     });
-    const again = (change) => () => {
-      change();
-      start();
-    };
-    const countTo = (wanted) => ({
-      [`${wanted.toLocaleString('en')} ${things}`]: again(() => {
-        count = wanted;
-      }),
-    });
-    const shuffle = again(() => {
-      seed++;
-    });
-    const actions = { Shuffle: shuffle, ...countTo(few), ...countTo(many) };
+    let resized = 0;
     new ResizeObserver(() => {
       clearTimeout(resized);
       // Without a layout for the new size, much would be outside the stage.
-      const look = () => size !== `${stage.clientWidth} ${stage.clientHeight}` && start();
-      if (simulation) resized = setTimeout(look, settled);
+      const look = () => layout.size !== sizeOf(stage).join(' ') && start(count, seed);
+      if (layout) resized = setTimeout(look, settled);
     }).observe(stage);
-    requestAnimationFrame(start); // then the stage has its size
+    requestAnimationFrame(() => start(count, seed)); // then the stage has its size
+    const toCount = (wanted) => ({ [`${wanted.toLocaleString('en')} ${things}`]: () => start(wanted, seed) });
     return {
       legend: 'The force, once, by',
-      contenders: {
-        broadphase: 'broadphase',
-        rbush: 'rbush',
-        quadtree: 'a quadtree',
-        circles: 'forceCollide, circles around',
-      },
+      contenders,
       use,
-      race(name) {
-        const force = collider(name);
-        const copies = raceNodes.map((node) => ({ ...node }));
-        force.initialize(copies, Math.random);
-        return time(force, () => {
-          for (const node of copies) node.vx = node.vy = 0;
-        });
-      },
-      actions,
+      race: (name) => layout.race(name),
+      actions: { Shuffle: () => start(count, seed + 1), ...toCount(few), ...toCount(many) },
       step() {
-        if (!simulation) return true;
-        simulation.tick();
-        redraw();
-        tell();
-        return simulation.alpha() > 0.005;
+        if (!layout) return true;
+        layout.simulation.tick();
+        show();
+        return layout.moves;
       },
       settle() {
-        if (!simulation) return;
-        while (simulation.alpha() > 0.005) simulation.tick();
-        redraw();
-        tell();
-      },
-      get nodes() {
-        return nodes;
+        if (!layout) return;
+        while (layout.moves) layout.simulation.tick();
+        show();
       },
     };
   };

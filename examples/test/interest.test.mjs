@@ -1,17 +1,26 @@
 // Players are told exactly what comes into sight and what leaves it, also when players join, leave and come back.
 import { describe, expect, test } from 'vitest';
+import { seeded } from '../force-d3/words.mjs';
 import { installed } from './check.mjs';
 
 const sorted = (set) => [...set].sort();
 
+/** Who sees whom, by a look at every two. */
+function pairsInSight(places, reachX, reachY) {
+  const pairs = new Set();
+  for (const [viewer, [x, y]] of places) {
+    for (const [seen, [otherX, otherY]] of places) {
+      if (viewer === seen || Math.abs(x - otherX) > reachX || Math.abs(y - otherY) > reachY) continue;
+      pairs.add(`${viewer} ${seen}`);
+    }
+  }
+  return pairs;
+}
+
 describe.skipIf(!installed)('interest management', () => {
   test('tells of every change, once, and of nothing else', async () => {
     const { Interest } = await import('../server-interest/interest.mjs');
-    let state = 5;
-    const random = () => {
-      state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
-      return state / 2 ** 32;
-    };
+    const random = seeded(5);
     const interest = new Interest(12, 8);
     const places = new Map();
     const known = new Set();
@@ -34,13 +43,7 @@ describe.skipIf(!installed)('interest management', () => {
         },
         (viewer, seen) => expect(known.delete(`${viewer} ${seen}`)).toBe(true),
       );
-      const exact = new Set();
-      for (const [viewer, [x, y]] of places) {
-        for (const [seen, [otherX, otherY]] of places) {
-          if (viewer === seen || Math.abs(x - otherX) > 12 || Math.abs(y - otherY) > 8) continue;
-          exact.add(`${viewer} ${seen}`);
-        }
-      }
+      const exact = pairsInSight(places, 12, 8);
       expect(sorted(known)).toEqual(sorted(exact));
       const [someone] = places.keys();
       const theirs = sorted(exact).filter((pair) => pair.startsWith(`${someone} `));
@@ -52,26 +55,45 @@ describe.skipIf(!installed)('interest management', () => {
       ).toEqual(theirs);
     }
   });
+});
 
+const connect = async ({ server }) => {
+  const { WebSocket } = await import('ws');
+  return new WebSocket(`ws://localhost:${server.address().port}`);
+};
+
+/** A player who has been told their id, and hears all that is said. */
+async function join(server) {
+  const socket = await connect(server);
+  const heard = [];
+  return new Promise((resolve) => {
+    socket.on('message', (data) => {
+      heard.push(JSON.parse(data));
+      if (heard.length === 1) resolve({ socket, heard, id: heard[0].you });
+    });
+  });
+}
+
+/** The code with which the server closes the socket of someone who joins and does something. */
+async function closedBy(server, does) {
+  const socket = await connect(server);
+  return new Promise((resolve) => {
+    socket.on('error', () => {});
+    socket.on('open', () => does(socket));
+    socket.on('close', resolve);
+  });
+}
+
+async function until(done) {
+  for (let turn = 0; turn < 500 && !done(); turn++) await new Promise((resolve) => setTimeout(resolve, 5));
+  expect(done()).toBe(true);
+}
+
+describe.skipIf(!installed)('the server of interest management', () => {
   test('works over WebSockets', async () => {
     const { startServer } = await import('../server-interest/server.mjs');
-    const { WebSocket } = await import('ws');
     const server = startServer({ reach: 10 });
-    const url = `ws://localhost:${server.server.address().port}`;
-    const join = () =>
-      new Promise((resolve) => {
-        const socket = new WebSocket(url);
-        const heard = [];
-        socket.on('message', (data) => {
-          heard.push(JSON.parse(data));
-          if (heard.length === 1) resolve({ socket, heard, id: heard[0].you });
-        });
-      });
-    const until = async (done) => {
-      for (let turn = 0; turn < 500 && !done(); turn++) await new Promise((resolve) => setTimeout(resolve, 5));
-      expect(done()).toBe(true);
-    };
-    const [ann, bob] = [await join(), await join()];
+    const [ann, bob] = [await join(server), await join(server)];
     const go = async (player, x, y) => {
       player.socket.send(JSON.stringify({ x, y }));
       await until(() => server.players.get(player.id).x === x);
@@ -96,24 +118,13 @@ describe.skipIf(!installed)('interest management', () => {
 
   test('closes the socket of a player that sends something else, and goes on', async () => {
     const { startServer } = await import('../server-interest/server.mjs');
-    const { WebSocket } = await import('ws');
     const server = startServer();
-    const url = `ws://localhost:${server.server.address().port}`;
-    /** Joins, does something, and waits for the end. */
-    const closedBy = (does) =>
-      new Promise((resolve) => {
-        const socket = new WebSocket(url);
-        socket.on('error', () => {});
-        socket.on('open', () => does(socket));
-        socket.on('close', resolve);
-      });
     for (const text of ['hello', 'null', '[]', '{"x":1}', '{"x":"1","y":2}', '{"x":1e999,"y":0}']) {
-      expect(await closedBy((socket) => socket.send(text)), text).toBe(1007);
+      expect(await closedBy(server, (socket) => socket.send(text)), text).toBe(1007);
     }
-    expect(await closedBy((socket) => socket.send(' '.repeat(2000)))).toBe(1009);
-    expect(await closedBy((socket) => socket._socket.write(Buffer.from([0xff, 0xff, 0xff, 0xff])))).toBe(1002);
-    for (let turn = 0; turn < 500 && server.players.size > 0; turn++) await new Promise((done) => setTimeout(done, 5));
-    expect(server.players.size).toBe(0);
+    expect(await closedBy(server, (socket) => socket.send(' '.repeat(2000)))).toBe(1009);
+    expect(await closedBy(server, (socket) => socket._socket.write(Buffer.from([0xff, 0xff, 0xff, 0xff])))).toBe(1002);
+    await until(() => server.players.size === 0);
     expect(server.tick()).toBe(0);
     await server.close();
   });

@@ -38,15 +38,15 @@ const boxesIn = async (path, dimensions = 2) => {
   return Float64Array.from((await duck.ask(`select ${names} from '${path}'`)).flat());
 };
 
+beforeAll(async () => {
+  command = await bundle('src/cli/index.ts', 'build/cli/join.mjs');
+  if (!installed) return;
+  duck = await import('../apart/join-duckdb/boxes.mjs');
+  await duck.writeBoxes(file('boxes.parquet'), 40_000);
+});
 afterAll(() => rmSync(folder, { recursive: true }));
 
 describe.skipIf(!installed)('broadphase join', () => {
-  beforeAll(async () => {
-    command = await bundle('src/cli/index.ts', 'build/cli/join.mjs');
-    duck = await import('../apart/join-duckdb/boxes.mjs');
-    await duck.writeBoxes(file('boxes.parquet'), 40_000);
-  });
-
   test('finds the pairs of the reference, in one tile and in many', async () => {
     const expected = referencePairs(await boxesIn(file('boxes.parquet')), 2);
     for (const more of [[], ['--tile', '900', '--memory', '500MB', '--threads', '3']]) {
@@ -86,7 +86,9 @@ describe.skipIf(!installed)('broadphase join', () => {
     expect(keysOf(found.map((row, k) => (k % 2 ? row + 3000 : row))).sort()).toEqual(mixed);
     expect(mixed.length).toBeGreaterThan(500);
   });
+});
 
+describe.skipIf(!installed)('a run of broadphase join', () => {
   test('reads the file of that name, though it looks like a pattern', async () => {
     for (const [name, like] of [
       ['a[1]', 'a1'],
@@ -127,51 +129,61 @@ describe.skipIf(!installed)('broadphase join', () => {
     expect(await pairsIn(file('killed.parquet'))).toEqual(referencePairs(await boxesIn(file('boxes.parquet')), 2));
     expect(existsSync(file('killed.parquet.join'))).toBe(false);
   });
+});
 
-  test('names what is wrong', async () => {
-    const bad = async (change, name = 'bad.parquet') => {
-      const rows = `(select *, file_row_number as row from read_parquet('${file('boxes.parquet')}', file_row_number=true))`;
-      const all = `select * exclude (row, file_row_number) replace (${change}) from ${rows}`;
-      await duck.ask(`copy (${all}) to '${file(name)}'`);
-      const { code, err } = await run([file(name), file('none.parquet')]);
-      expect(existsSync(file('none.parquet.join'))).toBe(false);
-      return [code, err];
-    };
-    expect(await bad(`case when row = 31415 then 'NaN'::double else minX end as minX`)).toEqual([
+const none = file('none.parquet');
+
+/** What is said of a file in which one column of some row has another value. */
+async function saidOf(change, name = 'bad.parquet') {
+  const rows = `(select *, file_row_number as row from read_parquet('${file('boxes.parquet')}', file_row_number=true))`;
+  const all = `select * exclude (row, file_row_number) replace (${change}) from ${rows}`;
+  await duck.ask(`copy (${all}) to '${file(name)}'`);
+  const { code, err } = await run([file(name), none]);
+  expect(existsSync(`${none}.join`)).toBe(false);
+  return [code, err];
+}
+
+/** The code and the first line of what is said. */
+async function said(...args) {
+  const { code, err } = await run(args);
+  return [code, err.split('\n')[0]];
+}
+
+describe.skipIf(!installed)('broadphase join names what is wrong', () => {
+  test('in a row', async () => {
+    expect(await saidOf(`case when row = 31415 then 'NaN'::double else minX end as minX`)).toEqual([
       3,
       `broadphase: ${file('bad.parquet')}: row 31,415 (counted from 0): minX is NaN, expected a number\n`,
     ]);
-    const [code, message] = await bad('case when row = 7 then minY - 1 else maxY end as maxY');
+    const [code, message] = await saidOf('case when row = 7 then minY - 1 else maxY end as maxY');
     expect([code, message]).toEqual([
       3,
       expect.stringMatching(/row 7 .*minY [\d.]+ is above maxY [\d.]+, expected minima/),
     ]);
-    expect((await bad('case when row = 12 then null else maxY end as maxY', 'bad.csv'))[1]).toMatch(
+    expect((await saidOf('case when row = 12 then null else maxY end as maxY', 'bad.csv'))[1]).toMatch(
       /row 12 .*maxY is empty, expected a number/,
     );
+  });
+
+  test('in a file or an option', async () => {
     writeFileSync(file('cut.parquet'), readFileSync(file('boxes.parquet')).subarray(0, 200_000));
     writeFileSync(file('word.csv'), 'minX,minY,maxX,maxY\n0,0,1,1\n0,0,hello,1\n');
     writeFileSync(file('few.csv'), 'minX,minY\n0,0\n');
-    const wrong = async (...args) => {
-      const { code, err } = await run(args);
-      return [code, err.split('\n')[0]];
-    };
-    const none = file('none.parquet');
-    expect(await wrong(file('cut.parquet'), none)).toEqual([3, expect.stringMatching(/cut\.parquet: .*magic bytes/)]);
-    expect(await wrong(file('word.csv'), none)).toEqual([
+    expect(await said(file('cut.parquet'), none)).toEqual([3, expect.stringMatching(/cut\.parquet: .*magic bytes/)]);
+    expect(await said(file('word.csv'), none)).toEqual([
       3,
       expect.stringContaining('row 1 (counted from 0): maxX is hello'),
     ]);
-    expect(await wrong(file('few.csv'), none)).toEqual([
+    expect(await said(file('few.csv'), none)).toEqual([
       3,
       expect.stringContaining('no column maxX, expected it among minX'),
     ]);
-    expect(await wrong(file('absent.parquet'), none)).toEqual([4, expect.stringContaining('cannot read')]);
-    expect(await wrong(file('boxes.parquet'), none, '--memory', '1')).toEqual([
+    expect(await said(file('absent.parquet'), none)).toEqual([4, expect.stringContaining('cannot read')]);
+    expect(await said(file('boxes.parquet'), none, '--memory', '1')).toEqual([
       2,
       expect.stringContaining('--memory is 1'),
     ]);
-    expect(await wrong(file('boxes.parquet'), file('boxes.parquet'))).toEqual([
+    expect(await said(file('boxes.parquet'), file('boxes.parquet'))).toEqual([
       2,
       expect.stringContaining('is an input'),
     ]);
@@ -179,7 +191,6 @@ describe.skipIf(!installed)('broadphase join', () => {
 });
 
 test('asks for DuckDB by its name where that is missing', async () => {
-  command = await bundle('src/cli/index.ts', 'build/cli/join.mjs');
   writeFileSync(file('boxes.csv'), 'minX,minY,maxX,maxY\n0,0,1,1\n');
   const { code, err } = await run([file('boxes.csv'), file('pairs.parquet')], { cwd: folder });
   expect([code, err]).toEqual([5, expect.stringContaining('npm install @duckdb/node-api')]);

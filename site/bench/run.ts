@@ -12,14 +12,53 @@ const usual = ['auto', 'strip-sweep', 'aabb-tree', 'flatbush', 'rbush (load)', '
 /** Of the chart, in pixels. */
 const mostWidth = 704;
 
+/** A contender that can be chosen, with the dimensions it can do: some are 2D only. */
+interface Choice {
+  box: HTMLInputElement;
+  dimensions: readonly number[];
+}
+
+const choiceOf = ({ name, dimensions }: { name: string; dimensions: readonly number[] }): Choice => ({
+  box: make('input', { type: 'checkbox', value: name, checked: usual.includes(name) }),
+  dimensions,
+});
+
+const figureOf = (race: Race) => {
+  const command = `npm run bench -- --scenes ${race.name} --count ${race.count}`;
+  return raceFigure(race, Math.min(mostWidth, find('run').clientWidth), command);
+};
+
+/** Saves races as a file of results. */
+function save(rows: Race[]): void {
+  const record: Results = {
+    date: new Date().toISOString(),
+    machine: { cpu: 'a browser', cores: navigator.hardwareConcurrency, system: navigator.userAgent },
+    rows,
+  };
+  const link = make('a', {
+    href: URL.createObjectURL(new Blob([JSON.stringify(record, undefined, 1)], { type: 'application/json' })),
+    download: 'broadphase-benchmark.json',
+  });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // some browsers read it only after the click
+}
+
+/** Starts a worker. It first sends the list of contenders, since the page itself does not load the library. */
+function startWorker(take: (answer: Answer) => void): Worker {
+  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
+  worker.onmessage = ({ data }: MessageEvent<Answer>) => take(data);
+  worker.onerror = ({ message }) => take({ failed: message });
+  return worker;
+}
+
 export function setUpRun(): void {
   const [scene, count] = [find<HTMLSelectElement>('run-scene'), find<HTMLSelectElement>('run-count')];
-  const [start, save] = [find<HTMLButtonElement>('run-start'), find<HTMLButtonElement>('run-save')];
+  const [start, saver] = [find<HTMLButtonElement>('run-start'), find<HTMLButtonElement>('run-save')];
   const [progress, doing, result] = [find<HTMLProgressElement>('run-progress'), find('run-doing'), find('run-result')];
   const races: Race[] = [];
-  let able: { box: HTMLInputElement; dimensions: readonly number[] }[] = [];
+  let choices: Choice[] = [];
   let running = false;
-  let worker = open();
+  let worker = startWorker(take);
 
   fillMenu(
     scene,
@@ -29,22 +68,11 @@ export function setUpRun(): void {
   scene.addEventListener('change', enable);
   enable(); // a race needs the list of contenders first
 
-  /** The worker first sends the list of contenders, since the page itself does not load the library. */
-  function open(): Worker {
-    const made = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
-    made.onmessage = ({ data }: MessageEvent<Answer>) => take(data);
-    made.onerror = ({ message }) => end(`It failed: ${message}`);
-    return made;
-  }
-
   function take(answer: Answer): void {
     if ('contenders' in answer) {
-      if (able.length > 0) return;
-      able = answer.contenders.map(({ name, dimensions }) => ({
-        box: make('input', { type: 'checkbox', value: name, checked: usual.includes(name) }),
-        dimensions,
-      }));
-      find('run-names').replaceChildren(...able.map(({ box }) => make('label', {}, box, box.value)));
+      if (choices.length > 0) return;
+      choices = answer.contenders.map(choiceOf);
+      find('run-names').replaceChildren(...choices.map(({ box }) => make('label', {}, box, box.value)));
       enable();
     } else if ('progress' in answer) {
       progress.value = answer.progress;
@@ -52,20 +80,17 @@ export function setUpRun(): void {
     } else if ('failed' in answer) {
       end(`It failed: ${answer.failed}`);
     } else {
-      const { race } = answer;
-      races.push(race);
-      const command = `npm run bench -- --scenes ${race.name} --count ${race.count}`;
-      result.replaceChildren(raceFigure(race, Math.min(mostWidth, find('run').clientWidth), command));
-      save.hidden = false;
+      races.push(answer.race);
+      result.replaceChildren(figureOf(answer.race));
+      saver.hidden = false;
       end('Done. Run other scenes too, and save all together.');
     }
   }
 
-  /** Some contenders are 2D only. */
   function enable(): void {
     const dimensions = scene.value.endsWith('3d') ? 3 : 2;
-    for (const each of able) each.box.disabled = !each.dimensions.includes(dimensions);
-    start.disabled = able.length === 0;
+    for (const each of choices) each.box.disabled = !each.dimensions.includes(dimensions);
+    start.disabled = choices.length === 0;
   }
 
   function end(message: string): void {
@@ -79,10 +104,10 @@ export function setUpRun(): void {
     event.preventDefault();
     if (running) {
       worker.terminate();
-      worker = open();
+      worker = startWorker(take);
       return end('Stopped.');
     }
-    const names = able.filter(({ box }) => box.checked && !box.disabled).map(({ box }) => box.value);
+    const names = choices.filter(({ box }) => box.checked && !box.disabled).map(({ box }) => box.value);
     if (names.length === 0) return end('Choose who takes part.');
     running = true;
     worker.postMessage({ scene: scene.value as SceneName, count: Number(count.value), names } satisfies Order);
@@ -91,17 +116,5 @@ export function setUpRun(): void {
     start.textContent = 'Stop';
   });
 
-  save.addEventListener('click', () => {
-    const record: Results = {
-      date: new Date().toISOString(),
-      machine: { cpu: 'a browser', cores: navigator.hardwareConcurrency, system: navigator.userAgent },
-      rows: races,
-    };
-    const link = make('a', {
-      href: URL.createObjectURL(new Blob([JSON.stringify(record, undefined, 1)], { type: 'application/json' })),
-      download: 'broadphase-benchmark.json',
-    });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // some browsers read it only after the click
-  });
+  saver.addEventListener('click', () => save(races));
 }

@@ -45,6 +45,58 @@ interface Racer {
   out: string | undefined;
 }
 
+/** Makes a racer, with a tile and a bar that say nothing yet. */
+function makeRacer(technique: TechniqueName, tiles: HTMLElement, bars: HTMLElement): Racer {
+  const tile = document.createElement('figure');
+  tile.className = 'tile';
+  tile.innerHTML = '<canvas role="img"></canvas><figcaption><b class="racer"></b><span>–</span></figcaption>';
+  tile.querySelector('b')!.textContent = technique;
+  tiles.append(tile);
+  const item = document.createElement('li');
+  item.innerHTML = '<span></span><span>–</span><span class="bar"></span>';
+  const [name, barText, bar] = item.children as HTMLCollectionOf<HTMLElement>;
+  name.textContent = technique;
+  bars.append(item);
+  const [canvas, said] = [tile.querySelector('canvas')!, tile.querySelector('span')!];
+  canvas.setAttribute('aria-label', `The cells of ${technique}`);
+  return {
+    technique,
+    pilot: new Pilot(patience),
+    tile,
+    canvas,
+    said,
+    bar,
+    barText,
+    times: new Float64Array(kept),
+    frames: 0,
+    median: 0,
+    picture: undefined,
+    out: undefined,
+  };
+}
+
+function drop(racer: Racer, error: unknown): void {
+  racer.out = error instanceof TooSlow ? 'given up: too slow' : String((error as Error).message);
+  racer.pilot.end();
+  racer.tile.classList.add('out');
+  racer.picture = undefined;
+}
+
+/** Runs one frame of a racer; the first is the one that was opened. */
+async function run(racer: Racer, boxes: boolean): Promise<void> {
+  const { picture } = racer;
+  racer.picture = await racer.pilot.ask('picture', {
+    steps: racer.frames === 0 ? 0 : 1,
+    boxes,
+    structure: true,
+    heat: false,
+    pairs: false,
+    chosen: undefined,
+    spare: picture && { drawn: picture.drawn, slots: picture.slots },
+  });
+  racer.times[racer.frames++ % kept] = racer.picture.ms;
+}
+
 /**
  * Opens the scene for every racer, at a frame.
  * @param abandoned aborted when something else is to be shown: then the workers are stopped, and there is no race
@@ -59,42 +111,7 @@ export async function createRace(
   const { tiles, bars, note } = places;
   tiles.replaceChildren();
   bars.replaceChildren();
-  const racers = techniques.map((technique): Racer => {
-    const tile = document.createElement('figure');
-    tile.className = 'tile';
-    tile.innerHTML = '<canvas role="img"></canvas><figcaption><b class="racer"></b><span>–</span></figcaption>';
-    tile.querySelector('b')!.textContent = technique;
-    tiles.append(tile);
-    const item = document.createElement('li');
-    item.innerHTML = '<span></span><span>–</span><span class="bar"></span>';
-    const [name, barText, bar] = item.children as HTMLCollectionOf<HTMLElement>;
-    name.textContent = technique;
-    bars.append(item);
-    const [canvas, said] = [tile.querySelector('canvas')!, tile.querySelector('span')!];
-    canvas.setAttribute('aria-label', `The cells of ${technique}`);
-    const times = new Float64Array(kept);
-    const pilot = new Pilot(patience);
-    return {
-      technique,
-      pilot,
-      tile,
-      canvas,
-      said,
-      bar,
-      barText,
-      times,
-      frames: 0,
-      median: 0,
-      picture: undefined,
-      out: undefined,
-    };
-  });
-  const drop = (racer: Racer, error: unknown) => {
-    racer.out = error instanceof TooSlow ? 'given up: too slow' : String((error as Error).message);
-    racer.pilot.end();
-    racer.tile.classList.add('out');
-    racer.picture = undefined;
-  };
+  const racers = techniques.map((technique) => makeRacer(technique, tiles, bars));
   let ended = false;
   const end = () => {
     ended = true;
@@ -119,68 +136,9 @@ export async function createRace(
   }
   if (!opened) throw new TooSlow('no technique could open the scene in time');
 
-  const { dimensions, world } = opened;
-  const backdrop = document.createElement('canvas');
-  const camera = new Camera();
-  const renderer = createRenderer(backdrop, () => {}, 'canvas-2d');
-  camera.fit(dimensions === 2 ? (world as World) : [world[0], world[1], world[3], world[4]]);
-  const dark = matchMedia('(prefers-color-scheme: dark)');
+  const pictures = new Pictures(tiles, opened);
   /** The first racer that is still in: only it sends the boxes. */
   let leader: Racer | undefined;
-
-  /** Draws the boxes once for all tiles, then each tile's cells over them. Solid scenes are seen from the front. */
-  const draw = () => {
-    const style = getComputedStyle(tiles);
-    renderer.setPalette(makePalette(dark.matches, style.getPropertyValue('--page').trim()));
-    const side = Math.round((tiles.firstElementChild?.clientWidth ?? 200) * Math.min(2, devicePixelRatio));
-    if (backdrop.width !== side || backdrop.height !== side) {
-      backdrop.width = backdrop.height = side;
-      camera.resize(side, side);
-    }
-    const shown = leader?.picture;
-    if (!shown) return;
-    const flat = dimensions === 2 ? shown.drawn : flattened(shown.drawn, shown.cells + shown.boxes);
-    renderer.draw(flat.subarray(4 * shown.cells), shown.slots.subarray(shown.cells), shown.boxes, camera);
-    const accent = style.getPropertyValue('--accent').trim();
-    for (const { canvas, picture } of racers) {
-      if (canvas.width !== side || canvas.height !== side) canvas.width = canvas.height = side;
-      const ctx = canvas.getContext('2d')!;
-      ctx.globalAlpha = 1;
-      ctx.drawImage(backdrop, 0, 0);
-      if (picture) drawCells(ctx, picture, dimensions, camera, accent);
-    }
-  };
-
-  const report = () => {
-    for (const racer of racers) {
-      const some = racer.times.subarray(0, Math.min(kept, racer.frames)).slice().sort();
-      racer.median = some[some.length >> 1] ?? 0;
-    }
-    const running = racers.filter(({ out, frames }) => out === undefined && frames > 0);
-    const fastest = Math.min(...running.map(({ median }) => median));
-    const slowest = Math.max(...running.map(({ median }) => median));
-    const order = [...racers].sort((a, b) => Number(!!a.out) - Number(!!b.out) || a.median - b.median);
-    for (const racer of racers) {
-      const { technique, picture, out, said, bar, barText, median } = racer;
-      const ran = picture && picture.stats.technique !== technique ? ` (${picture.stats.technique})` : '';
-      const text = out ?? `${formatMilliseconds(median)} ms`;
-      said.textContent = text + (out ? '' : ran);
-      barText.textContent = out ?? `${text}, ${fastest > 0 ? (median / fastest).toFixed(1) : '1.0'}×`;
-      const share = out || median <= 0 ? 0 : 1 + Math.log(median / slowest) / Math.log(reach);
-      bar.style.setProperty('--share', Math.max(0.02, share).toFixed(3));
-      const item = bar.parentElement!;
-      item.style.order = String(order.indexOf(racer));
-      item.classList.toggle('first', racer === order[0] && !out);
-    }
-    const digests = new Set(running.map(({ picture }) => picture?.digest));
-    const measured = Math.min(kept, ...running.map(({ frames }) => frames));
-    const pairs = running[0]?.picture?.stats.pairs ?? 0;
-    note.textContent =
-      digests.size > 1
-        ? 'They disagree on the pairs: that is a bug in the library. Please report it.'
-        : `Median of ${measured} ${measured === 1 ? 'frame' : 'frames'}, on a logarithmic scale. They take turns, and all find the same ${formatCount(pairs)} pairs.`;
-  };
-
   return {
     get picture() {
       return leader?.picture;
@@ -189,28 +147,89 @@ export async function createRace(
       leader = racers.find(({ out }) => out === undefined);
       for (const racer of racers) {
         if (racer.out !== undefined || ended) continue;
-        const { picture } = racer;
         try {
-          racer.picture = await racer.pilot.ask('picture', {
-            steps: racer.frames === 0 ? 0 : 1,
-            boxes: racer === leader,
-            structure: true,
-            heat: false,
-            pairs: false,
-            chosen: undefined,
-            spare: picture && { drawn: picture.drawn, slots: picture.slots },
-          });
-          racer.times[racer.frames++ % kept] = racer.picture.ms;
+          await run(racer, racer === leader);
         } catch (error) {
           if (!ended) drop(racer, error);
         }
       }
       if (ended) return;
-      draw();
-      report();
+      pictures.draw(racers, leader?.picture);
+      report(racers, note);
     },
     end,
   };
+}
+
+/** What the tiles show: the boxes, drawn once for all, and each one's cells. Solid scenes are seen from the front. */
+class Pictures {
+  readonly #tiles: HTMLElement;
+  readonly #dimensions: 2 | 3;
+  readonly #backdrop = document.createElement('canvas');
+  readonly #renderer = createRenderer(this.#backdrop, () => {}, 'canvas-2d');
+  readonly #camera = new Camera();
+  readonly #dark = matchMedia('(prefers-color-scheme: dark)');
+
+  constructor(tiles: HTMLElement, { dimensions, world }: Opened) {
+    this.#tiles = tiles;
+    this.#dimensions = dimensions;
+    this.#camera.fit(dimensions === 2 ? (world as World) : [world[0], world[1], world[3], world[4]]);
+  }
+
+  /** @param shown the picture that has the boxes */
+  draw(racers: readonly Racer[], shown: Picture | undefined): void {
+    const style = getComputedStyle(this.#tiles);
+    this.#renderer.setPalette(makePalette(this.#dark.matches, style.getPropertyValue('--page').trim()));
+    const side = Math.round((this.#tiles.firstElementChild?.clientWidth ?? 200) * Math.min(2, devicePixelRatio));
+    const [backdrop, camera] = [this.#backdrop, this.#camera];
+    if (backdrop.width !== side || backdrop.height !== side) {
+      backdrop.width = backdrop.height = side;
+      camera.resize(side, side);
+    }
+    if (!shown) return;
+    const { drawn, slots, cells, boxes } = shown;
+    const flat = this.#dimensions === 2 ? drawn : flattened(drawn, cells + boxes);
+    this.#renderer.draw(flat.subarray(4 * cells), slots.subarray(cells), boxes, camera);
+    const accent = style.getPropertyValue('--accent').trim();
+    for (const { canvas, picture } of racers) {
+      if (canvas.width !== side || canvas.height !== side) canvas.width = canvas.height = side;
+      const ctx = canvas.getContext('2d')!;
+      ctx.globalAlpha = 1;
+      ctx.drawImage(backdrop, 0, 0);
+      if (picture) drawCells(ctx, picture, this.#dimensions, camera, accent);
+    }
+  }
+}
+
+/** Writes the medians, the bars in the order of the racers, and whether all agree. */
+function report(racers: readonly Racer[], note: HTMLElement): void {
+  for (const racer of racers) {
+    const some = racer.times.subarray(0, Math.min(kept, racer.frames)).slice().sort();
+    racer.median = some[some.length >> 1] ?? 0;
+  }
+  const running = racers.filter(({ out, frames }) => out === undefined && frames > 0);
+  const fastest = Math.min(...running.map(({ median }) => median));
+  const slowest = Math.max(...running.map(({ median }) => median));
+  const order = [...racers].sort((a, b) => Number(!!a.out) - Number(!!b.out) || a.median - b.median);
+  for (const racer of racers) {
+    const { technique, picture, out, said, bar, barText, median } = racer;
+    const ran = picture && picture.stats.technique !== technique ? ` (${picture.stats.technique})` : '';
+    const text = out ?? `${formatMilliseconds(median)} ms`;
+    said.textContent = text + (out ? '' : ran);
+    barText.textContent = out ?? `${text}, ${fastest > 0 ? (median / fastest).toFixed(1) : '1.0'}×`;
+    const share = out || median <= 0 ? 0 : 1 + Math.log(median / slowest) / Math.log(reach);
+    bar.style.setProperty('--share', Math.max(0.02, share).toFixed(3));
+    const item = bar.parentElement!;
+    item.style.order = String(order.indexOf(racer));
+    item.classList.toggle('first', racer === order[0] && !out);
+  }
+  const digests = new Set(running.map(({ picture }) => picture?.digest));
+  const measured = Math.min(kept, ...running.map(({ frames }) => frames));
+  const pairs = running[0]?.picture?.stats.pairs ?? 0;
+  note.textContent =
+    digests.size > 1
+      ? 'They disagree on the pairs: that is a bug in the library. Please report it.'
+      : `Median of ${measured} ${measured === 1 ? 'frame' : 'frames'}, on a logarithmic scale. They take turns, and all find the same ${formatCount(pairs)} pairs.`;
 }
 
 function flattened(boxes: Float32Array, count: number): Float32Array {

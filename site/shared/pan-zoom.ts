@@ -12,45 +12,54 @@ const keyZoom = 1.25;
 export const scrollsPage = (event: WheelEvent, view: HTMLElement): boolean =>
   document.documentElement.scrollHeight > innerHeight && !event.ctrlKey && document.activeElement !== view;
 
-export function panZoom(view: HTMLElement, camera: Camera, changed: () => void): void {
-  const fingers = new Map<number, { x: number; y: number }>();
+/** A client position over a view in the camera's pixels. */
+export function locate(view: HTMLElement, camera: Camera, clientX: number, clientY: number): { x: number; y: number } {
+  const frame = view.getBoundingClientRect();
+  const density = camera.width / frame.width;
+  return { x: (clientX - frame.left) * density, y: (frame.bottom - clientY) * density };
+}
 
+export function panZoom(view: HTMLElement, camera: Camera, changed: () => void): void {
   // Told by the camera, since buttons and new scenes move it too.
   const letFingersScroll = () => {
     view.style.touchAction = camera.fitted ? 'pan-y' : 'none';
   };
   camera.fittedChanged = letFingersScroll;
   letFingersScroll();
-  /** A client position in the camera's pixels. */
-  const locate = (x: number, y: number) => {
-    const frame = view.getBoundingClientRect();
-    const density = camera.width / frame.width;
-    return { x: (x - frame.left) * density, y: (frame.bottom - y) * density };
-  };
+  takeWheel(view, camera, changed);
+  takeFingers(view, camera, changed);
+  takeKeys(view, camera, changed);
+  view.tabIndex = 0;
+}
 
+function takeWheel(view: HTMLElement, camera: Camera, changed: () => void): void {
   view.addEventListener(
     'wheel',
     (event) => {
       if (scrollsPage(event, view)) return;
       event.preventDefault();
       const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? lineHeight : 1;
-      const at = locate(event.clientX, event.clientY);
+      const at = locate(view, camera, event.clientX, event.clientY);
       // A pinch on a touchpad arrives as small deltas with the control key.
       camera.zoom(Math.exp(-event.deltaY * lines * wheelSpeed * (event.ctrlKey ? 6 : 1)), at.x, at.y);
       changed();
     },
     { passive: false },
   );
+}
 
+/** The mouse counts as one. */
+function takeFingers(view: HTMLElement, camera: Camera, changed: () => void): void {
+  const fingers = new Map<number, { x: number; y: number }>();
   view.addEventListener('pointerdown', (event) => {
     if (event.button !== 0 || (event.target as Element).closest('button')) return;
-    fingers.set(event.pointerId, locate(event.clientX, event.clientY));
+    fingers.set(event.pointerId, locate(view, camera, event.clientX, event.clientY));
     view.setPointerCapture(event.pointerId);
   });
   view.addEventListener('pointermove', (event) => {
     const before = fingers.get(event.pointerId);
     if (!before) return;
-    const now = locate(event.clientX, event.clientY);
+    const now = locate(view, camera, event.clientX, event.clientY);
     const other = [...fingers].find(([id]) => id !== event.pointerId)?.[1];
     if (other) {
       const spread = Math.hypot(now.x - other.x, now.y - other.y) / Math.hypot(before.x - other.x, before.y - other.y);
@@ -69,7 +78,9 @@ export function panZoom(view: HTMLElement, camera: Camera, changed: () => void):
   view.addEventListener('touchstart', (event) => event.touches.length > 1 && event.preventDefault(), {
     passive: false,
   });
+}
 
+function takeKeys(view: HTMLElement, camera: Camera, changed: () => void): void {
   view.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target !== view) return;
     if (event.key === 'ArrowLeft') camera.pan(keyStep, 0);
@@ -83,6 +94,4 @@ export function panZoom(view: HTMLElement, camera: Camera, changed: () => void):
     event.preventDefault();
     changed();
   });
-
-  view.tabIndex = 0;
 }

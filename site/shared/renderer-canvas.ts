@@ -1,6 +1,8 @@
 // Without a GPU: paints boxes into an array of pixels, in one pass, with the same look as the shaders. This is far
 // faster than the rectangles of a 2D canvas, or WebGL in software.
+import type { Camera } from './camera.ts';
 import { cellSlot, slotCount } from './groups.ts';
+import type { Palette } from './palette.ts';
 import type { BoxRenderer } from './renderer.ts';
 
 const opaque = 256;
@@ -19,34 +21,78 @@ function mix(under: number, over: number, alpha: number): number {
 
 const clamp = (value: number, low: number, high: number) => Math.min(high, Math.max(low, value));
 
-export function createCanvasRenderer(canvas: HTMLCanvasElement): BoxRenderer {
-  const context = canvas.getContext('2d', { alpha: false });
-  if (!context) throw new Error('this browser supports neither WebGL2 nor a 2D canvas');
-  const colours = new Uint32Array(slotCount);
-  const alphas = new Float32Array(slotCount);
-  let background = 0;
-  let image = new ImageData(1, 1);
-  let pixels = new Uint32Array(image.data.buffer);
+const pack = (red: number, green: number, blue: number) =>
+  (0xff000000 | (Math.round(blue * 255) << 16) | (Math.round(green * 255) << 8) | Math.round(red * 255)) >>> 0;
 
-  const pack = (red: number, green: number, blue: number) =>
-    (0xff000000 | (Math.round(blue * 255) << 16) | (Math.round(green * 255) << 8) | Math.round(red * 255)) >>> 0;
+export class CanvasRenderer implements BoxRenderer {
+  readonly kind = 'canvas-2d';
+  readonly #context: CanvasRenderingContext2D;
+  readonly #colours = new Uint32Array(slotCount);
+  readonly #alphas = new Float32Array(slotCount);
+  #background = 0;
+  #image = new ImageData(1, 1);
+  #pixels = new Uint32Array(this.#image.data.buffer);
+  /**
+   * A box to paint, in pixels, y down. It is passed here because numbers with fractions that go in as arguments would
+   * each be put on the heap.
+   */
+  readonly #edges = new Float64Array(4);
 
-  // A box to paint, in pixels, y down. It is passed here because numbers with fractions that go in as arguments
-  // would each be put on the heap.
-  const edges = new Float64Array(4);
+  constructor(canvas: HTMLCanvasElement) {
+    const context = canvas.getContext('2d', { alpha: false });
+    if (!context) throw new Error('this browser supports neither WebGL2 nor a 2D canvas');
+    this.#context = context;
+  }
 
-  function paint(slot: number, density: number): void {
-    const { width, height } = image;
-    const left = edges[0];
-    const top = edges[1];
-    const right = edges[2];
-    const bottom = edges[3];
+  setPalette({ slots, background }: Palette): void {
+    for (let slot = 0; slot < slotCount; slot++) {
+      this.#colours[slot] = pack(slots[4 * slot], slots[4 * slot + 1], slots[4 * slot + 2]);
+      this.#alphas[slot] = slots[4 * slot + 3];
+    }
+    this.#background = pack(...background);
+  }
+
+  draw(boxes: Float32Array, slots: Uint8Array, count: number, { x, y, width, height, scale }: Camera): void {
+    if (this.#image.width !== width || this.#image.height !== height) {
+      this.#image = new ImageData(width, height);
+      this.#pixels = new Uint32Array(this.#image.data.buffer);
+    }
+    this.#pixels.fill(this.#background);
+    const edges = this.#edges;
+    const originX = width / 2 - x * scale;
+    const originY = height / 2 + y * scale;
+    const density = devicePixelRatio;
+    for (let id = 0; id < count; id++) {
+      const i = 4 * id;
+      const minX = clamp(originX + boxes[i] * scale, -9, width + 9);
+      const maxX = clamp(originX + boxes[i + 2] * scale, -9, width + 9);
+      const minY = clamp(originY - boxes[i + 3] * scale, -9, height + 9);
+      const maxY = clamp(originY - boxes[i + 1] * scale, -9, height + 9);
+      // The smallest box is still a pixel wide.
+      const padX = Math.max(0, 1 - (maxX - minX)) / 2;
+      const padY = Math.max(0, 1 - (maxY - minY)) / 2;
+      edges[0] = minX - padX;
+      edges[1] = minY - padY;
+      edges[2] = maxX + padX;
+      edges[3] = maxY + padY;
+      this.#paint(slots[id], density);
+    }
+    this.#context.putImageData(this.#image, 0, 0);
+  }
+
+  #paint(slot: number, density: number): void {
+    const pixels = this.#pixels;
+    const { width, height } = this.#image;
+    const left = this.#edges[0];
+    const top = this.#edges[1];
+    const right = this.#edges[2];
+    const bottom = this.#edges[3];
     const x0 = Math.max(0, Math.floor(left));
     const x1 = Math.min(width, Math.ceil(right));
     const y0 = Math.max(0, Math.floor(top));
     const y1 = Math.min(height, Math.ceil(bottom));
-    const colour = colours[slot];
-    const strength = alphas[slot] * opaque;
+    const colour = this.#colours[slot];
+    const strength = this.#alphas[slot] * opaque;
     const extent = Math.min(right - left, bottom - top) / density;
 
     if (extent < outlineFrom) {
@@ -84,43 +130,4 @@ export function createCanvasRenderer(canvas: HTMLCanvasElement): BoxRenderer {
       }
     }
   }
-
-  return {
-    kind: 'canvas-2d',
-    setPalette(palette) {
-      const c = palette.slots;
-      for (let slot = 0; slot < slotCount; slot++) {
-        colours[slot] = pack(c[4 * slot], c[4 * slot + 1], c[4 * slot + 2]);
-        alphas[slot] = c[4 * slot + 3];
-      }
-      background = pack(...palette.background);
-    },
-    draw(boxes, slots, count, camera) {
-      const { width, height, scale } = camera;
-      if (image.width !== width || image.height !== height) {
-        image = new ImageData(width, height);
-        pixels = new Uint32Array(image.data.buffer);
-      }
-      pixels.fill(background);
-      const originX = width / 2 - camera.x * scale;
-      const originY = height / 2 + camera.y * scale;
-      const density = devicePixelRatio;
-      for (let id = 0; id < count; id++) {
-        const i = 4 * id;
-        const minX = clamp(originX + boxes[i] * scale, -9, width + 9);
-        const maxX = clamp(originX + boxes[i + 2] * scale, -9, width + 9);
-        const minY = clamp(originY - boxes[i + 3] * scale, -9, height + 9);
-        const maxY = clamp(originY - boxes[i + 1] * scale, -9, height + 9);
-        // The smallest box is still a pixel wide.
-        const padX = Math.max(0, 1 - (maxX - minX)) / 2;
-        const padY = Math.max(0, 1 - (maxY - minY)) / 2;
-        edges[0] = minX - padX;
-        edges[1] = minY - padY;
-        edges[2] = maxX + padX;
-        edges[3] = maxY + padY;
-        paint(slots[id], density);
-      }
-      context.putImageData(image, 0, 0);
-    },
-  };
 }

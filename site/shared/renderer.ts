@@ -1,7 +1,7 @@
 // Draws boxes in the colours of their slots: with WebGL2 on a GPU, otherwise in software on a 2D canvas.
 import type { Camera } from './camera.ts';
 import type { Palette } from './palette.ts';
-import { createCanvasRenderer } from './renderer-canvas.ts';
+import { CanvasRenderer } from './renderer-canvas.ts';
 import { createWebglRenderer, hasFastWebgl } from './renderer-webgl.ts';
 
 export interface BoxRenderer {
@@ -20,5 +20,5 @@ export type RendererKind = BoxRenderer['kind'];
 export function createRenderer(canvas: HTMLCanvasElement, redraw: () => void, kind?: RendererKind): BoxRenderer {
   const wanted = kind ?? (hasFastWebgl() ? 'webgl2' : 'canvas-2d');
   const webgl = wanted === 'webgl2' ? createWebglRenderer(canvas, redraw) : undefined;
-  return webgl ?? createCanvasRenderer(canvas);
+  return webgl ?? new CanvasRenderer(canvas);
 }

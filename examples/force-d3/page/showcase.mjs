@@ -30,6 +30,15 @@ export function time(work, prepare = () => {}) {
   return faster.reduce((sum, taken) => sum + taken, 0) / faster.length;
 }
 
+/** A function that has something drawn in the next frame: once, even if it is called many times until then. */
+export function inNextFrame(draw) {
+  let request = 0;
+  return () => {
+    cancelAnimationFrame(request);
+    request = requestAnimationFrame(draw);
+  };
+}
+
 /** The frames of a showcase: they run while something moves and is on the screen, and a button stops them. */
 class Frames {
   /** To be set before the first of them runs. */

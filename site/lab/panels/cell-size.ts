@@ -26,33 +26,59 @@ function roundNumbers(low: number, high: number): number[] {
   return numbers.filter((number) => number >= low && number <= high);
 }
 
-/**
- * @param changed called when a size was chosen; undefined means that the library chooses
- * @param measure measures one size
- */
-export function createCellSize(
-  root: HTMLElement,
-  changed: (cell: number | undefined) => void,
-  measure: (cell: number) => Promise<Cost>,
-): CellSizeControl {
-  const find = <T extends HTMLElement>(selector: string) => root.querySelector<T>(selector)!;
-  const slider = find<HTMLInputElement>('#cell');
-  const byLibrary = find<HTMLInputElement>('#cell-auto');
-  const text = find('#cell-text');
-  const whole = find<HTMLButtonElement>('#whole-curve');
-  const place = find('#curve');
-  const [first, last] = [Number(slider.min), Number(slider.max)];
-  const count = last - first + 1;
-  let typical = 1;
-  let costs = new Map<number, Cost>();
-  let queue: number[] = [];
-  let measuring = false;
-  let turn = 0;
-  let before = slider.valueAsNumber;
+/** Costs by the step of the slider, measured one at a time. */
+class Measurements {
+  costs = new Map<number, Cost>();
+  readonly #measure: (step: number) => Promise<Cost>;
+  readonly #changed: () => void;
+  #queue: number[] = [];
+  #measuring = false;
 
-  const sizeAt = (step: number) => Number((typical * 2 ** (step / stepsPerDoubling)).toPrecision(3));
+  constructor(measure: (step: number) => Promise<Cost>, changed: () => void) {
+    this.#measure = measure;
+    this.#changed = changed;
+  }
+
+  /** Forgets all, and what is being measured too. */
+  clear(): void {
+    this.#queue = [];
+    this.costs = new Map();
+  }
+
+  /** Measures what is not known yet. */
+  add(steps: readonly number[]): void {
+    this.#queue.push(...steps.filter((step) => !this.costs.has(step) && !this.#queue.includes(step)));
+    if (!this.#measuring) void this.#work();
+  }
+
+  async #work(): Promise<void> {
+    this.#measuring = true;
+    while (this.#queue.length > 0) {
+      const step = this.#queue.shift()!;
+      const { costs } = this;
+      const cost = await this.#measure(step).catch(() => undefined);
+      if (!cost || costs !== this.costs) continue;
+      costs.set(step, cost);
+      this.#changed();
+    }
+    this.#measuring = false;
+  }
+}
+
+/**
+ * Makes the curve: milliseconds by cell size, both logarithmic, with a line at the size that is chosen. Returns what
+ * draws it.
+ */
+function createCurve(
+  root: HTMLElement,
+  steps: readonly number[],
+  sizeAt: (step: number) => number,
+  chosen: () => number | undefined,
+): (costs: ReadonlyMap<number, Cost>) => void {
   const color = (name: string) => () => getComputedStyle(root).getPropertyValue(name).trim();
   const options = chartOptions(root, (ms) => digits.format(ms));
+  const place = root.querySelector<HTMLElement>('#curve')!;
+  place.setAttribute('role', 'img');
   const plot = new uPlot(
     {
       ...options,
@@ -61,14 +87,14 @@ export function createCellSize(
         {
           ...options.axes![1],
           size: 24,
-          splits: () => Array.from({ length: (last - first) / labelled + 1 }, (_, k) => sizeAt(first + k * labelled)),
+          splits: () => steps.filter((_, k) => k % labelled === 0).map(sizeAt),
           filter: (_, splits) => splits,
           values: (_, splits) => splits.map((size) => digits.format(size)),
         },
         { ...options.axes![1], splits: (_, __, low, high) => roundNumbers(low, high), filter: (_, splits) => splits },
       ],
       scales: {
-        x: { time: false, distr: 3, range: () => [sizeAt(first), sizeAt(last)] },
+        x: { time: false, distr: 3, range: () => [sizeAt(steps[0]), sizeAt(steps.at(-1)!)] },
         y: { distr: 3, range: (_, low, high) => [(low || 0.01) / 1.3, (high || 1) * 1.3] },
       },
       series: [
@@ -83,10 +109,10 @@ export function createCellSize(
       hooks: {
         draw: [
           ({ ctx, bbox, valToPos }) => {
-            if (byLibrary.checked) return;
-            const x = Math.round(valToPos(sizeAt(slider.valueAsNumber), 'x', true));
+            const size = chosen();
+            if (size === undefined) return;
             ctx.fillStyle = color('--text')();
-            ctx.fillRect(x, bbox.top, Math.max(1, devicePixelRatio), bbox.height);
+            ctx.fillRect(Math.round(valToPos(size, 'x', true)), bbox.top, Math.max(1, devicePixelRatio), bbox.height);
           },
         ],
       },
@@ -95,46 +121,51 @@ export function createCellSize(
     place,
   );
   fitChart(plot, place);
-
-  const draw = () => {
-    const steps = Array.from({ length: count }, (_, k) => first + k);
+  return (costs) => {
     plot.setData([steps.map(sizeAt), steps.map((step) => costs.get(step)?.ms ?? null)]);
+    place.setAttribute('aria-label', describe(costs));
+  };
+}
+
+/** The curve in words. */
+function describe(costs: ReadonlyMap<number, Cost>): string {
+  const best = [...costs.values()].sort((a, b) => a.ms - b.ms)[0];
+  if (!best) return 'Milliseconds by cell size: nothing measured yet.';
+  return `Milliseconds by cell size: ${costs.size} sizes measured, the best is ${best.cellSize}.`;
+}
+
+/**
+ * @param changed called when a size was chosen; undefined means that the library chooses
+ * @param measure measures one size
+ */
+export function createCellSize(
+  root: HTMLElement,
+  changed: (cell: number | undefined) => void,
+  measure: (cell: number) => Promise<Cost>,
+): CellSizeControl {
+  const find = <T extends HTMLElement>(selector: string) => root.querySelector<T>(selector)!;
+  const slider = find<HTMLInputElement>('#cell');
+  const byLibrary = find<HTMLInputElement>('#cell-auto');
+  const text = find('#cell-text');
+  const [first, last] = [Number(slider.min), Number(slider.max)];
+  const steps = Array.from({ length: last - first + 1 }, (_, k) => first + k);
+  let typical = 1;
+  let before = slider.valueAsNumber;
+
+  const sizeAt = (step: number) => Number((typical * 2 ** (step / stepsPerDoubling)).toPrecision(3));
+  const chosen = () => (byLibrary.checked ? undefined : sizeAt(slider.valueAsNumber));
+  const drawCurve = createCurve(root, steps, sizeAt, chosen);
+  const draw = () => {
+    drawCurve(measured.costs);
     const step = slider.valueAsNumber;
-    const known = costs.get(step);
+    const known = measured.costs.get(step);
     text.textContent = byLibrary.checked
       ? `Typical box: ${digits.format(typical)} wide`
       : `${sizeAt(step)}${known ? `: ${digits.format(known.ms)} ms` : ''}`;
     slider.style.setProperty('--filled', `${(100 * (step - first)) / (last - first)}%`);
     slider.setAttribute('aria-valuetext', `${sizeAt(step)}`);
-    place.setAttribute('role', 'img');
-    const best = [...costs.values()].sort((a, b) => a.ms - b.ms)[0];
-    place.setAttribute(
-      'aria-label',
-      best
-        ? `Milliseconds by cell size: ${costs.size} sizes measured, the best is ${best.cellSize}.`
-        : 'Milliseconds by cell size: nothing measured yet.',
-    );
   };
-
-  /** Measures what is in the queue, one size at a time. */
-  const work = async () => {
-    if (measuring) return;
-    measuring = true;
-    while (queue.length > 0) {
-      const step = queue.shift()!;
-      const begun = turn;
-      const cost = await measure(sizeAt(step)).catch(() => undefined);
-      if (cost && begun === turn) {
-        costs.set(step, cost);
-        draw();
-      }
-    }
-    measuring = false;
-  };
-  const enqueue = (steps: readonly number[]) => {
-    queue.push(...steps.filter((step) => !costs.has(step) && !queue.includes(step)));
-    void work();
-  };
+  const measured = new Measurements((step) => measure(sizeAt(step)), draw);
 
   slider.addEventListener('input', () => {
     const now = slider.valueAsNumber;
@@ -144,20 +175,18 @@ export function createCellSize(
     before = now;
     draw();
     changed(sizeAt(now));
-    enqueue(passed);
+    measured.add(passed);
   });
   byLibrary.addEventListener('change', () => {
     draw();
-    changed(byLibrary.checked ? undefined : sizeAt(slider.valueAsNumber));
-    if (!byLibrary.checked) enqueue([slider.valueAsNumber]);
+    changed(chosen());
+    if (!byLibrary.checked) measured.add([slider.valueAsNumber]);
   });
-  whole.addEventListener('click', () => enqueue(Array.from({ length: count }, (_, k) => first + k)));
+  find('#whole-curve').addEventListener('click', () => measured.add(steps));
 
   return {
     begin(sizes, cell) {
-      turn++;
-      queue = [];
-      costs = new Map();
+      measured.clear();
       typical = sizes.typical;
       root.hidden = !sizes.heeded;
       byLibrary.checked = cell === undefined;

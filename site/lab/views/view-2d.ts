@@ -1,10 +1,9 @@
 // Flat scenes: cells and boxes by the renderer of the site, pairs as lines on a canvas above it.
 import { Camera, type World } from '../../shared/camera.ts';
-import { makePalette } from '../../shared/palette.ts';
-import { panZoom } from '../../shared/pan-zoom.ts';
+import { locate, panZoom } from '../../shared/pan-zoom.ts';
 import { createRenderer, type RendererKind } from '../../shared/renderer.ts';
 import type { Picture } from '../worker/messages.ts';
-import { type LabView, onSize } from './view.ts';
+import { type LabView, onPalette, onSize } from './view.ts';
 
 /** A click this near to a box counts for it, in CSS pixels. */
 const fingertip = 14;
@@ -12,37 +11,54 @@ const fingertip = 14;
 const leastCell = 4;
 const cellsLookedAt = 100;
 
+/** Draws pairs as lines, or clears those of before. */
+function drawLines(
+  canvas: HTMLCanvasElement,
+  ends: Float32Array | undefined,
+  { x, y, scale, width, height }: Camera,
+): void {
+  const context = canvas.getContext('2d')!;
+  context.clearRect(0, 0, width, height);
+  if (!ends) return;
+  const left = width / 2 - x * scale;
+  const top = height / 2 + y * scale;
+  context.strokeStyle = getComputedStyle(canvas).color;
+  context.lineWidth = Math.max(1, Math.min(2, devicePixelRatio));
+  context.globalAlpha = 0.7;
+  context.beginPath();
+  for (let k = 0; k < ends.length; k += 4) {
+    context.moveTo(left + ends[k] * scale, top - ends[k + 1] * scale);
+    context.lineTo(left + ends[k + 2] * scale, top - ends[k + 3] * scale);
+  }
+  context.stroke();
+}
+
+/** Whether most cells are smaller than a size, by a look at some of them. */
+function mostAreSmaller({ drawn, cells }: Picture, size: number): boolean {
+  const every = Math.ceil(cells / cellsLookedAt);
+  let [small, all] = [0, 0];
+  for (let at = 0; at < 4 * cells; at += 4 * every) {
+    all++;
+    if (Math.max(drawn[at + 2] - drawn[at], drawn[at + 3] - drawn[at + 1]) < size) small++;
+  }
+  return 2 * small > all;
+}
+
 /** The element holds two canvases, the upper one for lines. */
 export function createFlatView(element: HTMLElement, moved: () => void, kind?: RendererKind): LabView {
   const [canvas, upper] = element.querySelectorAll('canvas');
-  const lines = upper.getContext('2d')!;
   const camera = new Camera();
   let picture: Picture | undefined;
   let world: World = [0, 0, 1, 1];
   let awaited = 0;
 
+  /** The width of a CSS pixel in the world. */
+  const pixel = () => camera.width / canvas.getBoundingClientRect().width / camera.scale;
   const draw = () => {
     if (!picture) return;
-    const { drawn, slots, cells, boxes } = picture;
+    const { drawn, slots, cells, boxes, lines } = picture;
     renderer.draw(drawn, slots, cells + boxes, camera);
-    drawLines();
-  };
-  const drawLines = () => {
-    lines.clearRect(0, 0, upper.width, upper.height);
-    const ends = picture?.lines;
-    if (!ends) return;
-    const { scale, width, height } = camera;
-    const left = width / 2 - camera.x * scale;
-    const top = height / 2 + camera.y * scale;
-    lines.strokeStyle = getComputedStyle(element).color;
-    lines.lineWidth = Math.max(1, Math.min(2, devicePixelRatio));
-    lines.globalAlpha = 0.7;
-    lines.beginPath();
-    for (let k = 0; k < ends.length; k += 4) {
-      lines.moveTo(left + ends[k] * scale, top - ends[k + 1] * scale);
-      lines.lineTo(left + ends[k + 2] * scale, top - ends[k + 3] * scale);
-    }
-    lines.stroke();
+    drawLines(upper, lines, camera);
   };
   const redraw = () => {
     cancelAnimationFrame(awaited);
@@ -55,13 +71,10 @@ export function createFlatView(element: HTMLElement, moved: () => void, kind?: R
 
   const renderer = createRenderer(canvas, redraw, kind);
   panZoom(element, camera, changed);
-  const dark = matchMedia('(prefers-color-scheme: dark)');
-  const dress = () => {
-    renderer.setPalette(makePalette(dark.matches, getComputedStyle(element).getPropertyValue('--page').trim()));
+  onPalette(element, (palette) => {
+    renderer.setPalette(palette);
     redraw();
-  };
-  dark.addEventListener('change', dress);
-  dress();
+  });
   onSize(element, (width, height) => {
     for (const each of [canvas, upper]) Object.assign(each, { width, height });
     camera.resize(width, height);
@@ -98,23 +111,13 @@ export function createFlatView(element: HTMLElement, moved: () => void, kind?: R
       redraw();
     },
     get cellsTooSmall() {
-      if (!picture || picture.cells === 0) return false;
-      const { drawn, cells } = picture;
-      const least = (leastCell * camera.width) / canvas.clientWidth / camera.scale;
-      const every = Math.ceil(cells / cellsLookedAt);
-      let [small, all] = [0, 0];
-      for (let at = 0; at < 4 * cells; at += 4 * every) {
-        all++;
-        if (Math.max(drawn[at + 2] - drawn[at], drawn[at + 3] - drawn[at + 1]) < least) small++;
-      }
-      return 2 * small > all;
+      return picture ? mostAreSmaller(picture, leastCell * pixel()) : false;
     },
     place(clientX, clientY) {
-      const frame = canvas.getBoundingClientRect();
-      const density = camera.width / frame.width;
-      const x = camera.x + ((clientX - frame.left) * density - camera.width / 2) / camera.scale;
-      const y = camera.y + ((frame.bottom - clientY) * density - camera.height / 2) / camera.scale;
-      return { place: [x, y], reach: (fingertip * density) / camera.scale };
+      const at = locate(canvas, camera, clientX, clientY);
+      const x = camera.x + (at.x - camera.width / 2) / camera.scale;
+      const y = camera.y + (at.y - camera.height / 2) / camera.scale;
+      return { place: [x, y], reach: fingertip * pixel() };
     },
   };
 }

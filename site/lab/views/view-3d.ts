@@ -18,6 +18,7 @@ import {
   Raycaster,
   Scene,
   ShaderMaterial,
+  type ShaderMaterialParameters,
   SRGBColorSpace,
   Vector2,
   Vector3,
@@ -25,9 +26,9 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { slotCount } from '../../shared/groups.ts';
-import { makePalette } from '../../shared/palette.ts';
 import { scrollsPage } from '../../shared/pan-zoom.ts';
-import { type LabView, onSize } from './view.ts';
+import type { Picture } from '../worker/messages.ts';
+import { type LabView, onPalette, onSize } from './view.ts';
 
 const vertexShader = `
 attribute vec3 low, high;
@@ -92,172 +93,222 @@ function distanceToSee(low: Vector3, high: Vector3, aspect: number): number {
   return distance;
 }
 
-/** The element holds one canvas. */
-export function createSolidView(element: HTMLElement, moved: () => void): LabView {
-  const canvas = element.querySelector('canvas')!;
-  const renderer = new WebGLRenderer({ canvas, antialias: true });
-  const scene = new Scene();
-  const camera = new PerspectiveCamera(fieldOfView);
-  const controls = new OrbitControls(camera, element);
-  // As in the plane: the page scrolls by a finger that moves up or down, and by a wheel over a view not clicked.
-  element.style.touchAction = 'pan-y';
-  const leaveToPage = (event: WheelEvent) => {
-    if (scrollsPage(event, element)) event.stopImmediatePropagation();
-  };
-  element.addEventListener('wheel', leaveToPage, { capture: true, passive: true });
-  const uniforms = {
+/** The camera, which turns around a point by mouse, fingers and keys. */
+class Orbit {
+  readonly camera = new PerspectiveCamera(fieldOfView);
+  readonly middle = new Vector3();
+  /** The length of the world from corner to corner. */
+  diagonal = 1;
+  readonly #controls: OrbitControls;
+  readonly #low = new Vector3();
+  readonly #high = new Vector3();
+  #fitted = true;
+
+  constructor(element: HTMLElement, changed: () => void) {
+    this.#controls = new OrbitControls(this.camera, element);
+    this.#controls.enableDamping = false;
+    this.#controls.addEventListener('change', changed);
+    this.#controls.addEventListener('start', () => {
+      this.#fitted = false;
+    });
+    // As in the plane: the page scrolls by a finger that moves up or down, and by a wheel over a view not clicked.
+    element.style.touchAction = 'pan-y';
+    const leaveToPage = (event: WheelEvent) => {
+      if (scrollsPage(event, element)) event.stopImmediatePropagation();
+    };
+    element.addEventListener('wheel', leaveToPage, { capture: true, passive: true });
+  }
+
+  fit(world: readonly number[]): void {
+    this.#low.fromArray(world, 0);
+    this.#high.fromArray(world, 3);
+    this.middle.copy(this.#low).add(this.#high).multiplyScalar(0.5);
+    this.diagonal = this.#low.distanceTo(this.#high);
+    this.camera.near = this.diagonal / 500;
+    this.camera.far = this.diagonal * 2 * horizon;
+    this.camera.updateProjectionMatrix();
+    this.start();
+  }
+
+  /** Shows the whole world, from the first direction. */
+  start(): void {
+    const { camera } = this;
+    camera.position
+      .copy(firstDirection)
+      .multiplyScalar(distanceToSee(this.#low, this.#high, camera.aspect))
+      .add(this.middle);
+    this.#controls.target.copy(this.middle);
+    this.#controls.update();
+    this.#fitted = true;
+  }
+
+  resize(aspect: number): void {
+    this.camera.aspect = aspect;
+    this.camera.updateProjectionMatrix();
+    if (this.#fitted) this.start();
+  }
+
+  zoom(factor: number): void {
+    const { target } = this.#controls;
+    this.camera.position.sub(target).divideScalar(factor).add(target);
+    this.#leave();
+  }
+
+  /** Turns around the point, in radians. */
+  turn(across: number, up: number): void {
+    const { target } = this.#controls;
+    const offset = this.camera.position.clone().sub(target);
+    const length = offset.length();
+    const polar = Math.min(Math.PI - 0.05, Math.max(0.05, Math.acos(offset.y / length) - up));
+    const around = Math.atan2(offset.x, offset.z) - across;
+    offset.setFromSphericalCoords(length, polar, around);
+    this.camera.position.copy(target).add(offset);
+    this.#leave();
+  }
+
+  /** After the camera was moved. */
+  #leave(): void {
+    this.#fitted = false;
+    this.#controls.update();
+  }
+
+  get look(): readonly number[] | undefined {
+    if (this.#fitted) return undefined;
+    const shares = (place: Vector3) => place.clone().sub(this.middle).divideScalar(this.diagonal).toArray();
+    return [...shares(this.camera.position), ...shares(this.#controls.target)];
+  }
+
+  set look(given: readonly number[] | undefined) {
+    this.start();
+    if (given?.length !== 6) return;
+    const place = (at: number) => new Vector3().fromArray(given, at).multiplyScalar(this.diagonal).add(this.middle);
+    if (place(0).distanceTo(place(3)) < this.camera.near) return;
+    this.camera.position.copy(place(0));
+    this.#controls.target.copy(place(3));
+    this.#leave();
+  }
+}
+
+const step = Math.PI / 24;
+const keys: Record<string, (orbit: Orbit) => void> = {
+  ArrowLeft: (orbit) => orbit.turn(step, 0),
+  ArrowRight: (orbit) => orbit.turn(-step, 0),
+  ArrowUp: (orbit) => orbit.turn(0, step),
+  ArrowDown: (orbit) => orbit.turn(0, -step),
+  '+': (orbit) => orbit.zoom(1.25),
+  '=': (orbit) => orbit.zoom(1.25),
+  '-': (orbit) => orbit.zoom(0.8),
+  '0': (orbit) => orbit.start(),
+};
+
+/** The boxes, cells and pairs of a picture, in a scene. */
+class Solids {
+  readonly scene = new Scene();
+  readonly #uniforms = {
     palette: { value: new Float32Array(4 * slotCount) },
     farLow: { value: new Vector3() },
     farHigh: { value: new Vector3() },
     diagonal: { value: 1 },
   };
-  const boxes = new Instances(
-    (geometry) => new Mesh(geometry, new ShaderMaterial({ vertexShader, fragmentShader: solidShader, uniforms })),
+  readonly #boxes = new Instances(
+    (geometry) => new Mesh(geometry, this.#material({ fragmentShader: solidShader })),
     new BoxGeometry(),
   );
-  const cells = new Instances(
+  readonly #cells = new Instances(
     (geometry) =>
-      new LineSegments(
-        geometry,
-        new ShaderMaterial({
-          vertexShader,
-          fragmentShader: frameShader,
-          uniforms,
-          transparent: true,
-          depthWrite: false,
-        }),
-      ),
+      new LineSegments(geometry, this.#material({ fragmentShader: frameShader, transparent: true, depthWrite: false })),
     new EdgesGeometry(new BoxGeometry()),
   );
-  const pairs = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ depthTest: false }));
-  pairs.frustumCulled = false;
-  scene.add(boxes.object, cells.object, pairs);
-  const [middle, low, high] = [new Vector3(), new Vector3(), new Vector3()];
-  let diagonal = 1;
-  let fitted = true;
+  readonly #pairs = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ depthTest: false }));
+
+  constructor() {
+    this.#pairs.frustumCulled = false;
+    this.scene.add(this.#boxes.object, this.#cells.object, this.#pairs);
+  }
+
+  #material(parameters: ShaderMaterialParameters): ShaderMaterial {
+    return new ShaderMaterial({ vertexShader, uniforms: this.#uniforms, ...parameters });
+  }
+
+  fit({ middle, diagonal }: Orbit): void {
+    this.#uniforms.diagonal.value = diagonal;
+    this.#uniforms.farLow.value.copy(middle).subScalar(horizon * diagonal);
+    this.#uniforms.farHigh.value.copy(middle).addScalar(horizon * diagonal);
+  }
+
+  dress(slots: Float32Array, lineColour: string): void {
+    this.#uniforms.palette.value.set(slots);
+    this.#pairs.material.color.set(lineColour);
+  }
+
+  show({ drawn, slots, cells, boxes, lines }: Picture): void {
+    this.#cells.set(drawn, slots, 0, cells);
+    this.#boxes.set(drawn, slots, cells, boxes);
+    this.#pairs.visible = lines !== undefined;
+    if (!lines) return;
+    this.#pairs.geometry.dispose();
+    this.#pairs.geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(lines, 3));
+  }
+}
+
+/** The element holds one canvas. */
+export function createSolidView(element: HTMLElement, moved: () => void): LabView {
+  const canvas = element.querySelector('canvas')!;
+  const renderer = new WebGLRenderer({ canvas, antialias: true });
+  const solids = new Solids();
   let awaited = 0;
 
-  const draw = () => renderer.render(scene, camera);
+  const draw = () => renderer.render(solids.scene, orbit.camera);
   const redraw = () => {
     cancelAnimationFrame(awaited);
     awaited = requestAnimationFrame(draw);
   };
-  const start = () => {
-    controls.target.copy(middle);
-    camera.position
-      .copy(firstDirection)
-      .multiplyScalar(distanceToSee(low, high, camera.aspect))
-      .add(middle);
-    controls.update();
-    fitted = true;
+  const changed = () => {
     redraw();
+    moved();
   };
-  controls.enableDamping = false;
-  controls.addEventListener('change', redraw);
-  controls.addEventListener('start', () => {
-    fitted = false;
+  const orbit = new Orbit(element, changed);
+  onPalette(element, ({ slots, background }, { color }) => {
+    solids.dress(slots, color);
+    renderer.setClearColor(new Color().setRGB(...background, SRGBColorSpace));
+    redraw();
   });
-  controls.addEventListener('change', moved);
-
-  const dark = matchMedia('(prefers-color-scheme: dark)');
-  const dress = () => {
-    const style = getComputedStyle(element);
-    const palette = makePalette(dark.matches, style.getPropertyValue('--page').trim());
-    uniforms.palette.value.set(palette.slots);
-    renderer.setClearColor(new Color().setRGB(...palette.background, SRGBColorSpace));
-    pairs.material.color.set(style.color);
-    redraw();
-  };
-  dark.addEventListener('change', dress);
-  dress();
   onSize(element, (width, height) => {
     renderer.setSize(width, height, false);
-    camera.aspect = width / height;
-    camera.updateProjectionMatrix();
-    if (fitted) start();
+    orbit.resize(width / height);
     draw();
   });
-
-  const zoom = (factor: number) => {
-    camera.position.sub(controls.target).divideScalar(factor).add(controls.target);
-    fitted = false;
-    controls.update();
-  };
-  /** Turns around the centre, in radians. */
-  const turn = (across: number, up: number) => {
-    const offset = camera.position.clone().sub(controls.target);
-    const length = offset.length();
-    const polar = Math.min(Math.PI - 0.05, Math.max(0.05, Math.acos(offset.y / length) - up));
-    const around = Math.atan2(offset.x, offset.z) - across;
-    offset.setFromSphericalCoords(length, polar, around);
-    camera.position.copy(controls.target).add(offset);
-    fitted = false;
-    controls.update();
-  };
-  const step = Math.PI / 24;
-  const keys: Record<string, () => void> = {
-    ArrowLeft: () => turn(step, 0),
-    ArrowRight: () => turn(-step, 0),
-    ArrowUp: () => turn(0, step),
-    ArrowDown: () => turn(0, -step),
-    '+': () => zoom(1.25),
-    '=': () => zoom(1.25),
-    '-': () => zoom(0.8),
-    '0': start,
-  };
   element.tabIndex = 0;
   element.addEventListener('keydown', (event) => {
     const act = event.ctrlKey || event.metaKey || event.altKey ? undefined : keys[event.key];
     if (!act) return;
     event.preventDefault();
-    act();
-    moved();
+    act(orbit);
+    changed();
   });
 
   return {
     element,
     fit(world) {
-      low.fromArray(world, 0);
-      high.fromArray(world, 3);
-      middle.copy(low).add(high).multiplyScalar(0.5);
-      diagonal = low.distanceTo(high);
-      uniforms.diagonal.value = diagonal;
-      uniforms.farLow.value.copy(middle).subScalar(horizon * diagonal);
-      uniforms.farHigh.value.copy(middle).addScalar(horizon * diagonal);
-      camera.near = diagonal / 500;
-      camera.far = diagonal * 2 * horizon;
-      camera.updateProjectionMatrix();
-      start();
+      orbit.fit(world);
+      solids.fit(orbit);
+      redraw();
     },
-    show({ drawn, slots, cells: cellCount, boxes: boxCount, lines }) {
-      cells.set(drawn, slots, 0, cellCount);
-      boxes.set(drawn, slots, cellCount, boxCount);
-      pairs.visible = lines !== undefined;
-      if (lines) {
-        pairs.geometry.dispose();
-        pairs.geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(lines, 3));
-      }
+    show(picture) {
+      solids.show(picture);
       cancelAnimationFrame(awaited);
       draw();
     },
     zoom(factor) {
-      zoom(factor);
-      moved();
+      orbit.zoom(factor);
+      changed();
     },
     get look() {
-      if (fitted) return undefined;
-      const shares = (place: Vector3) => place.clone().sub(middle).divideScalar(diagonal).toArray();
-      return [...shares(camera.position), ...shares(controls.target)];
+      return orbit.look;
     },
     set look(given) {
-      start();
-      if (given?.length !== 6) return;
-      const place = (at: number) => new Vector3().fromArray(given, at).multiplyScalar(diagonal).add(middle);
-      if (place(0).distanceTo(place(3)) < camera.near) return;
-      camera.position.copy(place(0));
-      controls.target.copy(place(3));
-      fitted = false;
-      controls.update();
+      orbit.look = given;
+      redraw();
     },
     cellsTooSmall: false, // the nearest are large enough
     place(clientX, clientY) {
@@ -265,7 +316,7 @@ export function createSolidView(element: HTMLElement, moved: () => void): LabVie
       const x = (2 * (clientX - frame.left)) / frame.width - 1;
       const y = 1 - (2 * (clientY - frame.top)) / frame.height;
       const caster = new Raycaster();
-      caster.setFromCamera(new Vector2(x, y), camera);
+      caster.setFromCamera(new Vector2(x, y), orbit.camera);
       const { origin, direction }: Ray = caster.ray;
       return { place: [...origin.toArray(), ...direction.toArray()], reach: Infinity };
     },

@@ -1,4 +1,5 @@
 // A view that shows pictures: flat scenes on a canvas, solid ones in three dimensions, with one interface.
+import { makePalette, type Palette } from '../../shared/palette.ts';
 import type { Picture } from '../worker/messages.ts';
 
 export interface LabView {
@@ -43,5 +44,16 @@ export function onSize(element: HTMLElement, resized: (width: number, height: nu
     resized(width, height);
   };
   new ResizeObserver(look).observe(element);
+  look();
+}
+
+/** Calls `changed` with the colours of an element now and whenever the page turns light or dark. */
+export function onPalette(element: HTMLElement, changed: (palette: Palette, style: CSSStyleDeclaration) => void): void {
+  const dark = matchMedia('(prefers-color-scheme: dark)');
+  const look = () => {
+    const style = getComputedStyle(element);
+    changed(makePalette(dark.matches, style.getPropertyValue('--page').trim()), style);
+  };
+  dark.addEventListener('change', look);
   look();
 }
