@@ -77,9 +77,10 @@ class View {
 
   #resize() {
     const { clientWidth, clientHeight } = this.stage;
+    if (clientWidth * clientHeight === 0) return; // hidden: it has no aspect
     this.#renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.#renderer.setSize(clientWidth, clientHeight);
-    this.camera.aspect = clientWidth / Math.max(1, clientHeight);
+    this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
     this.changed();
   }

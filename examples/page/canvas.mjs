@@ -9,6 +9,7 @@ export function canvasIn(stage, draw) {
   const dark = matchMedia('(prefers-color-scheme: dark)');
   const redraw = () => {
     const [width, height] = [stage.clientWidth, stage.clientHeight];
+    if (width * height === 0) return; // hidden
     const density = Math.min(2, devicePixelRatio);
     if (canvas.width !== Math.round(width * density) || canvas.height !== Math.round(height * density)) {
       canvas.width = Math.round(width * density);

@@ -327,6 +327,26 @@ for (const [id, start] of [
   });
 }
 
+for (const id of ['map', 'belt']) {
+  test(`${id}: while its stage is hidden nothing is drawn, and then it shows what it did`, async ({ page }) => {
+    const section = await open(page, id);
+    const status = section.locator('p[role=status]');
+    if (id === 'map') await section.getByRole('button', { name: 'Zoom in' }).click();
+    await expect(status).toContainText(id === 'map' ? '1.6 times the size' : 'stones in view', patient);
+    const inView = async () => Number(/[\d,]+(?= of )/.exec((await status.textContent())!)![0].replaceAll(',', ''));
+    const before = await inView();
+    await section.locator('.stage').evaluate(async (stage: HTMLElement) => {
+      for (const display of ['none', '']) {
+        stage.style.display = display;
+        for (let frame = 0; frame < 3; frame++) await new Promise(requestAnimationFrame);
+      }
+    });
+    // The race may have moved some stones since.
+    expect(Math.abs((await inView()) / before - 1)).toBeLessThan(0.02);
+    if (id === 'map') await expect(status).toContainText('1.6 times the size');
+  });
+}
+
 test('the code of each is copied in one piece', async ({ page, context }) => {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   await page.goto('/showcases/');
