@@ -1,5 +1,5 @@
 // The boxes of figures 11 and 12, and the picture of them on their grid that both figures draw.
-import { boxOn, type Colors, fitWorld, gridOn, lookOf } from './kit/index.ts';
+import { boxOn, cellBox, fitWorld, gridOn, lookOf, type Sheet } from './kit/index.ts';
 import type { Box, GridSize, Place } from './record.ts';
 
 export const gridSize: GridSize = { width: 200, height: 150, cellSize: 50 };
@@ -27,20 +27,16 @@ export interface GridPicture {
   hit?: ReadonlySet<number>;
 }
 
-export function drawGridScene(
-  ctx: CanvasRenderingContext2D,
-  view: { width: number; height: number },
-  { filled, at = [], now = [], hit = new Set() }: GridPicture,
-  colors: Colors,
-): void {
+export function drawGridScene(sheet: Sheet, { filled, at = [], now = [], hit = new Set() }: GridPicture): void {
+  const { ctx, colors } = sheet;
   const { cellSize } = gridSize;
-  const fit = fitWorld(view, [0, 0, gridSize.width, gridSize.height]);
-  const cellBox = ({ col, cell }: Place): Box => [col * cellSize, cell * cellSize, cellSize, cellSize];
-  for (const place of filled) boxOn(ctx, fit, cellBox(place), { fill: colors.cell });
+  const fit = fitWorld(sheet, [0, 0, gridSize.width, gridSize.height]);
+  const boxOf = ({ col, cell }: Place) => cellBox(col, cell, cellSize);
+  for (const place of filled) boxOn(ctx, fit, boxOf(place), { fill: colors.cell });
   gridOn(ctx, fit, { minX: 0, minY: 0, columns, rows, cellSize }, colors.grid);
   boxes.forEach((box, id) => {
     const look = lookOf(colors, hit.has(id) ? 'hit' : 'alone', String(id));
     boxOn(ctx, fit, box, now.includes(id) ? { ...look, line: colors.now, lineWidth: 3 } : look);
   });
-  for (const place of at) boxOn(ctx, fit, cellBox(place), { line: colors.now, lineWidth: 2 });
+  for (const place of at) boxOn(ctx, fit, boxOf(place), { line: colors.now, lineWidth: 2 });
 }

@@ -2,7 +2,7 @@
 //
 // The code shown beside the steps is the code that ran: nothing is simulated. The technique's public fields are
 // replaced by watched ones, and its arrays by proxies that report reads and writes.
-import { type AABB, coltech, type Entity, Entity as RoEntity, World } from 'broadphase/ro';
+import { type AABB, coltech, type Entity, Entity as RoEntity, type Screen, World } from 'broadphase/ro';
 
 /** x, y, width, height. */
 export type Box = readonly [x: number, y: number, width: number, height: number];
@@ -122,111 +122,127 @@ export interface GridSize {
   cellSize: number;
 }
 
+/** A filled cell, and the entities in it. */
+type FilledCell = Place & { ids: number[] };
+
+export interface GridRecord {
+  population: readonly PopulationOperation[];
+  query: readonly QueryOperation[];
+  /** The cells that were filled. */
+  cells: readonly FilledCell[];
+}
+
 /** Every operation of `SpatialGrid.update` and of the query after it, and the cells that it filled. */
-export function recordGrid(
-  boxes: readonly Box[],
-  { width, height, cellSize }: GridSize,
-): { population: PopulationOperation[]; query: QueryOperation[]; cells: readonly (Place & { ids: number[] })[] } {
+export function recordGrid(boxes: readonly Box[], { width, height, cellSize }: GridSize): GridRecord {
   const technique = filled(new coltech.SpatialGrid(0, 0, width, height, cellSize), boxes);
-  const population: PopulationOperation[] = [];
-  const query: QueryOperation[] = [];
-  const cells: (Place & { ids: number[] })[] = [];
-  let populating = true;
-  let id = -1;
-  let here: Place = { col: 0, cell: 0 };
+  const recorder = new GridRecorder();
+  recorder.watchPopulation(technique);
+  technique.update();
+  recorder.watchQuery(technique);
+  technique.queryForCollisionPairs();
+  return recorder;
+}
+
+class GridRecorder implements GridRecord {
+  readonly population: PopulationOperation[] = [];
+  readonly query: QueryOperation[] = [];
+  readonly cells: FilledCell[] = [];
+  #populating = true;
+  #id = -1;
+  #here: Place = { col: 0, cell: 0 };
   /** The ids last read from a cell: the current pair. */
-  let a = -1;
-  let b = -1;
+  #a = -1;
+  #b = -1;
 
-  const { entities } = technique;
-  Object.defineProperty(technique, 'entities', {
-    get: () =>
-      spy(entities as Entity[], {
-        read(index) {
-          id = entities[index]._roId;
-          population.push({ kind: 'entity', id });
-        },
-      }),
-  });
-
-  // The four ends are read in the order right, top, bottom, left; the last one completes the span.
-  const asked: number[] = [];
-  const ask = (index: number) => {
-    if (asked.push(index) < 4) return index;
-    const [lastCol, firstCell, lastCell, firstCol] = asked.splice(0);
-    population.push({
-      kind: 'span',
-      id,
-      first: { col: firstCol, cell: firstCell },
-      last: { col: lastCol, cell: lastCell },
+  watchPopulation(technique: coltech.SpatialGrid): void {
+    const { entities, columnOf, cellOf } = technique;
+    Object.defineProperty(technique, 'entities', {
+      get: () =>
+        spy(entities as Entity[], {
+          read: (index) => {
+            this.#id = entities[index]._roId;
+            this.population.push({ kind: 'entity', id: this.#id });
+          },
+        }),
     });
-    return index;
-  };
-  const { columnOf, cellOf } = technique;
-  technique.columnOf = (x) => ask(columnOf.call(technique, x));
-  technique.cellOf = (y) => ask(cellOf.call(technique, y));
 
-  const watchedCell = (place: Place) => {
-    const ids: number[] = [];
-    cells.push({ ...place, ids });
-    return spy<Entity>([], {
-      read(index) {
-        a = b;
-        b = ids[index];
+    // The four ends are read in the order right, top, bottom, left; the last one completes the span.
+    const asked: number[] = [];
+    const ask = (index: number) => {
+      if (asked.push(index) < 4) return index;
+      const [lastCol, firstCell, lastCell, firstCol] = asked.splice(0);
+      const first = { col: firstCol, cell: firstCell };
+      this.population.push({ kind: 'span', id: this.#id, first, last: { col: lastCol, cell: lastCell } });
+      return index;
+    };
+    technique.columnOf = (x) => ask(columnOf.call(technique, x));
+    technique.cellOf = (y) => ask(cellOf.call(technique, y));
+
+    watch(technique, 'grid', (grid) => {
+      this.population.push({ kind: 'grid' });
+      return spy(grid, {
+        write: (col) => {
+          this.population.push({ kind: 'column', id: this.#id, col });
+          return this.#watchedColumn(col);
+        },
+      });
+    });
+  }
+
+  #watchedColumn(col: number): Entity[][] {
+    return spy<Entity[]>([], {
+      read: (cell) => {
+        if (this.#populating) return;
+        this.#here = { col, cell };
+        const { ids } = this.cells.find((each) => each.col === col && each.cell === cell)!;
+        this.query.push({ kind: 'visit', ids, ...this.#here });
       },
-      write(_, entity) {
+      write: (cell) => {
+        this.population.push({ kind: 'cell', id: this.#id, col, cell });
+        return this.#watchedCell({ col, cell });
+      },
+    });
+  }
+
+  #watchedCell(place: Place): Entity[] {
+    const ids: number[] = [];
+    this.cells.push({ ...place, ids });
+    return spy<Entity>([], {
+      read: (index) => {
+        this.#a = this.#b;
+        this.#b = ids[index];
+      },
+      write: (_, entity) => {
         ids.push(entity._roId);
-        population.push({ kind: 'insert', id, ...place });
+        this.population.push({ kind: 'insert', id: this.#id, ...place });
         return entity;
       },
     });
-  };
-  const watchedColumn = (col: number) =>
-    spy<Entity[]>([], {
-      read(cell) {
-        if (populating) return;
-        here = { col, cell };
-        const ids = cells.find((each) => each.col === col && each.cell === cell)!.ids;
-        query.push({ kind: 'visit', ids, ...here });
-      },
-      write(cell) {
-        population.push({ kind: 'cell', id, col, cell });
-        return watchedCell({ col, cell });
-      },
-    });
-  watch(technique, 'grid', (grid) => {
-    population.push({ kind: 'grid' });
-    return spy(grid, {
-      write(col) {
-        population.push({ kind: 'column', id, col });
-        return watchedColumn(col);
-      },
-    });
-  });
-  technique.update();
+  }
 
-  populating = false;
-  watch(technique, 'hashChecks', (checks) => {
-    // If no test follows, the pair was in the table.
-    if (checks > 0) query.push({ kind: 'look-up', a, b, known: true, ...here });
-    return checks;
-  });
-  watch(technique, 'collisionTests', (tests) => {
-    const last = query.at(-1);
-    if (tests > 0 && last?.kind === 'look-up') {
-      last.known = false;
-      query.push({ kind: 'mark', a, b, ...here });
-    }
-    return tests;
-  });
-  const test = technique.aabb2DIntersection;
-  technique.aabb2DIntersection = (entityA, entityB) => {
-    const hit = test.call(technique, entityA, entityB);
-    query.push({ kind: 'test', a, b, hit, ...here });
-    return hit;
-  };
-  technique.queryForCollisionPairs();
-  return { population, query, cells };
+  watchQuery(technique: coltech.SpatialGrid): void {
+    this.#populating = false;
+    const now = () => ({ a: this.#a, b: this.#b, ...this.#here });
+    watch(technique, 'hashChecks', (checks) => {
+      // If no test follows, the pair was in the table.
+      if (checks > 0) this.query.push({ kind: 'look-up', known: true, ...now() });
+      return checks;
+    });
+    watch(technique, 'collisionTests', (tests) => {
+      const last = this.query.at(-1);
+      if (tests > 0 && last?.kind === 'look-up') {
+        last.known = false;
+        this.query.push({ kind: 'mark', ...now() });
+      }
+      return tests;
+    });
+    const test = technique.aabb2DIntersection;
+    technique.aabb2DIntersection = (entityA, entityB) => {
+      const hit = test.call(technique, entityA, entityB);
+      this.query.push({ kind: 'test', hit, ...now() });
+      return hit;
+    };
+  }
 }
 
 // The world: the eight stages of a step.
@@ -256,123 +272,150 @@ export interface StageRecord {
   pairs: readonly (readonly [number, number])[];
 }
 
+/** A box at the start, and how far it moves in a step. */
+interface Start {
+  box: Box;
+  velocity: readonly [x: number, y: number];
+}
+
+const gravity = 0.0016;
+
 /** Every stage of some steps of a world of bouncing boxes, `width` by `height`, on a grid. */
-export function recordStages(
-  starts: readonly { box: Box; velocity: readonly [number, number] }[],
-  { width, height, cellSize }: GridSize,
-  steps: number,
-): StageRecord[] {
-  const records: StageRecord[] = [];
-  const gravity = 0.0016;
-  const grid = new coltech.SpatialGrid(0, 0, width, height, cellSize);
-  const canvas = document.createElement('canvas');
-  let stage: Stage | undefined;
-  let step = 0;
-  let drawn: StageRecord['drawn'] = [];
-  let pairs: StageRecord['pairs'] = [];
-  let cells: Box[] = [];
+export function recordStages(starts: readonly Start[], size: GridSize, steps: number): StageRecord[] {
+  const recorder = new StageRecorder(size);
+  for (const start of starts) recorder.add(start);
+  for (let step = 1; step <= steps; step++) recorder.run(step);
+  return recorder.records;
+}
 
-  const boxOf = ({ pos, size }: Entity): Box => [pos.x, pos.y, size.x, size.y];
-  const close = () => {
-    if (!stage) return;
-    records.push({
-      stage,
-      step,
-      entities: world.entities.map((entity) => {
-        const { min, max } = entity.getAABB();
-        const { ppos, accel } = entity;
-        return {
-          pos: boxOf(entity),
-          ppos: [ppos.x, ppos.y],
-          aabb: { min: [...min], max: [...max] },
-          accel: [accel.x, accel.y],
-        };
-      }),
-      drawn: [...drawn],
-      cells,
-      pairs,
+const boxOf = ({ pos, size }: Entity): Box => [pos.x, pos.y, size.x, size.y];
+
+/** What an entity is like at the end of a stage. */
+function stateOf(entity: Entity): StageRecord['entities'][number] {
+  const { min, max } = entity.getAABB();
+  const { ppos, accel } = entity;
+  return {
+    pos: boxOf(entity),
+    ppos: [ppos.x, ppos.y],
+    aabb: { min: [...min], max: [...max] },
+    accel: [accel.x, accel.y],
+  };
+}
+
+/** Turns back an entity that is beyond a wall, with its speed: puts it on the wall, as if it came from outside. */
+function bounce({ pos, ppos, size }: Entity, axis: 'x' | 'y', length: number): void {
+  const velocity = pos[axis] - ppos[axis];
+  const wall = Math.min(Math.max(pos[axis], 0), length - size[axis]);
+  if (wall === pos[axis]) return;
+  pos[axis] = wall;
+  ppos[axis] = wall + velocity;
+}
+
+/** A world that records each stage when the next one begins. */
+class StageRecorder {
+  readonly records: StageRecord[] = [];
+  readonly #world: World;
+  #stage: Stage | undefined;
+  #step = 0;
+  #drawn: StageRecord['drawn'] = [];
+  #pairs: StageRecord['pairs'] = [];
+  #cells: Box[] = [];
+
+  constructor({ width, height, cellSize }: GridSize) {
+    const recorder = this;
+    const grid = new coltech.SpatialGrid(0, 0, width, height, cellSize);
+    this.#world = new World(document.createElement('canvas'), {
+      coltech: grid,
+      draw() {
+        recorder.#begin('draw');
+        recorder.#drawn = this.entities.map((entity) => ({ box: boxOf(entity), hit: false }));
+      },
+      handleCollisions(_dt, found) {
+        recorder.#begin('handleCollisions');
+        for (const entity of new Set(found.flat())) recorder.#drawn.push({ box: boxOf(entity), hit: true });
+      },
+      update() {
+        recorder.#begin('user-update');
+        for (const entity of this.entities) {
+          bounce(entity, 'x', width);
+          bounce(entity, 'y', height);
+          entity.accel.y = gravity;
+        }
+      },
     });
-    stage = undefined;
-  };
-  /** Ends the previous stage, unless it is this one. */
-  const begin = (next: Stage) => {
-    if (stage === next) return;
-    close();
-    stage = next;
-  };
+    this.#watchScreen(this.#world.screen!);
+    this.#watchGrid(grid, cellSize);
+  }
 
-  const world: World = new World(canvas, {
-    coltech: grid,
-    draw() {
-      begin('draw');
-      drawn = this.entities.map((entity) => ({ box: boxOf(entity), hit: false }));
-    },
-    handleCollisions(_dt, found) {
-      begin('handleCollisions');
-      for (const entity of new Set(found.flat())) drawn.push({ box: boxOf(entity), hit: true });
-    },
-    update() {
-      begin('user-update');
-      for (const entity of this.entities) {
-        bounce(entity, 'x', width);
-        bounce(entity, 'y', height);
-        entity.accel.y = gravity;
-      }
-    },
-  });
-
-  /** Turns back an entity that is beyond a wall, with its speed: puts it on the wall, as if it came from outside. */
-  const bounce = ({ pos, ppos, size }: Entity, axis: 'x' | 'y', length: number) => {
-    const velocity = pos[axis] - ppos[axis];
-    const wall = Math.min(Math.max(pos[axis], 0), length - size[axis]);
-    if (wall === pos[axis]) return;
-    pos[axis] = wall;
-    ppos[axis] = wall + velocity;
-  };
-
-  const { clear } = world.screen!;
-  world.screen!.clear = () => {
-    begin('clear');
-    drawn = [];
-    pairs = [];
-    cells = [];
-    clear.call(world.screen);
-  };
-  const { update, queryForCollisionPairs } = grid;
-  grid.update = () => {
-    begin('update');
-    update.call(grid);
-    cells = grid.grid.flatMap((column, col) =>
-      column.map((_, cell): Box => [col * cellSize, cell * cellSize, cellSize, cellSize]).filter(Boolean),
-    );
-  };
-  grid.queryForCollisionPairs = () => {
-    begin('query');
-    const found = queryForCollisionPairs.call(grid);
-    pairs = found.map(([a, b]) => [a._roId, b._roId]);
-    return found;
-  };
-
-  for (const { box, velocity } of starts) {
+  add({ box, velocity }: Start): void {
     const entity = new RoEntity(...box);
     entity.ppos = { x: box[0] - velocity[0], y: box[1] - velocity[1] };
     entity.accel.y = gravity;
     const { accelerate, inertia } = entity;
     entity.accelerate = (dt) => {
-      begin('accelerate');
+      this.#begin('accelerate');
       accelerate.call(entity, dt);
     };
     entity.inertia = (dt) => {
-      begin('inertia');
+      this.#begin('inertia');
       inertia.call(entity, dt);
     };
-    world.addEntity(entity);
+    this.#world.addEntity(entity);
   }
-  for (step = 1; step <= steps; step++) {
-    world.step();
-    close();
+
+  run(step: number): void {
+    this.#step = step;
+    this.#world.step();
+    this.#close();
   }
-  return records;
+
+  /** Ends the previous stage, unless it is this one. */
+  #begin(stage: Stage): void {
+    if (this.#stage === stage) return;
+    this.#close();
+    this.#stage = stage;
+  }
+
+  #close(): void {
+    if (!this.#stage) return;
+    this.records.push({
+      stage: this.#stage,
+      step: this.#step,
+      entities: this.#world.entities.map(stateOf),
+      drawn: [...this.#drawn],
+      cells: this.#cells,
+      pairs: this.#pairs,
+    });
+    this.#stage = undefined;
+  }
+
+  #watchScreen(screen: Screen): void {
+    const { clear } = screen;
+    screen.clear = () => {
+      this.#begin('clear');
+      this.#drawn = [];
+      this.#pairs = [];
+      this.#cells = [];
+      clear.call(screen);
+    };
+  }
+
+  #watchGrid(grid: coltech.SpatialGrid, cellSize: number): void {
+    const { update, queryForCollisionPairs } = grid;
+    grid.update = () => {
+      this.#begin('update');
+      update.call(grid);
+      this.#cells = grid.grid.flatMap((column, col) =>
+        column.map((_, cell): Box => [col * cellSize, cell * cellSize, cellSize, cellSize]).filter(Boolean),
+      );
+    };
+    grid.queryForCollisionPairs = () => {
+      this.#begin('query');
+      const found = queryForCollisionPairs.call(grid);
+      this.#pairs = found.map(([a, b]) => [a._roId, b._roId]);
+      return found;
+    };
+  }
 }
 
 // Adding an entity.

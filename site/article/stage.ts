@@ -6,6 +6,7 @@ import {
   type Colors,
   counters,
   element,
+  everyFrame,
   onThemeChange,
   row,
   runWhileAttended,
@@ -60,9 +61,9 @@ export function createStage<D extends { readonly world: World }>(
   const { world } = demo;
 
   let rate = 0;
-  let frame = 0;
+  let unwatch = () => {};
   const tell = () => {
-    for (const [name, value] of Object.entries(count(demo, rate))) write(name, value);
+    write(count(demo, rate));
     canvas.setAttribute('aria-label', `${inWords(demo)} ${world.isRunning ? 'Running.' : 'At rest.'}`);
   };
   const still = () => {
@@ -72,33 +73,22 @@ export function createStage<D extends { readonly world: World }>(
     tell();
   };
 
-  /** Counts the frames of the display while the world runs, and updates the numbers now and then. */
-  const watch = () => {
-    let frames = 0;
-    let since = performance.now();
-    const each = (now: number) => {
-      frame = requestAnimationFrame(each);
-      options.frame?.(demo);
-      frames++;
-      if (now - since < refresh) return;
-      const measured = (1000 * frames) / (now - since);
-      rate = rate === 0 ? measured : 0.7 * rate + 0.3 * measured;
-      frames = 0;
-      since = now;
-      tell();
-    };
-    frame = requestAnimationFrame(each);
-  };
-
   const attended = runWhileAttended(
     place,
     () => {
       world.start();
-      watch();
+      unwatch = everyFrame(
+        () => options.frame?.(demo),
+        refresh,
+        (measured) => {
+          rate = measured;
+          tell();
+        },
+      );
     },
     () => {
       world.stop();
-      cancelAnimationFrame(frame);
+      unwatch();
       rate = 0;
       tell();
     },

@@ -79,21 +79,21 @@ export function groups(
     }
   }
 
-  /** Counts the pairs without filters. */
-  function countAll() {
-    const boxes = world.entities.flatMap((entity) => {
-      const { min, max } = entity.getAABB();
-      return [...min, ...max];
-    });
-    return findPairs(boxes).length / 2;
-  }
-
   return {
     world,
     ask,
-    countAll,
+    /** Counts the pairs without filters. */
+    countAll: () => countPairs(world.entities),
     get pairCount() {
       return pairCount;
     },
   };
+}
+
+function countPairs(entities: readonly Ro.Entity[]): number {
+  const boxes = entities.flatMap((entity) => {
+    const { min, max } = entity.getAABB();
+    return [...min, ...max];
+  });
+  return findPairs(boxes).length / 2;
 }

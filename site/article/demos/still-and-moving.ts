@@ -10,16 +10,21 @@ const FADE = 12; // steps until a cell is dark again
 const FOLLOW = 0.06; // the weight of the last step in the averages
 const ENOUGH = 30; // steps for averages from the beginning
 
+/** A cell that changed lately, and how many steps ago. */
+interface Touched {
+  column: number;
+  row: number;
+  age: number;
+}
+
 export function stillAndMoving(
   ro: typeof Ro,
   canvas: HTMLCanvasElement | null,
   coltech: RetainedGrid,
   colors = { box: '#9db4d3', hit: '#24456f', now: '#c2410c', grid: '#d3d5da' },
 ) {
-  const random = createRandom(9);
-  const velocities = new Map<Ro.Entity, { x: number; y: number }>();
-  /** Recently changed cells, by place, and how many steps ago they changed. */
-  const touched = new Map<string, { column: number; row: number; age: number }>();
+  /** By place. */
+  const touched = new Map<string, Touched>();
   /** Changes since the last step that took time. */
   const since = { moved: 0, changes: [] as RetainedGrid['changes'] };
   /** Averages per step. */
@@ -29,7 +34,8 @@ export function stillAndMoving(
     coltech,
 
     draw(ctx) {
-      drawCells(ctx);
+      lightCells(ctx, touched.values(), coltech.cellSize, colors.now);
+      drawLines(ctx, width, height, coltech.cellSize, colors.grid);
       for (const entity of this.entities) entity.draw(colors.box);
     },
 
@@ -47,12 +53,7 @@ export function stillAndMoving(
 
   const { x: width, y: height } = world.screen?.size ?? { x: 480, y: 360 };
 
-  for (let i = 0; i < COUNT; i++) {
-    const side = 6 + 10 * random();
-    const entity = new ro.Entity(random() * (width - side), random() * (height - side), side, side);
-    velocities.set(entity, { x: SPEED * (2 * random() - 1), y: SPEED * (2 * random() - 1) });
-    world.addEntity(entity);
-  }
+  const velocities = addBoxes(ro, world, width, height);
   world.step(0); // all boxes enter their cells, which does not count
   since.moved = 0;
   since.changes = [];
@@ -89,21 +90,37 @@ export function stillAndMoving(
     work.changed = sum.changed / ENOUGH;
   }
 
-  function drawCells(ctx: CanvasRenderingContext2D) {
-    const size = coltech.cellSize;
-    ctx.fillStyle = colors.now;
-    for (const { column, row, age } of touched.values()) {
-      ctx.globalAlpha = 0.35 * (1 - age / FADE);
-      ctx.fillRect(column * size, row * size, size, size);
-    }
-    ctx.globalAlpha = 1;
-    ctx.strokeStyle = colors.grid;
-    ctx.lineWidth = 1;
-    ctx.beginPath();
-    for (let x = size; x < width; x += size) ctx.rect(x, 0, 0, height);
-    for (let y = size; y < height; y += size) ctx.rect(0, y, width, 0);
-    ctx.stroke();
-  }
-
   return { world, move, settle, work };
+}
+
+/** Returns the velocity of each box when it moves. */
+function addBoxes(ro: typeof Ro, world: Ro.World, width: number, height: number) {
+  const random = createRandom(9);
+  const velocities = new Map<Ro.Entity, Ro.Vector>();
+  for (let i = 0; i < COUNT; i++) {
+    const side = 6 + 10 * random();
+    const entity = new ro.Entity(random() * (width - side), random() * (height - side), side, side);
+    velocities.set(entity, { x: SPEED * (2 * random() - 1), y: SPEED * (2 * random() - 1) });
+    world.addEntity(entity);
+  }
+  return velocities;
+}
+
+/** Cells that have just changed are the brightest. */
+function lightCells(ctx: CanvasRenderingContext2D, touched: Iterable<Touched>, size: number, color: string) {
+  ctx.fillStyle = color;
+  for (const { column, row, age } of touched) {
+    ctx.globalAlpha = 0.35 * (1 - age / FADE);
+    ctx.fillRect(column * size, row * size, size, size);
+  }
+  ctx.globalAlpha = 1;
+}
+
+function drawLines(ctx: CanvasRenderingContext2D, width: number, height: number, size: number, color: string) {
+  ctx.strokeStyle = color;
+  ctx.lineWidth = 1;
+  ctx.beginPath();
+  for (let x = size; x < width; x += size) ctx.rect(x, 0, 0, height);
+  for (let y = size; y < height; y += size) ctx.rect(0, y, width, 0);
+  ctx.stroke();
 }

@@ -1,12 +1,12 @@
 // Fig. 20: giants and dwarfs once more, each in the grid whose cells fit it.
-import { ro } from 'broadphase/ro';
+import { type Entity, ro } from 'broadphase/ro';
 import { demoColumns } from '../demo.ts';
 import { bestCellSize, countWork, place } from '../demos/cells.ts';
 import { HierarchicalGrid } from '../demos/hierarchical-grid.ts';
 import source from '../demos/hierarchical-grid.ts?raw';
 import { mixedSizes } from '../demos/mixed-sizes.ts';
-import { boxOn, fitWorld } from '../kit/drawing.ts';
-import { choice, counters, createView, excerpt, listing, sayer } from '../kit/index.ts';
+import { boxOn, cellBox, fitWorld } from '../kit/drawing.ts';
+import { choice, counters, createView, excerpt, listing, type Sheet, sayer } from '../kit/index.ts';
 
 const width = 480;
 const height = 300;
@@ -34,28 +34,7 @@ export function mount(root: HTMLElement): void {
   const view = createView(left, {
     label: 'Boxes of very different sizes, each with the cells of its own grid.',
     height: (across) => (across * height) / width,
-    draw(ctx, across, down, colors) {
-      const fit = fitWorld({ width: across, height: down }, [0, 0, width, height], [0, 0, 0, 0]);
-      const lit = (cellSize: number) => shown === 0 || shown === cellSize;
-      for (const { cellSize, cells } of grids.grids.toReversed()) {
-        if (!lit(cellSize)) continue;
-        for (const name of cells.keys()) {
-          const [column, cell] = name.split(':').map(Number);
-          const square = [column * cellSize, cell * cellSize, cellSize, cellSize] as const;
-          boxOn(ctx, fit, square, { fill: colors.cell, line: colors.accent, lineWidth: cellSize < 16 ? 0.75 : 1.25 });
-        }
-      }
-      for (const entity of grids.entities) {
-        const { pos, size } = entity;
-        const color = colliding.has(entity) ? colors.hit : colors.box;
-        const isLit = lit(grids.cellSizeOf(entity));
-        ctx.globalAlpha = isLit ? 0.6 : 0.15;
-        boxOn(ctx, fit, [pos.x, pos.y, size.x, size.y], { fill: color });
-        ctx.globalAlpha = isLit ? 1 : 0.3;
-        boxOn(ctx, fit, [pos.x, pos.y, size.x, size.y], { line: color });
-        ctx.globalAlpha = 1;
-      }
-    },
+    draw: (sheet) => draw(sheet, grids, colliding, (cellSize) => shown === 0 || shown === cellSize),
   });
   const options = sizes.map((cellSize) => [cellSize, `Cells of ${cellSize}`] as const);
   choice(left, 'Grid', [[0, 'All'], ...options], shown, (cellSize) => {
@@ -71,10 +50,7 @@ export function mount(root: HTMLElement): void {
   const say = sayer(left);
   listing(right, 'site/article/demos/hierarchical-grid.ts', excerpt(source, 'queryForCollisionPairs()'));
 
-  write('grids', sizes.length);
-  write('lookUps', grids.lookUps);
-  write('tests', grids.collisionTests);
-  write('pairs', pairs.length);
+  write({ grids: sizes.length, lookUps: grids.lookUps, tests: grids.collisionTests, pairs: pairs.length });
   show();
 
   function show(): void {
@@ -91,5 +67,34 @@ export function mount(root: HTMLElement): void {
         `Shown: ${shown === 0 ? 'all grids' : `the grid with cells of ${shown}, with ${members} boxes`}.`,
     );
     view.redraw();
+  }
+}
+
+/** The cells of the lit grids, and all boxes, those of the other grids pale. */
+function draw(
+  sheet: Sheet,
+  grids: HierarchicalGrid,
+  colliding: ReadonlySet<Entity>,
+  isLit: (cellSize: number) => boolean,
+): void {
+  const { ctx, colors } = sheet;
+  const fit = fitWorld(sheet, [0, 0, width, height], [0, 0, 0, 0]);
+  for (const { cellSize, cells } of grids.grids.toReversed()) {
+    if (!isLit(cellSize)) continue;
+    for (const name of cells.keys()) {
+      const [column, cell] = name.split(':').map(Number);
+      const look = { fill: colors.cell, line: colors.accent, lineWidth: cellSize < 16 ? 0.75 : 1.25 };
+      boxOn(ctx, fit, cellBox(column, cell, cellSize), look);
+    }
+  }
+  for (const entity of grids.entities) {
+    const { pos, size } = entity;
+    const color = colliding.has(entity) ? colors.hit : colors.box;
+    const lit = isLit(grids.cellSizeOf(entity));
+    ctx.globalAlpha = lit ? 0.6 : 0.15;
+    boxOn(ctx, fit, [pos.x, pos.y, size.x, size.y], { fill: color });
+    ctx.globalAlpha = lit ? 1 : 0.3;
+    boxOn(ctx, fit, [pos.x, pos.y, size.x, size.y], { line: color });
+    ctx.globalAlpha = 1;
   }
 }

@@ -1,19 +1,8 @@
 // Fig. 2: the two loops of brute force, and the test of two boxes, run one operation at a time on six boxes.
 import bruteForceSource from '../../../src/ro/coltech/brute-force.ts?raw';
 import techniqueSource from '../../../src/ro/coltech/technique.ts?raw';
-import {
-  boxOn,
-  columns,
-  counters,
-  createStepper,
-  createView,
-  excerpt,
-  fitWorld,
-  listing,
-  lookOf,
-  sayer,
-  text,
-} from '../kit/index.ts';
+import { boxOn, fitWorld, lookOf, text } from '../kit/drawing.ts';
+import { columns, counters, createStepper, createView, excerpt, listing, type Sheet, sayer } from '../kit/index.ts';
 import { type Box, type BruteForceOperation, recordBruteForce } from '../record.ts';
 
 const world = [0, 0, 220, 120] as const;
@@ -77,52 +66,12 @@ export function mount(root: HTMLElement): () => void {
   const scene = createView(right, {
     label: 'Six boxes.',
     height: (width) => Math.min(230, width * 0.56),
-    draw(ctx, width, height, colors) {
-      const fit = fitWorld({ width, height }, world);
-      const now = operations[at];
-      const pair = now.kind === 'outer' ? [now.i] : [now.i, now.j];
-      const met = operations.slice(0, at + 1).filter((each) => each.kind === 'test' && each.hit);
-      boxes.forEach((box, id) => {
-        const hit = met.some((each) => each.kind === 'test' && (each.i === id || each.j === id));
-        const look = lookOf(colors, hit ? 'hit' : 'alone', String(id));
-        boxOn(ctx, fit, box, pair.includes(id) ? { ...look, line: colors.now, lineWidth: 3 } : look);
-      });
-    },
+    draw: (sheet) => drawBoxes(sheet, operations.slice(0, at + 1)),
   });
-
   const triangle = createView(right, {
     label: 'Which pairs have been compared.',
     height: () => 194,
-    draw(ctx, width, height, colors) {
-      const side = 24;
-      const x = Math.round((width - boxes.length * side) / 2);
-      const y = height - boxes.length * side - 6;
-      const now = operations[at];
-      const done = new Map<string, boolean>();
-      for (const each of operations.slice(0, at + 1))
-        if (each.kind === 'test') done.set(`${each.i}:${each.j}`, each.hit);
-      for (let i = 0; i < boxes.length; i++) {
-        text(ctx, String(i), x + (i + 0.5) * side, y - 11, colors.muted);
-        text(ctx, String(i), x - 12, y + (i + 0.5) * side, colors.muted);
-        for (let j = 0; j < boxes.length; j++) {
-          const hit = done.get(`${i}:${j}`);
-          const fill = hit === undefined ? (j > i ? colors.page : 'transparent') : hit ? colors.hit : colors.box;
-          ctx.fillStyle = fill;
-          ctx.fillRect(x + j * side + 1.5, y + i * side + 1.5, side - 3, side - 3);
-          ctx.strokeStyle = j > i ? colors.grid : colors.line;
-          ctx.lineWidth = 1;
-          if (j > i) ctx.strokeRect(x + j * side + 1.5, y + i * side + 1.5, side - 3, side - 3);
-          else ctx.fillRect(x + j * side + side / 2, y + i * side + side / 2, 1, 1);
-        }
-      }
-      if (now.kind !== 'outer' && now.j < boxes.length) {
-        ctx.strokeStyle = colors.now;
-        ctx.lineWidth = 2.5;
-        ctx.strokeRect(x + now.j * side + 1.5, y + now.i * side + 1.5, side - 3, side - 3);
-      }
-      text(ctx, 'i', x - 30, y + boxes.length * side * 0.5, colors.muted);
-      text(ctx, 'j', x + boxes.length * side * 0.5, y - 30, colors.muted);
-    },
+    draw: (sheet) => drawTriangle(sheet, operations.slice(0, at + 1)),
   });
   triangle.canvas.classList.add('bare');
 
@@ -136,8 +85,7 @@ export function mount(root: HTMLElement): () => void {
       source.light(lights[operation.kind]);
       const words = explain(operation);
       say(words);
-      count('tests', operation.tests);
-      count('pairs', operation.pairs);
+      count({ tests: operation.tests, pairs: operation.pairs });
       scene.describe(`Six boxes, numbered 0 to 5. ${words}`);
       triangle.describe(`${operation.tests} of 15 pairs have been compared, ${operation.pairs} of them overlap.`);
       scene.redraw();
@@ -145,4 +93,48 @@ export function mount(root: HTMLElement): () => void {
     },
   });
   return () => stepper.stop();
+}
+
+/** The boxes after these operations: those that collide, and those that the last one is about. */
+function drawBoxes(sheet: Sheet, done: readonly BruteForceOperation[]): void {
+  const { ctx, colors } = sheet;
+  const fit = fitWorld(sheet, world);
+  const now = done[done.length - 1];
+  const pair = now.kind === 'outer' ? [now.i] : [now.i, now.j];
+  boxes.forEach((box, id) => {
+    const hit = done.some((each) => each.kind === 'test' && each.hit && (each.i === id || each.j === id));
+    const look = lookOf(colors, hit ? 'hit' : 'alone', String(id));
+    boxOn(ctx, fit, box, pair.includes(id) ? { ...look, line: colors.now, lineWidth: 3 } : look);
+  });
+}
+
+/** A square for each pair: not compared so far, compared, colliding. The pair of the last operation has a frame. */
+function drawTriangle({ ctx, width, height, colors }: Sheet, done: readonly BruteForceOperation[]): void {
+  const side = 24;
+  const x = Math.round((width - boxes.length * side) / 2);
+  const y = height - boxes.length * side - 6;
+  const square = (i: number, j: number) => [x + j * side + 1.5, y + i * side + 1.5, side - 3, side - 3] as const;
+  const hits = new Map<string, boolean>();
+  for (const each of done) if (each.kind === 'test') hits.set(`${each.i}:${each.j}`, each.hit);
+  for (let i = 0; i < boxes.length; i++) {
+    text(ctx, String(i), x + (i + 0.5) * side, y - 11, colors.muted);
+    text(ctx, String(i), x - 12, y + (i + 0.5) * side, colors.muted);
+    for (let j = 0; j < boxes.length; j++) {
+      const hit = hits.get(`${i}:${j}`);
+      ctx.fillStyle = hit === undefined ? (j > i ? colors.page : 'transparent') : hit ? colors.hit : colors.box;
+      ctx.fillRect(...square(i, j));
+      ctx.strokeStyle = j > i ? colors.grid : colors.line;
+      ctx.lineWidth = 1;
+      if (j > i) ctx.strokeRect(...square(i, j));
+      else ctx.fillRect(x + j * side + side / 2, y + i * side + side / 2, 1, 1);
+    }
+  }
+  const now = done[done.length - 1];
+  if (now.kind !== 'outer' && now.j < boxes.length) {
+    ctx.strokeStyle = colors.now;
+    ctx.lineWidth = 2.5;
+    ctx.strokeRect(...square(now.i, now.j));
+  }
+  text(ctx, 'i', x - 30, y + boxes.length * side * 0.5, colors.muted);
+  text(ctx, 'j', x + boxes.length * side * 0.5, y - 30, colors.muted);
 }

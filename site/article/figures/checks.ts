@@ -1,7 +1,7 @@
 // Fig. 1: comparisons against the number of boxes, for brute force, the grid and the library, counted by running them.
 import { coltech, Entity, World } from 'broadphase/ro';
 import { createRandom } from '../../../src/scenes/random.ts';
-import { type Colors, choice, createView, element, row, slider, text } from '../kit/index.ts';
+import { choice, createView, dot, element, levelLine, row, type Sheet, slider, text } from '../kit/index.ts';
 
 /** Boxes between two points of the plot. */
 const interval = 100;
@@ -20,7 +20,10 @@ const series = [
   { key: 'library', name: 'Library', color: 'text', dash: [5, 4] },
 ] as const;
 type Key = (typeof series)[number]['key'];
+type Scale = 'even' | 'tenfold';
 type Counts = Readonly<Record<Key, number>> & { readonly pairs: number };
+
+type Point = readonly [boxes: number, counts: Counts];
 
 /** Runs the three on the same boxes, and counts the tests of one box against another in each. */
 function countChecks(boxes: number): Counts {
@@ -57,21 +60,28 @@ function niceStep(range: number, parts: number): number {
 const short = new Intl.NumberFormat('en', { notation: 'compact', maximumFractionDigits: 1 });
 const whole = new Intl.NumberFormat('en');
 
+const scales: readonly (readonly [Scale, string])[] = [
+  ['even', 'even'],
+  ['tenfold', '×10'],
+];
+const margins = { left: 46, right: 14, top: 16, bottom: 30 };
+
 export function mount(root: HTMLElement): () => void {
-  const counted = new Map<number, Counts>([[0, { brute: 0, grid: 0, library: 0, pairs: 0 }]]);
+  const counting = new Counting();
   let boxes = 1000;
-  let scale = 'even' as 'even' | 'tenfold';
+  let scale: Scale = 'even';
   /** The number of boxes that the pointer or the arrow keys point at. */
   let pointed: number | undefined;
-  let timer = 0;
-
-  const margins = { left: 46, right: 14, top: 16, bottom: 30 };
-  const points = () => [...counted].filter(([n]) => n <= boxes).sort(([a], [b]) => a - b);
 
   const view = createView(root, {
     label: 'A plot of comparisons against boxes.',
     height: (width) => Math.min(400, Math.max(260, width * 0.46)),
-    draw: (ctx, width, height, colors) => plot(ctx, width, height, colors),
+    draw(sheet) {
+      const axes = axesOf(sheet, boxes, scale);
+      drawScales(sheet, axes);
+      drawCurves(sheet, axes, counting.points(boxes));
+      mark(sheet, axes, shownPoint());
+    },
   });
   const legend = element('table', { class: 'plot-legend' });
   root.append(legend);
@@ -86,142 +96,162 @@ export function mount(root: HTMLElement): () => void {
     moved(value) {
       boxes = value;
       pointed = undefined;
-      count();
-      report();
+      counting.upTo(boxes, report);
     },
   });
-  choice<typeof scale>(
-    tools,
-    'Scale',
-    [
-      ['even', 'even'],
-      ['tenfold', '×10'],
-    ],
-    scale,
-    (value) => {
-      scale = value;
-      report();
-    },
-  );
-
-  function plot(ctx: CanvasRenderingContext2D, width: number, height: number, colors: Colors): void {
-    const { left, right, top, bottom } = margins;
-    const across = width - left - right;
-    const down = height - top - bottom;
-    const highest = (boxes * (boxes - 1)) / 2;
-    const x = (n: number) => left + (n / boxes) * across;
-    const logTop = Math.log10(highest);
-    const share = (checks: number) => (scale === 'even' ? checks / highest : Math.log10(Math.max(1, checks)) / logTop);
-    const y = (checks: number) => top + (1 - share(checks)) * down;
-
-    ctx.lineWidth = 1;
-    const ticks: number[] = [];
-    if (scale === 'even') {
-      const step = niceStep(highest, 5);
-      for (let tick = 0; tick <= highest; tick += step) ticks.push(tick);
-    } else for (let tick = 1; tick <= highest; tick *= 10) ticks.push(tick);
-    for (const tick of ticks) {
-      ctx.strokeStyle = colors.line;
-      ctx.beginPath();
-      ctx.moveTo(left, Math.round(y(tick)) + 0.5);
-      ctx.lineTo(width - right, Math.round(y(tick)) + 0.5);
-      ctx.stroke();
-      text(ctx, short.format(tick), left - 8, y(tick), colors.muted, 'right');
-    }
-    const step = niceStep(boxes, Math.min(6, across / 70));
-    for (let tick = 0; tick <= boxes; tick += step) {
-      text(ctx, whole.format(tick), x(tick), height - bottom + 16, colors.muted, tick === boxes ? 'right' : 'center');
-    }
-    text(ctx, 'comparisons', left + 8, top + 4, colors.muted, 'left');
-
-    for (const { key, color, dash } of series) {
-      ctx.strokeStyle = colors[color];
-      ctx.lineWidth = 2.5;
-      ctx.setLineDash([...dash]);
-      ctx.lineJoin = 'round';
-      ctx.beginPath();
-      for (const [n, counts] of points()) {
-        if (scale === 'tenfold' && n === 0) continue;
-        ctx.lineTo(x(n), y(counts[key]));
-      }
-      ctx.stroke();
-      ctx.setLineDash([]);
-    }
-    const [n, counts] = shownPoint();
-    ctx.strokeStyle = colors.muted;
-    ctx.lineWidth = 1;
-    ctx.beginPath();
-    ctx.moveTo(Math.round(x(n)) - 0.5, top);
-    ctx.lineTo(Math.round(x(n)) - 0.5, top + down);
-    ctx.stroke();
-    for (const { key, color } of series) {
-      ctx.fillStyle = colors[color];
-      ctx.beginPath();
-      ctx.arc(x(n), y(counts[key]), 4.5, 0, 7);
-      ctx.fill();
-    }
-  }
+  choice<Scale>(tools, 'Scale', scales, scale, (value) => {
+    scale = value;
+    report();
+  });
 
   /** The point shown in the numbers below the plot: the one pointed at, or else the last. */
-  const shownPoint = (): readonly [number, Counts] => {
-    const all = points();
+  const shownPoint = (): Point => {
+    const all = counting.points(boxes);
     return all.find(([n]) => n === pointed) ?? all[all.length - 1];
-  };
-
-  /** Counts the missing points, a few at a time. */
-  const count = () => {
-    clearTimeout(timer);
-    const started = performance.now();
-    for (let n = interval; n <= boxes; n += interval) {
-      if (counted.has(n)) continue;
-      counted.set(n, countChecks(n));
-      if (performance.now() - started > patience) {
-        timer = window.setTimeout(count);
-        break;
-      }
-    }
-    report();
   };
 
   const report = () => {
     const [n, counts] = shownPoint();
-    const heads = ['Boxes', ...series.map(({ name }) => name), 'Pairs'];
-    const cells = [n, ...series.map(({ key }) => counts[key]), counts.pairs];
-    const head = element('tr');
-    const body = element('tr');
-    heads.forEach((name, i) => {
-      const swatch = series[i - 1] ? [element('i', { class: `swatch ${series[i - 1].key}` })] : [];
-      head.append(element('th', { scope: 'col' }, ...swatch, name));
-      body.append(element('td', {}, whole.format(cells[i])));
-    });
-    legend.replaceChildren(element('thead', {}, head), element('tbody', {}, body));
-    view.describe(
-      `Comparisons for ${whole.format(n)} boxes: brute force ${whole.format(counts.brute)}, ` +
-        `grid ${whole.format(counts.grid)}, library ${whole.format(counts.library)}. ` +
-        `Left and right arrow keys choose another number of boxes.`,
-    );
+    legend.replaceChildren(...legendParts(n, counts));
+    view.describe(inWords(n, counts));
     view.redraw();
   };
 
-  const { canvas } = view;
-  canvas.tabIndex = 0;
-  canvas.addEventListener('pointermove', (event) => {
-    const share = (event.offsetX - margins.left) / (view.width - margins.left - margins.right);
-    pointed = Math.round((share * boxes) / interval) * interval;
+  const pointAt = (boxes: number | undefined) => {
+    pointed = boxes;
     report();
-  });
-  canvas.addEventListener('pointerleave', () => {
-    pointed = undefined;
-    report();
-  });
-  canvas.addEventListener('keydown', (event) => {
-    const way = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
-    if (way === 0) return;
-    event.preventDefault();
-    pointed = Math.min(Math.max(shownPoint()[0] + way * interval, 0), boxes);
-    report();
+  };
+  point(view.canvas, {
+    at(x) {
+      const share = (x - margins.left) / (view.width - margins.left - margins.right);
+      pointAt(Math.round((share * boxes) / interval) * interval);
+    },
+    on: (way) => pointAt(Math.min(Math.max(shownPoint()[0] + way * interval, 0), boxes)),
+    away: () => pointAt(undefined),
   });
 
-  count();
-  return () => clearTimeout(timer);
+  counting.upTo(boxes, report);
+  return () => counting.stop();
+}
+
+/** The points of the plot, counted when they are needed. */
+class Counting {
+  readonly #counted = new Map<number, Counts>([[0, { brute: 0, grid: 0, library: 0, pairs: 0 }]]);
+  #timer = 0;
+
+  /** Those up to this number of boxes, as far as they have been counted. */
+  points(boxes: number): Point[] {
+    return [...this.#counted].filter(([n]) => n <= boxes).sort(([a], [b]) => a - b);
+  }
+
+  /** Counts the missing ones up to this number of boxes, a few at a time, and tells after each few. */
+  upTo(boxes: number, tell: () => void): void {
+    clearTimeout(this.#timer);
+    const started = performance.now();
+    for (let n = interval; n <= boxes; n += interval) {
+      if (this.#counted.has(n)) continue;
+      this.#counted.set(n, countChecks(n));
+      if (performance.now() - started > patience) {
+        this.#timer = window.setTimeout(() => this.upTo(boxes, tell));
+        break;
+      }
+    }
+    tell();
+  }
+
+  stop(): void {
+    clearTimeout(this.#timer);
+  }
+}
+
+/** Lets the reader point into the plot: at a place by mouse, pen or finger, or one point on by the arrow keys. */
+function point(
+  canvas: HTMLCanvasElement,
+  { at, on, away }: { at(x: number): void; on(way: 1 | -1): void; away(): void },
+): void {
+  canvas.tabIndex = 0;
+  canvas.addEventListener('pointermove', ({ offsetX }) => at(offsetX));
+  canvas.addEventListener('pointerleave', away);
+  canvas.addEventListener('keydown', (event) => {
+    if (event.key !== 'ArrowRight' && event.key !== 'ArrowLeft') return;
+    event.preventDefault();
+    on(event.key === 'ArrowRight' ? 1 : -1);
+  });
+}
+
+/** The head and the body of the table of numbers below the plot. */
+function legendParts(boxes: number, counts: Counts): HTMLElement[] {
+  const heads = ['Boxes', ...series.map(({ name }) => name), 'Pairs'];
+  const cells = [boxes, ...series.map(({ key }) => counts[key]), counts.pairs];
+  const head = element('tr');
+  const body = element('tr');
+  heads.forEach((name, i) => {
+    const swatch = series[i - 1] ? [element('i', { class: `swatch ${series[i - 1].key}` })] : [];
+    head.append(element('th', { scope: 'col' }, ...swatch, name));
+    body.append(element('td', {}, whole.format(cells[i])));
+  });
+  return [element('thead', {}, head), element('tbody', {}, body)];
+}
+
+const inWords = (boxes: number, { brute, grid, library }: Counts) =>
+  `Comparisons for ${whole.format(boxes)} boxes: brute force ${whole.format(brute)}, ` +
+  `grid ${whole.format(grid)}, library ${whole.format(library)}. ` +
+  'Left and right arrow keys choose another number of boxes.';
+
+type Axes = ReturnType<typeof axesOf>;
+
+/** Where numbers of boxes and of comparisons are on a sheet. */
+function axesOf({ width, height }: Sheet, boxes: number, scale: Scale) {
+  const { left, top } = margins;
+  const right = width - margins.right;
+  const bottom = height - margins.bottom;
+  const highest = (boxes * (boxes - 1)) / 2;
+  const logTop = Math.log10(highest);
+  const share = (checks: number) => (scale === 'even' ? checks / highest : Math.log10(Math.max(1, checks)) / logTop);
+  const x = (n: number) => left + (n / boxes) * (right - left);
+  const y = (checks: number) => top + (1 - share(checks)) * (bottom - top);
+  return { left, right, top, bottom, boxes, scale, highest, x, y };
+}
+
+function drawScales(sheet: Sheet, axes: Axes): void {
+  const { ctx, colors } = sheet;
+  const { left, right, top, bottom, boxes, scale, highest } = axes;
+  const level = (checks: number) => levelLine(sheet, [left, right], axes.y(checks), short.format(checks), colors.line);
+  if (scale === 'even') {
+    const step = niceStep(highest, 5);
+    for (let tick = 0; tick <= highest; tick += step) level(tick);
+  } else for (let tick = 1; tick <= highest; tick *= 10) level(tick);
+  const step = niceStep(boxes, Math.min(6, (right - left) / 70));
+  for (let tick = 0; tick <= boxes; tick += step) {
+    text(ctx, whole.format(tick), axes.x(tick), bottom + 16, colors.muted, tick === boxes ? 'right' : 'center');
+  }
+  text(ctx, 'comparisons', left + 8, top + 4, colors.muted, 'left');
+}
+
+function drawCurves({ ctx, colors }: Sheet, axes: Axes, points: readonly Point[]): void {
+  ctx.lineWidth = 2.5;
+  ctx.lineJoin = 'round';
+  for (const { key, color, dash } of series) {
+    ctx.strokeStyle = colors[color];
+    ctx.setLineDash([...dash]);
+    ctx.beginPath();
+    for (const [n, counts] of points) {
+      if (axes.scale === 'tenfold' && n === 0) continue;
+      ctx.lineTo(axes.x(n), axes.y(counts[key]));
+    }
+    ctx.stroke();
+  }
+  ctx.setLineDash([]);
+}
+
+/** A line through a point, with a dot on each curve. */
+function mark({ ctx, colors }: Sheet, axes: Axes, [boxes, counts]: Point): void {
+  const x = axes.x(boxes);
+  ctx.strokeStyle = colors.muted;
+  ctx.lineWidth = 1;
+  ctx.beginPath();
+  ctx.moveTo(Math.round(x) - 0.5, axes.top);
+  ctx.lineTo(Math.round(x) - 0.5, axes.bottom);
+  ctx.stroke();
+  for (const { key, color } of series) dot(ctx, x, axes.y(counts[key]), 4.5, colors[color]);
 }

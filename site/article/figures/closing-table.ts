@@ -36,8 +36,9 @@ export function mount(root: HTMLElement): void {
   const view = createView(left, {
     label: 'A hundred boxes on a grid of ten by ten cells.',
     height: (width) => Math.min(width, 300),
-    draw(ctx, width, height, colors) {
-      const fit = fitWorld({ width, height }, [0, 0, 150, 150]);
+    draw(sheet) {
+      const { ctx, colors } = sheet;
+      const fit = fitWorld(sheet, [0, 0, 150, 150]);
       gridOn(ctx, fit, { minX: 0, minY: 0, columns: 10, rows: 10, cellSize: 15 }, colors.grid);
       for (const box of hundredBoxes(heaped)) {
         ctx.globalAlpha = 0.5;

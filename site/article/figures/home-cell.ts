@@ -1,23 +1,41 @@
 // Fig. 19: every box has one home cell; and the cells that the query of a chosen box has to visit.
+import type { Entity } from 'broadphase/ro';
 import { createRandom } from '../../../src/scenes/random.ts';
 import { demoColumns } from '../demo.ts';
 import { type Box, place } from '../demos/cells.ts';
 import { HomeCellGrid } from '../demos/home-cell-grid.ts';
 import source from '../demos/home-cell-grid.ts?raw';
-import { boxOn, fitWorld, gridOn } from '../kit/drawing.ts';
-import { button, counters, createView, excerpt, listing, makeDraggable, row, sayer, slider } from '../kit/index.ts';
+import { boxOn, cellBox, dot, fitWorld, gridOn } from '../kit/drawing.ts';
+import {
+  button,
+  confine,
+  contains,
+  counters,
+  createView,
+  excerpt,
+  listing,
+  makeDraggable,
+  row,
+  type Sheet,
+  sayer,
+  slider,
+} from '../kit/index.ts';
 
 const width = 480;
 const height = 320;
 const cellSize = 40;
+const names = { cells: 'Cells searched', compared: 'Compared with', partners: 'Partners', all: 'All look-ups' };
 
-export function mount(root: HTMLElement): void {
+function smallBoxes(): Box[] {
   const random = createRandom(5);
-  const boxes = Array.from({ length: 40 }, (): Box => {
+  return Array.from({ length: 40 }, () => {
     const [across, down] = [12 + 20 * random(), 12 + 20 * random()];
     return [random() * (width - across), random() * (height - down), across, down];
   });
-  const grid = place(new HomeCellGrid(cellSize), [[150, 90, 60, 30], ...boxes]);
+}
+
+export function mount(root: HTMLElement): void {
+  const grid = place(new HomeCellGrid(cellSize), [[150, 90, 60, 30], ...smallBoxes()]);
   const { entities } = grid;
   const [largest] = entities;
   let chosen = entities[1];
@@ -26,41 +44,19 @@ export function mount(root: HTMLElement): void {
   const view = createView(left, {
     label: 'Boxes, each at home in one cell.',
     height: (across) => (across * height) / width,
-    draw(ctx, across, down, colors) {
-      const fit = fitWorld({ width: across, height: down }, [0, 0, width, height], [0, 0, 0, 0]);
-      const [first, top, last, bottom] = grid.searchArea(chosen);
-      for (let column = first; column <= last; column++) {
-        for (let cell = top; cell <= bottom; cell++) {
-          boxOn(ctx, fit, [column * cellSize, cell * cellSize, cellSize, cellSize], { fill: colors.cell });
-        }
-      }
-      gridOn(ctx, fit, { minX: 0, minY: 0, columns: width / cellSize, rows: height / cellSize, cellSize }, colors.grid);
-
-      const compared = new Set(found().compared);
-      const partners = new Set(found().partners);
-      for (const entity of entities) {
-        const { pos, size } = entity;
-        const box = [pos.x, pos.y, size.x, size.y] as const;
-        const line = entity === chosen ? colors.now : compared.has(entity) ? colors.hit : colors.box;
-        const fill = partners.has(entity) ? colors.hit : colors.box;
-        ctx.globalAlpha = compared.has(entity) || entity === chosen ? 0.85 : 0.4;
-        boxOn(ctx, fit, box, { fill, line, lineWidth: entity === chosen ? 3 : 1.5 });
-        ctx.globalAlpha = 1;
-        ctx.fillStyle = line;
-        ctx.beginPath();
-        ctx.arc(fit.x + pos.x * fit.scale, fit.y + pos.y * fit.scale, 3, 0, 2 * Math.PI);
-        ctx.fill();
-      }
-    },
+    draw: (sheet) => draw(sheet, grid, chosen),
   });
-  const worldUnits = (pixels: number) => (pixels * width) / view.width;
+  const scale = () => view.width / width;
   makeDraggable(view, {
     label: 'A box that can be moved',
-    holds: (x, y) => under(x, y) !== undefined,
-    moved: (dx, dy) => move(worldUnits(dx), worldUnits(dy)),
+    fit: () => ({ x: 0, y: 0, scale: scale() }),
+    holds: (x, y) => topmost(entities, x, y) !== undefined,
+    moved: move,
     stepped: (dx, dy) => move(4 * dx, 4 * dy),
   });
-  view.canvas.addEventListener('pointerdown', ({ offsetX, offsetY }) => choose(under(offsetX, offsetY) ?? chosen));
+  view.canvas.addEventListener('pointerdown', ({ offsetX, offsetY }) => {
+    choose(topmost(entities, offsetX / scale(), offsetY / scale()) ?? chosen);
+  });
 
   const controls = row(left);
   button(controls, 'Next box', () => choose(entities[(entities.indexOf(chosen) + 1) % entities.length]));
@@ -76,49 +72,22 @@ export function mount(root: HTMLElement): void {
       show();
     },
   });
-  const write = counters(left, {
-    cells: 'Cells searched',
-    compared: 'Compared with',
-    partners: 'Partners',
-    all: 'All look-ups',
-  });
+  const write = counters(left, names);
   const say = sayer(left, true);
   listing(right, 'site/article/demos/home-cell-grid.ts', excerpt(source, 'queryForCollisionPairs()'));
   listing(right, 'site/article/demos/home-cell-grid.ts', excerpt(source, 'searchArea(entity: Entity)'));
   show();
 
-  /** The boxes that the chosen one is compared with, and those that overlap it. */
-  function found() {
-    const [first, top, last, bottom] = grid.searchArea(chosen);
-    const compared = [];
-    for (let column = first; column <= last; column++) {
-      for (let cell = top; cell <= bottom; cell++) compared.push(...grid.at(column, cell));
-    }
-    const others = compared.filter((entity) => entity !== chosen);
-    return {
-      cells: (last - first + 1) * (bottom - top + 1),
-      compared: others,
-      partners: others.filter((entity) => grid.aabb2DIntersection(entity, chosen)),
-    };
-  }
-
-  /** The topmost box at a place in the view. */
-  function under(x: number, y: number) {
-    const at = { x: worldUnits(x), y: worldUnits(y) };
-    return entities.findLast(
-      ({ pos, size }) => at.x >= pos.x && at.x <= pos.x + size.x && at.y >= pos.y && at.y <= pos.y + size.y,
-    );
-  }
-
-  function choose(entity: (typeof entities)[number]): void {
+  function choose(entity: Entity): void {
     chosen = entity;
     show();
   }
 
   function move(dx: number, dy: number): void {
     const { pos, size } = chosen;
-    pos.x = Math.min(Math.max(pos.x + dx, 0), width - size.x);
-    pos.y = Math.min(Math.max(pos.y + dy, 0), height - size.y);
+    pos.x += dx;
+    pos.y += dy;
+    confine(pos, [0, 0, width - size.x, height - size.y]);
     show();
   }
 
@@ -126,16 +95,61 @@ export function mount(root: HTMLElement): void {
     for (const entity of entities) entity.updateAABB();
     grid.update();
     grid.queryForCollisionPairs();
-    const { cells, compared, partners } = found();
-    write('cells', cells);
-    write('compared', compared.length);
-    write('partners', partners.length);
-    write('all', grid.lookUps);
-    const sentence =
-      `The chosen box looks into ${cells} cells and is compared with ${compared.length} boxes; ` +
-      `${partners.length} of them ${partners.length === 1 ? 'overlaps' : 'overlap'} it.`;
+    const search = found(grid, chosen);
+    const { cells, compared, partners } = search;
+    write({ cells, compared: compared.length, partners: partners.length, all: grid.lookUps });
+    const sentence = inWords(search);
     say(`${sentence} A dot marks the corner that decides where a box is at home.`);
     view.describe(`${entities.length} boxes on a grid, each at home in one cell. ${sentence}`);
     view.redraw();
+  }
+}
+
+const boxOf = ({ pos, size }: Entity) => [pos.x, pos.y, size.x, size.y] as const;
+
+/** The topmost box at a place. */
+const topmost = (entities: readonly Entity[], x: number, y: number) =>
+  entities.findLast((entity) => contains(boxOf(entity), x, y));
+
+/** How many cells are searched for a box, which boxes it is compared with, and which of them overlap it. */
+function found(grid: HomeCellGrid, chosen: Entity) {
+  const [first, top, last, bottom] = grid.searchArea(chosen);
+  const met: Entity[] = [];
+  for (let column = first; column <= last; column++) {
+    for (let cell = top; cell <= bottom; cell++) met.push(...grid.at(column, cell));
+  }
+  const compared = met.filter((entity) => entity !== chosen);
+  return {
+    cells: (last - first + 1) * (bottom - top + 1),
+    compared,
+    partners: compared.filter((entity) => grid.aabb2DIntersection(entity, chosen)),
+  };
+}
+
+const inWords = ({ cells, compared, partners }: ReturnType<typeof found>) =>
+  `The chosen box looks into ${cells} cells and is compared with ${compared.length} boxes; ` +
+  `${partners.length} of them ${partners.length === 1 ? 'overlaps' : 'overlap'} it.`;
+
+/** The cells searched for the chosen box, the grid, and all boxes with their corners. */
+function draw(sheet: Sheet, grid: HomeCellGrid, chosen: Entity): void {
+  const { ctx, colors } = sheet;
+  const fit = fitWorld(sheet, [0, 0, width, height], [0, 0, 0, 0]);
+  const [first, top, last, bottom] = grid.searchArea(chosen);
+  for (let column = first; column <= last; column++) {
+    for (let cell = top; cell <= bottom; cell++) {
+      boxOn(ctx, fit, cellBox(column, cell, cellSize), { fill: colors.cell });
+    }
+  }
+  gridOn(ctx, fit, { minX: 0, minY: 0, columns: width / cellSize, rows: height / cellSize, cellSize }, colors.grid);
+
+  const { compared, partners } = found(grid, chosen);
+  for (const entity of grid.entities) {
+    const isCompared = compared.includes(entity);
+    const line = entity === chosen ? colors.now : isCompared ? colors.hit : colors.box;
+    const fill = partners.includes(entity) ? colors.hit : colors.box;
+    ctx.globalAlpha = isCompared || entity === chosen ? 0.85 : 0.4;
+    boxOn(ctx, fit, boxOf(entity), { fill, line, lineWidth: entity === chosen ? 3 : 1.5 });
+    ctx.globalAlpha = 1;
+    dot(ctx, fit.x + entity.pos.x * fit.scale, fit.y + entity.pos.y * fit.scale, 3, line);
   }
 }

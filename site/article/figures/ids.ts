@@ -21,6 +21,17 @@ const lights: Readonly<Record<Step, string | null>> = {
   out: null,
 };
 
+const words: Readonly<Record<Step, (id: number, next: number) => string>> = {
+  asked: () => 'Is it in a world already? No: it may be added.',
+  aabb: () => 'Its AABB is updated.',
+  id: (id) => `It gets the next number: ${id}.`,
+  technique: (id) => `The technique is notified of entity ${id}.`,
+  uniq: (id) => `The next number is raised to ${id + 1}.`,
+  world: (id) => `Entity ${id} remembers which world it is in.`,
+  done: (id) => `Entity ${id} is in the list. That is all.`,
+  out: (id, next) => `Entity ${id} is gone. Its number is not reused; the next entity gets ${next}.`,
+};
+
 export function mount(root: HTMLElement): () => void {
   const world = new World(null);
   const [left, right] = columns(root);
@@ -43,8 +54,7 @@ export function mount(root: HTMLElement): () => void {
       return element('li', entity === adding ? { 'data-now': true } : {}, chip);
     });
     chips.replaceChildren(...entities);
-    count('entities', world.entities.length);
-    count('uniq', world.uniq);
+    count({ entities: world.entities.length, uniq: world.uniq });
     add.disabled = world.entities.length >= most;
   };
 
@@ -61,16 +71,6 @@ export function mount(root: HTMLElement): () => void {
   };
 
   let current = begin();
-  const words: Readonly<Record<Step, (id: number) => string>> = {
-    asked: () => 'Is it in a world already? No: it may be added.',
-    aabb: () => 'Its AABB is updated.',
-    id: (id) => `It gets the next number: ${id}.`,
-    technique: (id) => `The technique is notified of entity ${id}.`,
-    uniq: (id) => `The next number is raised to ${id + 1}.`,
-    world: (id) => `Entity ${id} remembers which world it is in.`,
-    done: (id) => `Entity ${id} is in the list. That is all.`,
-    out: (id) => `Entity ${id} is gone. Its number is not reused; the next entity gets ${world.uniq}.`,
-  };
 
   const add = button(tools, 'Add an entity', () => {
     current = begin();
@@ -85,11 +85,14 @@ export function mount(root: HTMLElement): () => void {
     show(operation, index) {
       const { entity, steps } = current;
       source.light(lights[operation]);
-      say(words[operation](entity._roId));
+      say(words[operation](entity._roId, world.uniq));
       if (operation === 'out') return show();
-      show(index === steps.length - 1 ? undefined : entity, index >= steps.indexOf('id'));
-      count('uniq', index >= steps.indexOf('uniq') ? entity._roId + 1 : entity._roId);
-      count('entities', world.entities.length - (index === steps.length - 1 ? 0 : 1));
+      const isLast = index === steps.length - 1;
+      show(isLast ? undefined : entity, index >= steps.indexOf('id'));
+      count({
+        entities: world.entities.length - (isLast ? 0 : 1),
+        uniq: index >= steps.indexOf('uniq') ? entity._roId + 1 : entity._roId,
+      });
     },
   });
   return () => stepper.stop();

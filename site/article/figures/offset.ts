@@ -1,17 +1,7 @@
 // Fig. 5: a grid that does not begin at 0, and the calculation from a position to its cell.
 import { coltech } from 'broadphase/ro';
-import {
-  boxOn,
-  choice,
-  columns,
-  createView,
-  element,
-  fitWorld,
-  gridOn,
-  makeDraggable,
-  sayer,
-  text,
-} from '../kit/index.ts';
+import { boxOn, dot, fitWorld, gridOn, text } from '../kit/drawing.ts';
+import { choice, columns, confine, createView, element, makeDraggable, type Sheet, sayer } from '../kit/index.ts';
 
 const cellSize = 40;
 const cells = 5;
@@ -21,72 +11,26 @@ const world = [-160, -130, 360, 280] as const;
 const keyStep = 10;
 const reach = 26;
 
+interface Point {
+  x: number;
+  y: number;
+}
 type Moved = 'point' | 'grid';
 
 export function mount(root: HTMLElement): void {
   const point = { x: -30, y: 46 };
-  const min = { x: -120, y: -90 };
-  /** Where the two were dragged to; point and min are the same in whole numbers. */
-  const exact = { point: { ...point }, grid: { ...min } };
+  /** Where the two were dragged to; point and grid.min are the same in whole numbers. */
+  const exact = { point: { ...point }, grid: { x: -120, y: -90 } };
   let arrowsMove: Moved = 'point';
   let held: Moved = 'point';
-  let grid = new coltech.SpatialGrid(min.x, min.y, min.x + extent, min.y + extent, cellSize);
+  let grid = gridAt(exact.grid);
 
   const [left, right] = columns(root);
-  const place = (view: { width: number; height: number }) => fitWorld(view, world, [2, 2, 2, 2]);
 
   const view = createView(left, {
     label: 'A point and a grid.',
     height: (width) => (width * world[3]) / world[2],
-    draw(ctx, width, height, colors) {
-      const fit = place({ width, height });
-      const px = (x: number) => fit.x + x * fit.scale;
-      const py = (y: number) => fit.y + y * fit.scale;
-      const cell: [number, number, number, number] = [
-        min.x + grid.columnOf(point.x) * cellSize,
-        min.y + grid.cellOf(point.y) * cellSize,
-        cellSize,
-        cellSize,
-      ];
-      boxOn(ctx, fit, cell, { fill: colors.cell });
-      gridOn(ctx, fit, { minX: min.x, minY: min.y, columns: cells, rows: cells, cellSize }, colors.grid);
-      for (let i = 0; i < cells; i++) {
-        text(ctx, String(i), px(min.x + (i + 0.5) * cellSize), py(min.y) - 10, colors.muted);
-        text(ctx, String(i), px(min.x) - 10, py(min.y + (i + 0.5) * cellSize), colors.muted);
-      }
-      // The axes of the world.
-      ctx.strokeStyle = colors.muted;
-      ctx.lineWidth = 1;
-      ctx.setLineDash([2, 4]);
-      ctx.beginPath();
-      ctx.moveTo(px(0), 0);
-      ctx.lineTo(px(0), height);
-      ctx.moveTo(0, py(0));
-      ctx.lineTo(width, py(0));
-      ctx.stroke();
-      ctx.setLineDash([]);
-      text(ctx, '0, 0', px(0) + 6, py(0) - 10, colors.muted, 'left');
-      text(ctx, 'x →', width - 8, py(0) + 12, colors.muted, 'right');
-      text(ctx, 'y ↓', px(0) + 8, height - 12, colors.muted, 'left');
-
-      ctx.strokeStyle = colors.accent;
-      ctx.lineWidth = 2;
-      ctx.setLineDash([5, 4]);
-      ctx.beginPath();
-      ctx.moveTo(px(min.x), py(point.y));
-      ctx.lineTo(px(point.x), py(point.y));
-      ctx.lineTo(px(point.x), py(min.y));
-      ctx.stroke();
-      ctx.setLineDash([]);
-
-      ctx.fillStyle = colors.accent;
-      ctx.fillRect(px(min.x) - 6, py(min.y) - 6, 12, 12);
-      ctx.fillStyle = colors.now;
-      ctx.beginPath();
-      ctx.arc(px(point.x), py(point.y), 7, 0, 7);
-      ctx.fill();
-      text(ctx, `${point.x}, ${point.y}`, px(point.x) + 12, py(point.y) + 13, colors.text, 'left');
-    },
+    draw: (sheet) => draw(sheet, point, grid),
   });
 
   choice<Moved>(
@@ -105,25 +49,13 @@ export function mount(root: HTMLElement): void {
   right.append(sum);
   const say = sayer(right);
 
-  const within = (value: number, low: number, length: number, inset: number) =>
-    Math.min(Math.max(value, low + inset), low + length - inset);
-
   const show = () => {
-    exact.point.x = within(exact.point.x, world[0], world[2], 8);
-    exact.point.y = within(exact.point.y, world[1], world[3], 8);
-    exact.grid.x = within(exact.grid.x, world[0], world[2] - extent, 18);
-    exact.grid.y = within(exact.grid.y, world[1], world[3] - extent, 18);
+    confine(exact.point, inset(8, 0));
+    confine(exact.grid, inset(18, extent));
     point.x = Math.round(exact.point.x);
     point.y = Math.round(exact.point.y);
-    min.x = Math.round(exact.grid.x);
-    min.y = Math.round(exact.grid.y);
-    grid = new coltech.SpatialGrid(min.x, min.y, min.x + extent, min.y + extent, cellSize);
-    const sumOf = (name: string, at: number, begin: number, index: number) => {
-      const quotient = (at - begin) / cellSize;
-      const signed = begin < 0 ? `(${begin})` : String(begin);
-      const border = Math.floor(quotient) === index ? '' : `   ${Math.floor(quotient)} → border cell`;
-      return `${name} = floor((${at} − ${signed}) / ${cellSize})\n       = floor(${quotient.toFixed(2)})\n       = ${index}${border}`;
-    };
+    grid = gridAt(exact.grid);
+    const { min } = grid;
     const col = grid.columnOf(point.x);
     const cell = grid.cellOf(point.y);
     sum.textContent = `${sumOf('column', point.x, min.x, col)}\n\n${sumOf('cell  ', point.y, min.y, cell)}`;
@@ -133,13 +65,6 @@ export function mount(root: HTMLElement): void {
     view.redraw();
   };
 
-  /** Which of the two is at a place in the view. */
-  const at = (x: number, y: number): Moved | undefined => {
-    const fit = place(view);
-    const near = (of: { x: number; y: number }) =>
-      Math.hypot(fit.x + of.x * fit.scale - x, fit.y + of.y * fit.scale - y) <= reach;
-    return near(point) ? 'point' : near(min) ? 'grid' : undefined;
-  };
   const move = (what: Moved, dx: number, dy: number) => {
     exact[what].x += dx;
     exact[what].y += dy;
@@ -147,16 +72,80 @@ export function mount(root: HTMLElement): void {
   };
   makeDraggable(view, {
     label: 'point and grid that can be moved by arrow keys',
+    fit: () => place(view),
     holds(x, y) {
-      const what = at(x, y);
+      const near = (at: Point) => Math.hypot(at.x - x, at.y - y) <= reach / place(view).scale;
+      const what = near(point) ? 'point' : near(grid.min) ? 'grid' : undefined;
       if (what) held = what;
       return what !== undefined;
     },
-    moved(dx, dy) {
-      const { scale } = place(view);
-      move(held, dx / scale, dy / scale);
-    },
+    moved: (dx, dy) => move(held, dx, dy),
     stepped: (x, y) => move(arrowsMove, x * keyStep, y * keyStep),
   });
   show();
+}
+
+const place = (view: { width: number; height: number }) => fitWorld(view, world, [2, 2, 2, 2]);
+
+/** Where something of this length on each side may begin, this far from the edges of the world in view. */
+const inset = (edge: number, length: number) =>
+  [world[0] + edge, world[1] + edge, world[2] - length - 2 * edge, world[3] - length - 2 * edge] as const;
+
+/** A grid that begins at a place in whole numbers. */
+function gridAt(at: Point): coltech.SpatialGrid {
+  const [x, y] = [Math.round(at.x), Math.round(at.y)];
+  return new coltech.SpatialGrid(x, y, x + extent, y + extent, cellSize);
+}
+
+/** The calculation of a column or a cell, line by line. */
+function sumOf(name: string, at: number, begin: number, index: number): string {
+  const quotient = (at - begin) / cellSize;
+  const signed = begin < 0 ? `(${begin})` : String(begin);
+  const border = Math.floor(quotient) === index ? '' : `   ${Math.floor(quotient)} → border cell`;
+  return `${name} = floor((${at} − ${signed}) / ${cellSize})\n       = floor(${quotient.toFixed(2)})\n       = ${index}${border}`;
+}
+
+/** The grid with the cell of the point, the axes of the world, and the way from the grid's beginning to the point. */
+function draw(sheet: Sheet, point: Point, grid: coltech.SpatialGrid): void {
+  const { ctx, width, height, colors } = sheet;
+  const { min } = grid;
+  const fit = place(sheet);
+  const px = (x: number) => fit.x + x * fit.scale;
+  const py = (y: number) => fit.y + y * fit.scale;
+  const [column, cell] = [grid.columnOf(point.x), grid.cellOf(point.y)];
+  boxOn(ctx, fit, [min.x + column * cellSize, min.y + cell * cellSize, cellSize, cellSize], { fill: colors.cell });
+  gridOn(ctx, fit, { minX: min.x, minY: min.y, columns: cells, rows: cells, cellSize }, colors.grid);
+  for (let i = 0; i < cells; i++) {
+    text(ctx, String(i), px(min.x + (i + 0.5) * cellSize), py(min.y) - 10, colors.muted);
+    text(ctx, String(i), px(min.x) - 10, py(min.y + (i + 0.5) * cellSize), colors.muted);
+  }
+  // The axes of the world.
+  ctx.strokeStyle = colors.muted;
+  ctx.lineWidth = 1;
+  ctx.setLineDash([2, 4]);
+  ctx.beginPath();
+  ctx.moveTo(px(0), 0);
+  ctx.lineTo(px(0), height);
+  ctx.moveTo(0, py(0));
+  ctx.lineTo(width, py(0));
+  ctx.stroke();
+  ctx.setLineDash([]);
+  text(ctx, '0, 0', px(0) + 6, py(0) - 10, colors.muted, 'left');
+  text(ctx, 'x →', width - 8, py(0) + 12, colors.muted, 'right');
+  text(ctx, 'y ↓', px(0) + 8, height - 12, colors.muted, 'left');
+
+  ctx.strokeStyle = colors.accent;
+  ctx.lineWidth = 2;
+  ctx.setLineDash([5, 4]);
+  ctx.beginPath();
+  ctx.moveTo(px(min.x), py(point.y));
+  ctx.lineTo(px(point.x), py(point.y));
+  ctx.lineTo(px(point.x), py(min.y));
+  ctx.stroke();
+  ctx.setLineDash([]);
+
+  ctx.fillStyle = colors.accent;
+  ctx.fillRect(px(min.x) - 6, py(min.y) - 6, 12, 12);
+  dot(ctx, px(point.x), py(point.y), 7, colors.now);
+  text(ctx, `${point.x}, ${point.y}`, px(point.x) + 12, py(point.y) + 13, colors.text, 'left');
 }

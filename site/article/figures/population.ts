@@ -1,7 +1,17 @@
 // Fig. 11: the grid is filled, one operation at a time, beside the code that does it.
 import gridSource from '../../../src/ro/coltech/spatial-grid.ts?raw';
 import { boxes, drawGridScene, gridSize } from '../grid-scene.ts';
-import { columns, counters, createStepper, createView, element, excerpt, listing, sayer } from '../kit/index.ts';
+import {
+  columns,
+  counters,
+  createStepper,
+  createView,
+  element,
+  excerpt,
+  listing,
+  sayer,
+  showArrays,
+} from '../kit/index.ts';
 import { type Place, type PopulationOperation, recordGrid } from '../record.ts';
 
 const lights: Readonly<Record<PopulationOperation['kind'], string>> = {
@@ -28,19 +38,33 @@ function explain(operation: PopulationOperation): string {
   return `Entity ${operation.id} goes into ${where}.`;
 }
 
+type Operations = readonly PopulationOperation[];
+
+const places = (done: Operations, kind: 'cell' | 'insert') =>
+  done.filter((each): each is Extract<PopulationOperation, Place> => each.kind === kind);
+
+/** What is in each cell of each column after these operations. */
+function arraysAfter(done: Operations): ((string | undefined)[] | undefined)[] {
+  const made = (col: number) => done.some((each) => each.kind === 'column' && each.col === col);
+  const held = (col: number, cell: number) => {
+    const here = (each: Place) => each.col === col && each.cell === cell;
+    if (!places(done, 'cell').some(here)) return undefined;
+    const inserted = places(done, 'insert').filter(here);
+    return `[${inserted.map(({ id }) => id).join(', ')}]`;
+  };
+  return [0, 1, 2, 3].map((col) => (made(col) ? [0, 1, 2].map((cell) => held(col, cell)) : undefined));
+}
+
 export function mount(root: HTMLElement): () => void {
   const { population } = recordGrid(boxes, gridSize);
   const [left, right] = columns(root);
   const source = listing(left, 'ro/coltech/spatial-grid.ts', excerpt(gridSource, 'override update()'));
   let at = 0;
 
-  const places = (kind: 'cell' | 'insert') =>
-    population.slice(0, at + 1).filter((each): each is Extract<PopulationOperation, Place> => each.kind === kind);
-
   const view = createView(right, {
     label: 'Six boxes on a grid of four by three cells.',
     height: (width) => Math.min(270, width * 0.76),
-    draw(ctx, width, height, colors) {
+    draw(sheet) {
       const now = population[at];
       const about: Place[] = [];
       if (now.kind === 'cell' || now.kind === 'insert') about.push(now);
@@ -50,12 +74,8 @@ export function mount(root: HTMLElement): () => void {
           for (let { cell } = now.first; cell <= now.last.cell; cell++) about.push({ col, cell });
         }
       }
-      drawGridScene(
-        ctx,
-        { width, height },
-        { filled: places('cell'), at: about, now: now.kind === 'grid' ? [] : [now.id] },
-        colors,
-      );
+      const filled = places(population.slice(0, at + 1), 'cell');
+      drawGridScene(sheet, { filled, at: about, now: now.kind === 'grid' ? [] : [now.id] });
     },
   });
 
@@ -63,26 +83,6 @@ export function mount(root: HTMLElement): () => void {
   right.append(arrays);
   const say = sayer(right, true);
   const count = counters(right, { arrays: 'Arrays made', cells: 'Cells filled', entries: 'Entries' });
-
-  const showArrays = () => {
-    const done = population.slice(0, at + 1);
-    const rows: HTMLElement[] = [];
-    for (let col = 0; col < 4; col++) {
-      const cells = element('span', { class: 'array' });
-      const exists = done.some((each) => each.kind === 'column' && each.col === col);
-      if (!exists) cells.append(element('span', { class: 'nothing' }, 'empty'));
-      for (let cell = 0; exists && cell < 3; cell++) {
-        const here = (each: Place) => each.col === col && each.cell === cell;
-        const ids = places('insert')
-          .filter(here)
-          .map(({ id }) => id);
-        const made = places('cell').some(here);
-        cells.append(element('span', { class: made ? 'slot full' : 'slot' }, made ? `[${ids.join(', ')}]` : '·'));
-      }
-      rows.push(element('code', {}, `grid[${col}]`), cells);
-    }
-    arrays.replaceChildren(...rows);
-  };
 
   const stepper = createStepper(root, {
     steps: population,
@@ -92,11 +92,13 @@ export function mount(root: HTMLElement): () => void {
       const words = explain(operation);
       say(words);
       const done = population.slice(0, at + 1);
-      const cells = places('cell').length;
-      count('arrays', 1 + done.filter(({ kind }) => kind === 'column').length + cells);
-      count('cells', cells);
-      count('entries', places('insert').length);
-      showArrays();
+      const cells = places(done, 'cell').length;
+      count({
+        arrays: 1 + done.filter(({ kind }) => kind === 'column').length + cells,
+        cells,
+        entries: places(done, 'insert').length,
+      });
+      showArrays(arrays, arraysAfter(done));
       view.describe(`Six boxes, numbered 0 to 5, on a grid of four by three cells. ${words}`);
       view.redraw();
     },

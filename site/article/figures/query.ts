@@ -37,12 +37,12 @@ export function mount(root: HTMLElement): () => void {
   const view = createView(right, {
     label: 'Six boxes on a grid of four by three cells.',
     height: (width) => Math.min(300, width * 0.76),
-    draw(ctx, width, height, colors) {
+    draw(sheet) {
       const now = query[at];
       const hit = new Set<number>();
       for (const each of query.slice(0, at + 1)) if (each.kind === 'test' && each.hit) hit.add(each.a).add(each.b);
       const about = now.kind === 'visit' ? [] : [now.a, now.b];
-      drawGridScene(ctx, { width, height }, { filled: cells, at: [now], now: about, hit }, colors);
+      drawGridScene(sheet, { filled: cells, at: [now], now: about, hit });
     },
   });
   const say = sayer(right, true);
@@ -62,10 +62,12 @@ export function mount(root: HTMLElement): () => void {
       say(words);
       const done = query.slice(0, at + 1);
       const number = (kind: QueryOperation['kind']) => done.filter((each) => each.kind === kind).length;
-      count('visits', number('visit'));
-      count('lookups', number('look-up'));
-      count('tests', number('test'));
-      count('pairs', done.filter((each) => each.kind === 'test' && each.hit).length);
+      count({
+        visits: number('visit'),
+        lookups: number('look-up'),
+        tests: number('test'),
+        pairs: done.filter((each) => each.kind === 'test' && each.hit).length,
+      });
       view.describe(`Six boxes, numbered 0 to 5, on a grid of four by three cells. ${words}`);
       view.redraw();
     },

@@ -6,7 +6,19 @@ import { type Box, place } from '../demos/cells.ts';
 import { timeStep } from '../demos/timing.ts';
 import source from '../demos/timing.ts?raw';
 import { boxOn, fitWorld, text } from '../kit/drawing.ts';
-import { button, createView, element, excerpt, listing, makeDraggable, row, sayer, slider } from '../kit/index.ts';
+import {
+  button,
+  contains,
+  createView,
+  element,
+  excerpt,
+  listing,
+  makeDraggable,
+  row,
+  type Sheet,
+  sayer,
+  slider,
+} from '../kit/index.ts';
 
 const width = 480;
 const height = 300;
@@ -41,43 +53,13 @@ export function mount(root: HTMLElement): void {
   const view = createView(left, {
     label: 'One box compared with four.',
     height: (across) => (across * height) / width,
-    draw(ctx, across, down, colors) {
-      const fit = fitWorld({ width: across, height: down }, [0, 0, width, height], [0, 0, 0, 0]);
-      const at = (x: number, y: number) => [fit.x + x * fit.scale, fit.y + y * fit.scale] as const;
-      const rows = lanes();
-      four.forEach((box, lane) => {
-        const hit = rows.every(({ answers }) => answers[lane]);
-        const label = `b${lane}`;
-        boxOn(ctx, fit, box, {
-          fill: hit ? colors.hit : colors.box,
-          label,
-          labelColor: hit ? colors.surface : colors.text,
-        });
-      });
-      boxOn(ctx, fit, one, { line: colors.now, lineWidth: 3, label: 'a', labelColor: colors.now });
-
-      four.forEach((_, lane) => {
-        text(ctx, `b${lane}`, ...at(table.left + (lane + 0.5) * table.across, table.top - 12), colors.muted);
-      });
-      rows.forEach(({ question, answers }, i) => {
-        const y = table.top + i * table.down;
-        text(ctx, question, ...at(table.left - 10, y + table.down / 2), colors.text, 'right');
-        answers.forEach((yes, lane) => {
-          const cell = [table.left + lane * table.across + 2, y + 2, table.across - 4, table.down - 4] as const;
-          const look = yes
-            ? { fill: colors.hit, labelColor: colors.surface }
-            : { line: colors.grid, labelColor: colors.muted };
-          boxOn(ctx, fit, cell, { ...look, label: yes ? 'yes' : 'no' });
-        });
-      });
-    },
+    draw: (sheet) => draw(sheet, one),
   });
-  const world = (pixels: number) => (pixels * width) / view.width;
   makeDraggable(view, {
     label: 'A box that can be moved',
-    holds: (x, y) =>
-      world(x) >= one[0] && world(x) <= one[0] + one[2] && world(y) >= one[1] && world(y) <= one[1] + one[3],
-    moved: (dx, dy) => move(world(dx), world(dy)),
+    fit: () => ({ x: 0, y: 0, scale: view.width / width }),
+    holds: (x, y) => contains(one, x, y),
+    moved: move,
     stepped: (dx, dy) => move(4 * dx, 4 * dy),
   });
   const say = sayer(left);
@@ -96,33 +78,12 @@ export function mount(root: HTMLElement): void {
     },
   });
   button(controls, 'Time again', time);
-  const bars = contenders.map(([name]) => {
-    const piece = element('span', { 'data-part': name.startsWith('Brute') ? 'tests' : 'visits' });
-    const sum = element('b', {}, '–');
-    return {
-      piece,
-      sum,
-      line: element('p', { class: 'bar' }, element('span', {}, name), element('span', {}, piece), sum),
-    };
-  });
-  right.append(element('div', { class: 'bars timed' }, ...bars.map(({ line }) => line)));
+  const setBars = timeBars(right);
   const sayTime = sayer(right);
   right.append(element('p', { class: 'bar-key' }, lanesAlone));
   listing(right, 'site/article/demos/timing.ts', excerpt(source, 'export function timeStep'));
   show();
   soon();
-
-  /** The four comparisons, each for all four boxes, and whether all hold. */
-  function lanes() {
-    const [x, y, across, down] = one;
-    const ask = (question: string, answer: (box: Box) => boolean) => ({ question, answers: four.map(answer) });
-    return [
-      ask('a.left ≤ b.right', (b) => x <= b[0] + b[2]),
-      ask('a.right ≥ b.left', (b) => x + across >= b[0]),
-      ask('a.top ≤ b.bottom', (b) => y <= b[1] + b[3]),
-      ask('a.bottom ≥ b.top', (b) => y + down >= b[1]),
-    ];
-  }
 
   function move(dx: number, dy: number): void {
     one[0] = Math.min(Math.max(one[0] + dx, 0), width - one[2]);
@@ -131,16 +92,12 @@ export function mount(root: HTMLElement): void {
   }
 
   function show(): void {
-    const rows = lanes();
-    const hits = four.map((_, lane) => lane).filter((lane) => rows.every(({ answers }) => answers[lane]));
-    const who = hits.length > 0 ? hits.map((lane) => `b${lane}`).join(' and ') : 'none';
+    const rows = lanes(one);
+    const hits = four.map((_, lane) => `b${lane}`).filter((_, lane) => rows.every(({ answers }) => answers[lane]));
+    const who = hits.join(' and ') || 'none';
     say(`Four instructions, one for each row, and four boxes are compared. Yes in every row: ${who}.`);
-    view.describe(
-      `Box a is compared with four boxes at once. ` +
-        rows
-          .map(({ question, answers }) => `${question}: ${answers.map((yes) => (yes ? 'yes' : 'no')).join(', ')}.`)
-          .join(' '),
-    );
+    const told = rows.map(({ question, answers }) => `${question}: ${answers.map(yesOrNo).join(', ')}.`);
+    view.describe(`Box a is compared with four boxes at once. ${told.join(' ')}`);
     view.redraw();
   }
 
@@ -151,21 +108,86 @@ export function mount(root: HTMLElement): void {
   }
 
   function time(): void {
-    const extent = Math.sqrt(count * 500);
-    const random = createRandom(count);
-    const boxes = Array.from({ length: count }, (): Box => [random() * extent, random() * extent, 10, 10]);
-    const results = contenders.map(([, make]) => timeStep(place(make(extent), boxes)));
-    const slowest = Math.max(...results.map(({ milliseconds }) => milliseconds));
-    results.forEach(({ milliseconds }, i) => {
-      bars[i].piece.style.width = `${(100 * milliseconds) / slowest}%`;
-      bars[i].sum.textContent = `${milliseconds.toFixed(milliseconds < 1 ? 3 : 2)} ms`;
-    });
-    const [brute, lanesAtOnce, grid, own] = results.map(({ milliseconds }) => milliseconds);
-    const times = (a: number, b: number) => (a / b < 10 ? (a / b).toFixed(1) : Math.round(a / b));
-    sayTime(
-      `${count.toLocaleString('en')} boxes, ${results[0].pairs.toLocaleString('en')} pairs each time. Brute force is ` +
-        `${times(brute, lanesAtOnce)} times as fast in the kernel; the library’s own choice is ${times(grid, own)} times ` +
-        'as fast as the grid.',
-    );
+    const results = race(count);
+    setBars(results.map(({ milliseconds }) => milliseconds));
+    sayTime(inWords(count, results));
   }
+}
+
+/** The four comparisons of a box, each with all four. */
+function lanes([x, y, across, down]: Box) {
+  const ask = (question: string, answer: (box: Box) => boolean) => ({ question, answers: four.map(answer) });
+  return [
+    ask('a.left ≤ b.right', (b) => x <= b[0] + b[2]),
+    ask('a.right ≥ b.left', (b) => x + across >= b[0]),
+    ask('a.top ≤ b.bottom', (b) => y <= b[1] + b[3]),
+    ask('a.bottom ≥ b.top', (b) => y + down >= b[1]),
+  ];
+}
+
+const yesOrNo = (yes: boolean) => (yes ? 'yes' : 'no');
+
+/** The boxes, and below them the table of their comparisons. */
+function draw(sheet: Sheet, one: Box): void {
+  const { ctx, colors } = sheet;
+  const fit = fitWorld(sheet, [0, 0, width, height], [0, 0, 0, 0]);
+  const at = (x: number, y: number) => [fit.x + x * fit.scale, fit.y + y * fit.scale] as const;
+  const rows = lanes(one);
+  four.forEach((box, lane) => {
+    const hit = rows.every(({ answers }) => answers[lane]);
+    const look = hit ? { fill: colors.hit, labelColor: colors.surface } : { fill: colors.box, labelColor: colors.text };
+    boxOn(ctx, fit, box, { ...look, label: `b${lane}` });
+  });
+  boxOn(ctx, fit, one, { line: colors.now, lineWidth: 3, label: 'a', labelColor: colors.now });
+
+  four.forEach((_, lane) => {
+    text(ctx, `b${lane}`, ...at(table.left + (lane + 0.5) * table.across, table.top - 12), colors.muted);
+  });
+  rows.forEach(({ question, answers }, i) => {
+    const y = table.top + i * table.down;
+    text(ctx, question, ...at(table.left - 10, y + table.down / 2), colors.text, 'right');
+    answers.forEach((yes, lane) => {
+      const cell = [table.left + lane * table.across + 2, y + 2, table.across - 4, table.down - 4] as const;
+      const look = yes
+        ? { fill: colors.hit, labelColor: colors.surface }
+        : { line: colors.grid, labelColor: colors.muted };
+      boxOn(ctx, fit, cell, { ...look, label: yesOrNo(yes) });
+    });
+  });
+}
+
+/** Times every contender on the same boxes. */
+function race(count: number): ReturnType<typeof timeStep>[] {
+  const extent = Math.sqrt(count * 500);
+  const random = createRandom(count);
+  const boxes = Array.from({ length: count }, (): Box => [random() * extent, random() * extent, 10, 10]);
+  return contenders.map(([, make]) => timeStep(place(make(extent), boxes)));
+}
+
+/** A bar for every contender. Returns what sets them. */
+function timeBars(root: HTMLElement): (milliseconds: readonly number[]) => void {
+  const bars = contenders.map(([name]) => {
+    const piece = element('span', { 'data-part': name.startsWith('Brute') ? 'tests' : 'visits' });
+    const sum = element('b', {}, '–');
+    const line = element('p', { class: 'bar' }, element('span', {}, name), element('span', {}, piece), sum);
+    return { piece, sum, line };
+  });
+  root.append(element('div', { class: 'bars timed' }, ...bars.map(({ line }) => line)));
+  return (milliseconds) => {
+    const slowest = Math.max(...milliseconds);
+    milliseconds.forEach((each, i) => {
+      bars[i].piece.style.width = `${(100 * each) / slowest}%`;
+      bars[i].sum.textContent = `${each.toFixed(each < 1 ? 3 : 2)} ms`;
+    });
+  };
+}
+
+function inWords(count: number, results: readonly ReturnType<typeof timeStep>[]): string {
+  const [brute, lanesAtOnce, grid, own] = results.map(({ milliseconds }) => milliseconds);
+  const times = (a: number, b: number) => (a / b < 10 ? (a / b).toFixed(1) : Math.round(a / b));
+  return (
+    `${count.toLocaleString('en')} boxes, ${results[0].pairs.toLocaleString('en')} pairs each time. Brute force is ` +
+    `${times(brute, lanesAtOnce)} times as fast in the kernel; the library’s own choice is ${times(grid, own)} times ` +
+    'as fast as the grid.'
+  );
 }

@@ -16,7 +16,7 @@ export function mount(root: HTMLElement): () => void {
   const order = createView(root, {
     label: 'The boxes in order of their left edges.',
     height: (across) => across / 2.2,
-    draw(ctx, across, down, colors) {
+    draw({ ctx, width: across, height: down, colors }) {
       const { sorted } = sweep;
       const scale = across / width;
       const row = (index: number) => ((index + 0.5) * down) / sorted.length;

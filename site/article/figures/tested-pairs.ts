@@ -1,21 +1,19 @@
 // Fig. 14: the table of tested pairs, filled look-up by look-up, with cells of a size that the reader chooses.
 import gridSource from '../../../src/ro/coltech/spatial-grid.ts?raw';
+import { boxOn, cellBox, fitWorld, gridOn, lookOf } from '../kit/drawing.ts';
 import {
-  boxOn,
   choice,
   columns,
   counters,
   createStepper,
   createView,
   element,
-  fitWorld,
-  gridOn,
   listing,
-  lookOf,
   passage,
+  type Sheet,
   sayer,
 } from '../kit/index.ts';
-import { type Box, type QueryOperation, recordGrid } from '../record.ts';
+import { type Box, type GridRecord, type QueryOperation, recordGrid } from '../record.ts';
 
 const width = 240;
 const height = 120;
@@ -37,46 +35,36 @@ const boxes: readonly Box[] = [
 ];
 type LookUp = Extract<QueryOperation, { kind: 'look-up' }>;
 
+const lookUps = ({ query }: GridRecord) => query.filter((each): each is LookUp => each.kind === 'look-up');
+
+/** The pairs in the table after these look-ups. */
+const compared = (done: readonly LookUp[]) =>
+  new Set(done.filter(({ known }) => !known).map(({ a, b }) => `${a}:${b}`));
+
+function explain({ a, b, col, cell, known }: LookUp): string {
+  return known
+    ? `${a} and ${b} meet again, in cell grid[${col}][${cell}]. The table knows them: no comparison.`
+    : `${a} and ${b} meet for the first time, in cell grid[${col}][${cell}]. Compared, and noted down.`;
+}
+
 export function mount(root: HTMLElement): () => void {
   const possible = (boxes.length * (boxes.length - 1)) / 2;
   let cellSize: number = cellSizes[1][0];
   let recorded = recordGrid(boxes, { width, height, cellSize });
-  const lookUps = () => recorded.query.filter((each): each is LookUp => each.kind === 'look-up');
-  let run = lookUps();
+  let run = lookUps(recorded);
   let at = 0;
 
   const [left, right] = columns(root);
   choice(left, 'Cells', cellSizes, cellSize, (value) => {
     cellSize = value;
     recorded = recordGrid(boxes, { width, height, cellSize });
-    run = lookUps();
+    run = lookUps(recorded);
     stepper.load(run);
   });
   const view = createView(left, {
     label: 'Nine boxes on a grid.',
     height: (across) => across * 0.52,
-    draw(ctx, across, down, colors) {
-      const fit = fitWorld({ width: across, height: down }, [0, 0, width, height]);
-      const now = run[at];
-      for (const { col, cell } of recorded.cells) {
-        boxOn(ctx, fit, [col * cellSize, cell * cellSize, cellSize, cellSize], { fill: colors.cell });
-      }
-      const size = { minX: 0, minY: 0, columns: width / cellSize, rows: height / cellSize, cellSize };
-      gridOn(ctx, fit, size, colors.grid);
-      const hit = new Set<number>();
-      for (const each of recorded.query) {
-        if (each.kind === 'test' && each.hit && compared().has(`${each.a}:${each.b}`)) hit.add(each.a).add(each.b);
-      }
-      boxes.forEach((box, id) => {
-        const look = lookOf(colors, hit.has(id) ? 'hit' : 'alone', String(id));
-        const isNow = id === now.a || id === now.b;
-        boxOn(ctx, fit, box, isNow ? { ...look, line: colors.now, lineWidth: 3 } : look);
-      });
-      boxOn(ctx, fit, [now.col * cellSize, now.cell * cellSize, cellSize, cellSize], {
-        line: colors.now,
-        lineWidth: 2,
-      });
-    },
+    draw: (sheet) => draw(sheet, recorded, cellSize, run.slice(0, at + 1)),
   });
   const say = sayer(left, true);
   const count = counters(left, { lookups: 'Look-ups', tests: 'Comparisons', saved: 'Saved' });
@@ -89,14 +77,6 @@ export function mount(root: HTMLElement): () => void {
 
   const table = element('ul', { class: 'keys', 'aria-label': 'The table of tested pairs' });
   right.append(table);
-  /** The pairs in the table after the current look-up. */
-  const compared = () =>
-    new Set(
-      run
-        .slice(0, at + 1)
-        .filter(({ known }) => !known)
-        .map(({ a, b }) => `${a}:${b}`),
-    );
 
   const stepper = createStepper(root, {
     steps: run,
@@ -105,7 +85,7 @@ export function mount(root: HTMLElement): () => void {
     show(now, index) {
       at = index;
       source.light(now.known ? 'continue' : 'checked.add(hashA)');
-      const keys = [...compared()];
+      const keys = [...compared(run.slice(0, at + 1))];
       table.replaceChildren(
         ...keys.map((key) => {
           const [a, b] = key.split(':').map(Number);
@@ -113,13 +93,9 @@ export function mount(root: HTMLElement): () => void {
           return element('li', isNow ? { 'data-now': true } : {}, element('code', {}, `${a}:${b}  ${b}:${a}`));
         }),
       );
-      const words = now.known
-        ? `${now.a} and ${now.b} meet again, in cell grid[${now.col}][${now.cell}]. The table knows them: no comparison.`
-        : `${now.a} and ${now.b} meet for the first time, in cell grid[${now.col}][${now.cell}]. Compared, and noted down.`;
+      const words = explain(now);
       say(words);
-      count('lookups', at + 1);
-      count('tests', keys.length);
-      count('saved', at + 1 - keys.length);
+      count({ lookups: at + 1, tests: keys.length, saved: at + 1 - keys.length });
       view.describe(
         `Nine boxes on a grid with cells of ${cellSize}. ${words} ${keys.length} of ${possible} pairs have been compared.`,
       );
@@ -127,4 +103,25 @@ export function mount(root: HTMLElement): () => void {
     },
   });
   return () => stepper.stop();
+}
+
+/** The grid and its boxes after these look-ups: those that collide, and those that the last look-up is about. */
+function draw(sheet: Sheet, { cells, query }: GridRecord, cellSize: number, done: readonly LookUp[]): void {
+  const { ctx, colors } = sheet;
+  const fit = fitWorld(sheet, [0, 0, width, height]);
+  for (const { col, cell } of cells) boxOn(ctx, fit, cellBox(col, cell, cellSize), { fill: colors.cell });
+  const size = { minX: 0, minY: 0, columns: width / cellSize, rows: height / cellSize, cellSize };
+  gridOn(ctx, fit, size, colors.grid);
+  const now = done[done.length - 1];
+  const known = compared(done);
+  const hit = new Set<number>();
+  for (const each of query) {
+    if (each.kind === 'test' && each.hit && known.has(`${each.a}:${each.b}`)) hit.add(each.a).add(each.b);
+  }
+  boxes.forEach((box, id) => {
+    const look = lookOf(colors, hit.has(id) ? 'hit' : 'alone', String(id));
+    const isNow = id === now.a || id === now.b;
+    boxOn(ctx, fit, box, isNow ? { ...look, line: colors.now, lineWidth: 3 } : look);
+  });
+  boxOn(ctx, fit, cellBox(now.col, now.cell, cellSize), { line: colors.now, lineWidth: 2 });
 }

@@ -1,5 +1,17 @@
 // The eight stages of a step: a real world of five boxes, recorded stage by stage and played back.
-import { boxOn, columns, createStepper, createView, element, fitWorld, gridOn, lookOf, sayer } from '../kit/index.ts';
+import {
+  boxOn,
+  columns,
+  createStepper,
+  createView,
+  dot,
+  element,
+  fitWorld,
+  gridOn,
+  lookOf,
+  type Sheet,
+  sayer,
+} from '../kit/index.ts';
 import { recordStages, type Stage, type StageRecord } from '../record.ts';
 
 const size = { width: 240, height: 160, cellSize: 40 };
@@ -34,34 +46,7 @@ export function mount(root: HTMLElement): () => void {
   const view = createView(left, {
     label: 'Five boxes in a world with a grid.',
     height: (width) => (width * size.height) / size.width,
-    draw(ctx, width, height, colors) {
-      const fit = fitWorld({ width, height }, [0, 0, size.width, size.height], [6, 6, 6, 6]);
-      for (const cell of shown.cells) boxOn(ctx, fit, cell, { fill: colors.cell });
-      const { cellSize } = size;
-      const grid = { minX: 0, minY: 0, columns: size.width / cellSize, rows: size.height / cellSize, cellSize };
-      gridOn(ctx, fit, grid, colors.grid);
-      for (const { box, hit } of shown.drawn) boxOn(ctx, fit, box, lookOf(colors, hit ? 'hit' : 'alone'));
-      shown.entities.forEach(({ pos, ppos, aabb }, id) => {
-        const [x, y, w, h] = pos;
-        const met = shown.pairs.some((pair) => pair.includes(id));
-        const [minX, minY] = aabb.min;
-        boxOn(ctx, fit, [minX, minY, aabb.max[0] - minX, aabb.max[1] - minY], {
-          line: met ? colors.now : colors.muted,
-          dash: [4, 3],
-          lineWidth: met ? 2.5 : 1.25,
-        });
-        ctx.strokeStyle = colors.accent;
-        ctx.lineWidth = 1.5;
-        ctx.beginPath();
-        ctx.moveTo(fit.x + (ppos[0] + w / 2) * fit.scale, fit.y + (ppos[1] + h / 2) * fit.scale);
-        ctx.lineTo(fit.x + (x + w / 2) * fit.scale, fit.y + (y + h / 2) * fit.scale);
-        ctx.stroke();
-        ctx.fillStyle = colors.accent;
-        ctx.beginPath();
-        ctx.arc(fit.x + (x + w / 2) * fit.scale, fit.y + (y + h / 2) * fit.scale, 2.5, 0, 7);
-        ctx.fill();
-      });
-    },
+    draw: (sheet) => draw(sheet, shown),
   });
 
   const list = element('ol', { class: 'stages' });
@@ -96,4 +81,32 @@ export function mount(root: HTMLElement): () => void {
     },
   });
   return () => stepper.stop();
+}
+
+/** The cells and what is on the screen; over it, the AABB of each box and how far it came in the last step. */
+function draw(sheet: Sheet, { cells, drawn, entities, pairs }: StageRecord): void {
+  const { ctx, colors } = sheet;
+  const fit = fitWorld(sheet, [0, 0, size.width, size.height], [6, 6, 6, 6]);
+  for (const cell of cells) boxOn(ctx, fit, cell, { fill: colors.cell });
+  const { cellSize } = size;
+  const grid = { minX: 0, minY: 0, columns: size.width / cellSize, rows: size.height / cellSize, cellSize };
+  gridOn(ctx, fit, grid, colors.grid);
+  for (const { box, hit } of drawn) boxOn(ctx, fit, box, lookOf(colors, hit ? 'hit' : 'alone'));
+  entities.forEach(({ pos: [x, y, w, h], ppos, aabb }, id) => {
+    const met = pairs.some((pair) => pair.includes(id));
+    const [minX, minY] = aabb.min;
+    boxOn(ctx, fit, [minX, minY, aabb.max[0] - minX, aabb.max[1] - minY], {
+      line: met ? colors.now : colors.muted,
+      dash: [4, 3],
+      lineWidth: met ? 2.5 : 1.25,
+    });
+    const [endX, endY] = [fit.x + (x + w / 2) * fit.scale, fit.y + (y + h / 2) * fit.scale];
+    ctx.strokeStyle = colors.accent;
+    ctx.lineWidth = 1.5;
+    ctx.beginPath();
+    ctx.moveTo(fit.x + (ppos[0] + w / 2) * fit.scale, fit.y + (ppos[1] + h / 2) * fit.scale);
+    ctx.lineTo(endX, endY);
+    ctx.stroke();
+    dot(ctx, endX, endY, 2.5, colors.accent);
+  });
 }

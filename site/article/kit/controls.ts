@@ -80,8 +80,8 @@ export function slider(root: HTMLElement, options: SliderOptions): Slider {
   };
 }
 
-/** Sets the counter with this name. It costs nothing if the text is the same. */
-export type Counters = (name: string, text: string | number) => void;
+/** Sets the counters with these names. It costs nothing if a text is the same. */
+export type Counters = (values: Readonly<Record<string, string | number>>) => void;
 
 /**
  * Live numbers with their names, as a description list.
@@ -96,13 +96,15 @@ export function counters(root: HTMLElement, names: Readonly<Record<string, strin
     places.set(name, { place, text: '–' });
   }
   root.append(list);
-  return (name, value) => {
-    const at = places.get(name);
-    if (!at) throw new Error(`no counter is called ${name}`);
-    const text = typeof value === 'number' ? value.toLocaleString('en') : value;
-    if (at.text === text) return;
-    at.text = text;
-    at.place.textContent = text;
+  return (values) => {
+    for (const [name, value] of Object.entries(values)) {
+      const at = places.get(name);
+      if (!at) throw new Error(`no counter is called ${name}`);
+      const text = typeof value === 'number' ? value.toLocaleString('en') : value;
+      if (at.text === text) continue;
+      at.text = text;
+      at.place.textContent = text;
+    }
   };
 }
 

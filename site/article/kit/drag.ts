@@ -1,12 +1,17 @@
 // Lets a point in a view be dragged: by mouse, pen or finger, and by the arrow keys.
+import type { Fit } from './drawing.ts';
 import type { View } from './view.ts';
+
+type Box = readonly [left: number, top: number, width: number, height: number];
 
 export interface DragOptions {
   /** What is dragged, for the screen reader. */
   label: string;
-  /** Whether a drag may start at a place in the view, in CSS pixels; by default anywhere. */
-  holds?(x: number, y: number): boolean;
-  /** Moves it by this many CSS pixels. */
+  /** Where the world is in the view now. */
+  fit(): Fit;
+  /** Whether a drag may start at a place in the world. */
+  holds(x: number, y: number): boolean;
+  /** Moves it by this many world units. */
   moved(dx: number, dy: number): void;
   /** Moves it by this many keyboard steps: -1, 0 or 1 on each axis, ten times that with Shift. */
   stepped(x: number, y: number): void;
@@ -19,7 +24,22 @@ const arrows: Readonly<Record<string, readonly [number, number]>> = {
   ArrowDown: [0, 1],
 };
 
-export function makeDraggable({ canvas }: View, { label, holds = () => true, moved, stepped }: DragOptions): void {
+/** Puts a place that left a box back to the box's edge. */
+export function confine(at: { x: number; y: number }, [left, top, width, height]: Box): void {
+  at.x = Math.min(Math.max(at.x, left), left + width);
+  at.y = Math.min(Math.max(at.y, top), top + height);
+}
+
+/** Whether a place is in a box or on its edge. */
+export const contains = ([left, top, width, height]: Box, x: number, y: number): boolean =>
+  x >= left && y >= top && x <= left + width && y <= top + height;
+
+export function makeDraggable({ canvas }: View, options: DragOptions): void {
+  const { label, fit, moved, stepped } = options;
+  const holds = (x: number, y: number) => {
+    const at = fit();
+    return options.holds((x - at.x) / at.scale, (y - at.y) / at.scale);
+  };
   canvas.tabIndex = 0;
   canvas.setAttribute('aria-roledescription', label);
   let last: { x: number; y: number } | undefined;
@@ -33,7 +53,8 @@ export function makeDraggable({ canvas }: View, { label, holds = () => true, mov
     const { offsetX: x, offsetY: y } = event;
     canvas.style.cursor = last ? 'grabbing' : holds(x, y) ? 'grab' : '';
     if (!last) return;
-    moved(x - last.x, y - last.y);
+    const { scale } = fit();
+    moved((x - last.x) / scale, (y - last.y) / scale);
     last = { x, y };
   });
   const release = () => {

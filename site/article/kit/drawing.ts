@@ -1,5 +1,6 @@
 // What all figures draw: a grid, shaded cells, boxes with their numbers; in world units, on a view in pixels.
 import type { Colors } from './theme.ts';
+import type { Sheet } from './view.ts';
 
 /** Where a part of the world is in a view: world units times `scale`, plus the offset, are CSS pixels. */
 export interface Fit {
@@ -53,6 +54,10 @@ export function gridOn(
   ctx.stroke();
 }
 
+/** The box of a cell in a grid that begins at 0. */
+export const cellBox = (column: number, row: number, cellSize: number) =>
+  [column * cellSize, row * cellSize, cellSize, cellSize] as const;
+
 /** How a box is drawn. */
 export interface BoxLook {
   fill?: string | undefined;
@@ -92,6 +97,31 @@ export function boxOn(
     const color = labelColor ?? line ?? '#000';
     text(ctx, label, left + Math.min(inset, across / 2), top + Math.min(inset, down / 2), color);
   }
+}
+
+/** A filled circle, in pixels. */
+export function dot(ctx: CanvasRenderingContext2D, x: number, y: number, radius: number, color: string): void {
+  ctx.fillStyle = color;
+  ctx.beginPath();
+  ctx.arc(x, y, radius, 0, 7);
+  ctx.fill();
+}
+
+/** A sharp line across a plot at a height, in pixels, with its value before it. */
+export function levelLine(
+  { ctx, colors }: Sheet,
+  [left, right]: readonly [number, number],
+  y: number,
+  value: string,
+  color = colors.grid,
+): void {
+  ctx.strokeStyle = color;
+  ctx.lineWidth = 1;
+  ctx.beginPath();
+  ctx.moveTo(left, sharp(y));
+  ctx.lineTo(right, sharp(y));
+  ctx.stroke();
+  text(ctx, value, left - 8, y, colors.muted, 'right');
 }
 
 export function text(

@@ -16,11 +16,19 @@ export interface View {
   describe(text: string): void;
 }
 
+/** What a figure is drawn on: an empty canvas, in CSS pixels, and the colours of the theme. */
+export interface Sheet {
+  readonly ctx: CanvasRenderingContext2D;
+  readonly width: number;
+  readonly height: number;
+  readonly colors: Colors;
+}
+
 export interface ViewOptions {
   /** The height in CSS pixels for a width in CSS pixels. */
   height(width: number): number;
-  /** Draws all of it; the canvas is empty. Measures are CSS pixels. */
-  draw(ctx: CanvasRenderingContext2D, width: number, height: number, colors: Colors): void;
+  /** Draws all of it. */
+  draw(sheet: Sheet): void;
   /** The initial text alternative. */
   label: string;
 }
@@ -46,7 +54,7 @@ export function createView(root: HTMLElement, { height: heightOf, draw, label }:
     ctx.setTransform(1, 0, 0, 1, 0, 0);
     ctx.clearRect(0, 0, columns, rows);
     ctx.setTransform(columns / width, 0, 0, rows / height, 0, 0);
-    draw(ctx, width, height, themeColors());
+    draw({ ctx, width, height, colors: themeColors() });
   };
   const redraw = () => {
     if (awaited) return;
