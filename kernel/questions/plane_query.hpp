@@ -6,7 +6,8 @@
 // the answers equal those of testing box by box.
 // In a world that wraps around, the planes are shifted by whole worlds and the search is repeated, one turn per shift:
 // a box is tested at its place in the world and one world further along each axis, and taken in the first turn in which
-// it is behind no plane. What is inside in the first turn needs no further test.
+// it is behind no plane. Turns in which the planes are beside all boxes are left out, and what is inside in the first of
+// the others needs no further test.
 // Cost, of 500,000 boxes in 3D: 0.03 ms for a view of 600 of them, 0.2 ms for 15,000, 1 ms for 66,000.
 // From: N. Greene, "Detecting Intersection of a Rectangular Solid and a Convex Polyhedron", Graphics Gems IV, 1994;
 // U. Assarsson and T. Möller, "Optimized View Frustum Culling Algorithms for Bounding Boxes", 2000.
@@ -83,6 +84,9 @@ template <int D> class PlaneQuery {
       turns_seen_ |= u32(some) << turn_;
     }
   }
+
+  /// Whether an earlier turn may have found the same boxes.
+  bool may_be_found() const { return turns_seen_ & ((1u << turn_) - 1); }
 
   /// Shifts the planes for a turn, and moves them back a little, by a bound for the rounding errors.
   SMALL void aim() {
@@ -188,7 +192,7 @@ template <int D> class PlaneQuery {
   }
 
   bool offer(u32 place, u32 cut, Buffer<u32>& answers) {
-    if (turn_ > 0 || (cut && index_.rounded())) {
+    if (may_be_found() || (cut && index_.rounded())) {
       f64 box[2 * D];
       index_.box(place, box);
       cut = world_ ? exactly_around(box) : exactly(box, cut);
@@ -205,7 +209,7 @@ template <int D> class PlaneQuery {
   bool descend(u32 level, u32 child, u32 cut, Buffer<u32>& answers) {
     u32 first = child << (3 * level), end = smaller((child + 1) << (3 * level), index_.places());
     if (end <= from_) return true;
-    if (cut || turn_ > 0 || !takes_all_) return walk(level - 1, child, cut, answers);
+    if (cut || may_be_found() || !takes_all_) return walk(level - 1, child, cut, answers);
     first = larger(first, from_);
     u32 taken = smaller(end - first, most_ - found_);
     answers.grow(u64(found_) + taken, found_);
