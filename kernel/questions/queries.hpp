@@ -93,6 +93,7 @@ template <int D> class Queries {
   }
 
  private:
+  /// In a world that wraps around: leaves out turns that find nothing.
   SMALL void begin_around() {
     copies_.begin(world_, D, asked_.lo, asked_.hi);
     copies_.limit(reinterpret_cast<const f32*>(&index_.block(index_.top(), 0)), larger(0.0, asked_.radius));

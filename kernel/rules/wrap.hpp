@@ -38,6 +38,7 @@ struct Span {
   SMALL bool reaches(const Span& other, f64 further, bool touching) const {
     f64 shifted = other.shift - shift + further, about = other.low - low - size + shifted;
     f64 all = __builtin_fabs(other.low) + __builtin_fabs(low) + size + __builtin_fabs(shifted);
+    // As `is_below` begins, without its loop, which takes an area a fifth longer.
     if (__builtin_fabs(about) > all * 0x1p-48) return about < 0;
     return is_below({other.low, -low, -size, -rest, shifted}, touching);
   }
