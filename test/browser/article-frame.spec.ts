@@ -127,6 +127,16 @@ test('figure 1: 4,950 comparisons for 100 boxes, counted, and more boxes by the 
   await plot.getByRole('radio', { name: '×10' }).check();
 });
 
+test('figure 1 counts to the end while it is out of sight', async ({ page }) => {
+  await page.goto('/article/');
+  const plot = await figure(page, 'fig-1');
+  const counted = plot.locator('tbody td').first();
+  await plot.getByRole('slider', { name: 'Boxes' }).fill('3000');
+  await page.evaluate(() => window.scrollTo({ top: document.body.scrollHeight, behavior: 'instant' }));
+  await expect(plot).not.toBeInViewport();
+  await expect(counted).toHaveText('3,000', { timeout: 20_000 });
+});
+
 test('figure 2: every operation of brute force, 15 comparisons of six boxes', async ({ page }) => {
   await page.goto('/article/');
   const loops = await figure(page, 'fig-2');

@@ -66,7 +66,7 @@ const scales: readonly (readonly [Scale, string])[] = [
 ];
 const margins = { left: 46, right: 14, top: 16, bottom: 30 };
 
-export function mount(root: HTMLElement): () => void {
+export function mount(root: HTMLElement): void {
   const counting = new Counting();
   let boxes = 1000;
   let scale: Scale = 'even';
@@ -131,7 +131,6 @@ export function mount(root: HTMLElement): () => void {
   });
 
   counting.upTo(boxes, report);
-  return () => counting.stop();
 }
 
 /** The points of the plot, counted when they are needed. */
@@ -144,7 +143,7 @@ class Counting {
     return [...this.#counted].filter(([n]) => n <= boxes).sort(([a], [b]) => a - b);
   }
 
-  /** Counts the missing ones up to this number of boxes, a few at a time, and tells after each few. */
+  /** Counts the missing ones up to this number of boxes, a few at a time, and tells after each few; out of sight, too. */
   upTo(boxes: number, tell: () => void): void {
     clearTimeout(this.#timer);
     const started = performance.now();
@@ -157,10 +156,6 @@ class Counting {
       }
     }
     tell();
-  }
-
-  stop(): void {
-    clearTimeout(this.#timer);
   }
 }
 
