@@ -211,7 +211,7 @@ template <int D> class Incremental {
     if (watch_.is_new() && choose(scene).work + larger(0.0, life_ / age_ - planned_) < smooth_ + least) return true;
     if (list_.tested() == 0) return false;
     // A new list will not test the pairs of boxes that have come to rest.
-    f64 more = watch_.newly_resting([&](u32 slot) { return list_.rests_at(slot); });
+    f64 more = watch_.newly_resting([&](u32 slot) { return list_.rests_at(slot) || !scene.is_at_home(slot); });
     bool pays = 2 * more * tuning.candidate * list_.tested() / n * age_ > made_;
     if (!pays && (more < 1 || list_.resting() == rested_)) return false;
     rested_ = list_.resting();
