@@ -50,7 +50,7 @@ class Changes {
   }
   u32 room() const { return room_; }
 
-  void note(u32 slot) {
+  SMALL void note(u32 slot) {
     if (!some_) return;
     Notes notes = begin();
     notes.note(slot);

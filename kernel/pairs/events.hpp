@@ -117,9 +117,9 @@ class Events {
   }
 
   /// Where a pair is among the next few; 0 if it is not there, or the next.
-  static u64 place(const u64* from, const u64* end, u64 pair) {
+  NOINLINE static u64 place(const u64* from, const u64* end, u64 pair) {
     u64 many = smaller(u64(end - from), ahead);
-    for (u64 k = 1; k < many; k++) {
+    ROLLED for (u64 k = 1; k < many; k++) {
       if (from[k] == pair) return k;
     }
     return 0;
