@@ -45,6 +45,7 @@ template <int D> class Incremental {
     list_.watch(pairs.watch);
     bool kept = find(scene, f32(options.margin), pairs, stats);
     if (!kept) rebuild(scene, options, pairs, stats);
+    pairs.parted = kept && scene.groups;
     stats.reason = f64(u32(kept                                                  ? Reason::kept
                            : pause_ > 0 || scene.count < Watch<D>::least_watched ? Reason::moving
                                                                                  : Reason::watching));

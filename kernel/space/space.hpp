@@ -234,7 +234,7 @@ template <int D> class Space {
     if (store.world()) builder_.wrap.fold(pairs, options_.touching, finder.notes_doubts());
     else if (pairs.watch) settle_doubts(pairs, store, builder_.doubles, finder.notes_doubts(), options_.touching);
     if (own.filters.active()) own.filters.finish(pairs);
-    if (own.groups.some()) part_groups(pairs, own.groups.data());
+    if (own.groups.some() && !pairs.parted) part_groups(pairs, own.groups.data());
     if (ordered_ && finder.varies_order(finder.ran())) order_.sort(pairs.list.data(), pairs.count, store.ids.count());
     if (!store.ids.same()) name_pairs(pairs, store.ids);
     if (own.filters.active() || !store.ids.same()) pairs.stable = 0;
