@@ -18,6 +18,9 @@ enum : u32 {
   is_blue = 1u << 26,
 };
 
+/// In a world that wraps around, of a box strictly inside it: its pairs with others like it are those of any other world.
+inline constexpr u8 at_home = 8;
+
 /// Whether two boxes of these groups are never a pair.
 inline bool one_group(u32 a, u32 b) { return (a == b) & (a != 0); }
 
@@ -29,9 +32,12 @@ template <int D> struct Scene {
   bool filtered = false;  // since the last update, exclusion bits or groups of changed boxes may have changed
   const u32* groups = nullptr;  // per slot, null if no slot has one: pairs within a group are not reported
 
+  const u8* homes = nullptr;  // per slot, null if the world does not wrap around: `at_home` or not
+
   const f32* box(u32 slot) const { return boxes + u64(slot) * 2 * D; }
   u32 excluded_of(u32 slot) const { return excluded ? excluded[slot] : 0; }
   u32 group_of(u32 slot) const { return groups ? groups[slot] : 0; }
+  bool is_at_home(u32 slot) const { return !homes || (homes[slot] & at_home); }
   /// Whether it is known which boxes may have changed.
   bool listed() const { return changes && !changes->all(); }
 };
@@ -68,7 +74,7 @@ template <> struct Item<2> {
 };
 
 template <> struct Item<3> {
-  f32x4 low;   // min sweep, min binned 1, min binned 2, the tag's bits
+  f32x4 low;  // min sweep, min binned 1, min binned 2, the tag's bits
   f32x4 high;  // max sweep, max binned 1, max binned 2, unused
 
   /// The minima without the tag: read as a number it is denormal, which slows many processors down tenfold.

@@ -50,7 +50,7 @@ class Changes {
   }
   u32 room() const { return room_; }
 
-  void note(u32 slot) {
+  SMALL void note(u32 slot) {
     if (!some_) return;
     Notes notes = begin();
     notes.note(slot);
@@ -73,6 +73,8 @@ class Changes {
   /// Whether more than half of `slots` slots have changed: then the list is not worth its cost.
   bool most(u32 slots) const { return !some_ || count_ > slots / 2; }
   bool none() const { return some_ && count_ == 0; }
+  /// Whether this slot, for which there is room, may have changed.
+  bool has(u32 slot) const { return !some_ || marks_[slot]; }
   u32 count() const { return count_; }
   const u32* list() const { return list_.data(); }
 };

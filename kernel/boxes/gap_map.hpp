@@ -30,16 +30,28 @@ template <int D> class GapMap {
   bool plain_ = true;  // one piece, and nothing is subtracted
 
  public:
-  bool plain() const { return plain_; }
   SMALL void reset() {
     pieces_ = 1;
     plain_ = true;
   }
 
-  /// A box in float32, without the map: its first and its last four numbers.
-  static void narrowed(const f64* box, f32x4& first, f32x4& last) {
+  /// What the first piece subtracts from the numbers of a box, for use in a loop; `alone`: there is no other piece.
+  struct Less {
+    f64x2 of[D];
+    bool alone;
+  };
+  Less less() const {
+    Less all;
+    for (u32 k = 0; k < D; k++)
+      all.of[k] = plain_ ? f64x2{} : f64x2{axes_.less[0][2 * k % D], axes_.less[0][(2 * k + 1) % D]};
+    all.alone = pieces_ == 1;
+    return all;
+  }
+
+  /// A box in float32 as the first piece maps it: its first and its last four numbers.
+  static void narrowed(const Less& less, const f64* box, f32x4& first, f32x4& last) {
     f32x4 pairs[D];
-    for (u32 k = 0; k < D; k++) pairs[k] = narrow(load<f64x2>(box + 2 * k));
+    for (u32 k = 0; k < D; k++) pairs[k] = narrow(load<f64x2>(box + 2 * k) - less.of[k]);
     join(pairs, first, last);
   }
 
@@ -66,12 +78,12 @@ template <int D> class GapMap {
     return collapses(box, to);
   }
 
-  /// The same, for use in a loop. `plain` is `plain()`, which the caller keeps in a register.
-  bool round(bool plain, const f64* box, f32* to) const {
+  /// The same, for use in a loop. `less` is `less()`, which the caller keeps in registers.
+  bool round(const Less& less, const f64* box, f32* to) const {
     f32x4 first, last;
-    narrowed(box, first, last);
+    narrowed(less, box, first, last);
     // A finite box with a size in float32 needs no further test.
-    if (!plain || !is_sized(first, last)) return round(box, to);
+    if (!less.alone || !is_sized(first, last)) return round(box, to);
     store_box<D>(to, first, last);
     return false;
   }
@@ -103,15 +115,15 @@ template <int D> class GapMap {
 
   /// Writes many boxes as float32: unchanged if all their numbers are exact in float32, otherwise as `round` does.
   NOINLINE Rounded round_all(const f64* from, u32 count, f32* to) const {
-    const bool plain = plain_;
-    bool mapped = !plain, inexact = false;
+    const Less less = this->less();
+    bool mapped = !plain_, inexact = false;
     u32 collapsed = 0;
     for (u32 s = 0; s < count; s++, from += width, to += width) {
       f32x4 first, last;
-      narrowed(from, first, last);
+      narrowed(less, from, first, last);
       inexact = inexact || any(rounded(from));
       // A finite box with a size in float32 is good, and needs no further test.
-      if (plain && is_sized(first, last)) {
+      if (less.alone && is_sized(first, last)) {
         store_box<D>(to, first, last);
         continue;
       }

@@ -45,6 +45,7 @@ template <int D> class Incremental {
     list_.watch(pairs.watch);
     bool kept = find(scene, f32(options.margin), pairs, stats);
     if (!kept) rebuild(scene, options, pairs, stats);
+    pairs.parted = kept && scene.groups;
     stats.reason = f64(u32(kept                                                  ? Reason::kept
                            : pause_ > 0 || scene.count < Watch<D>::least_watched ? Reason::moving
                                                                                  : Reason::watching));
@@ -211,7 +212,7 @@ template <int D> class Incremental {
     if (watch_.is_new() && choose(scene).work + larger(0.0, life_ / age_ - planned_) < smooth_ + least) return true;
     if (list_.tested() == 0) return false;
     // A new list will not test the pairs of boxes that have come to rest.
-    f64 more = watch_.newly_resting([&](u32 slot) { return list_.rests_at(slot); });
+    f64 more = watch_.newly_resting([&](u32 slot) { return list_.rests_at(slot) || !scene.is_at_home(slot); });
     bool pays = 2 * more * tuning.candidate * list_.tested() / n * age_ > made_;
     if (!pays && (more < 1 || list_.resting() == rested_)) return false;
     rested_ = list_.resting();

@@ -12,6 +12,7 @@ struct Pairs {
   u64 count = 0;
   u64 stable = 0;     // length of the prefix unchanged since a technique reported it
   bool same = false;  // set by a technique: the pairs are those of the last update
+  bool parted = false;  // set by a technique: no pair is within a group
 
   // A pair is in doubt if two of its bounds are equal in float32: in the numbers given they may be apart.
   bool watch = false;   // whether to record them

@@ -95,7 +95,7 @@ template <int D> class Index {
   }
   bool filtered() const { return seen_.filtered; }
   /// An upper bound for how far boxes reach.
-  f64 most_reach() const { return seen_.most_reach; }
+  f64 most_reach() { return seen_.most_reach(); }
   u32 slot(u32 place) const { return slots_[place]; }
   const u32* slots() const { return slots_.data(); }
   u32 layer(u32 place) const { return seen_.filtered ? seen_.rules[slots_[place]].layer : 0xffffffff; }

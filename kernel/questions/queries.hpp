@@ -167,8 +167,9 @@ template <int D> class Queries {
     return most * __builtin_sqrt(sum);
   }
 
-  /// A circle of radius 0 at the side of a box touches it. If touching does not count, it is treated as a point.
-  bool is_circle() const { return asked_.radius > 0 || (asked_.radius == 0 && asked_.touching); }
+  /// A circle of radius 0 at the side of a box touches it. If touching does not count, it is treated as a point, and so is
+  /// one whose squared radius is 0.
+  bool is_circle() const { return asked_.radius >= 0 && (squared_ > 0 || asked_.touching); }
 
   bool wanted(u32 place) const { return all_wanted_ || wanted_(place); }
 

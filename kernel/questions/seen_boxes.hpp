@@ -1,5 +1,5 @@
 // A copy of what an update saw, by slot: boxes, ids, rules and reaches, for queries made after changes. Most copies are
-// never queried, so doubles are rounded only when an index is built over them.
+// never queried, so doubles are rounded only when an index is built over them, and reaches measured when they are needed.
 #pragma once
 #include "base/rounding.hpp"
 #include "boxes/ids.hpp"
@@ -14,7 +14,6 @@ template <int D> struct SeenBoxes {
   Buffer<u32> ids;
   Buffer<Rule> rules;
   Buffer<f64> reaches;
-  f64 most_reach = 0;  // how far the bounds of a box, with its reach, are at most from its own, rounding included
   u32 count = 0;
   const f64* world = nullptr;  // if it wraps around: boxes are then in `exact`, and moved into it when rounded
   bool rounded = false, named = false, filtered = false, reached = false;
@@ -43,8 +42,7 @@ template <int D> struct SeenBoxes {
     if (given) copy(rules, given, n, 0);
     reached = far;
     if (far) copy(reaches, far, n, 0);
-    most_reach = 0;
-    for (u32 s = 0; s < n && far; s++) most_reach = larger(most_reach, reach_of(s));
+    most_reach_ = unmeasured;
     named = !names.same();
     if (named) {
       ids.reserve(n);
@@ -80,7 +78,16 @@ template <int D> struct SeenBoxes {
     if (filtered) rules[s] = given[s];
     if (!reached) return;
     reaches[s] = far[s];
-    most_reach = larger(most_reach, reach_of(s));
+    if (most_reach_ != unmeasured) most_reach_ = larger(most_reach_, reach_of(s));
+  }
+
+  /// How far the bounds of a box, with its reach, are at most from its own, rounding included.
+  SMALL f64 most_reach() {
+    if (!reached) return 0;
+    if (most_reach_ != unmeasured) return most_reach_;
+    most_reach_ = 0;
+    for (u32 s = 0; s < count; s++) most_reach_ = larger(most_reach_, reach_of(s));
+    return most_reach_;
   }
 
   /// Rounds a box outward; if the world wraps around, moves it into the world first.
@@ -108,6 +115,10 @@ template <int D> struct SeenBoxes {
   }
 
  private:
+  static constexpr f64 unmeasured = -1;
+
+  f64 most_reach_ = unmeasured;
+
   /// Adding the reach to a bound rounds the sum, so that it may end up further away than the reach.
   SMALL f64 reach_of(u32 slot) const {
     f64 reach = reaches[slot], most = reach;

@@ -8,23 +8,23 @@
 // Exact: a box is its minimum modulo the world, which is exact, and its size as the sum of two doubles, which is too;
 // where rounding could matter, whether two of them touch is the sign of a sum of five doubles, found exactly.
 // One copy for 2D and 3D, since it is small code that counts here.
-// Cost: about 2 ns a box, for a copy of 17 (2D) or 25 (3D) bytes each, and as much for each pair; about 100 ns for each
-// box that is not at home, and for each pair of one.
+// If it is known which boxes have changed, only these and their ghosts are moved again. A ghost that its box no longer
+// has stays where it is, without an owner, until another box needs one, so that the number of boxes searched is steady.
+// Cost: 1 to 2 ns for each box that has changed, and for each pair that is not settled; about 50 ns for each box that is
+// not at home, and for pairs across the border; a copy of 21 (2D) or 29 (3D) bytes a box.
 #pragma once
 #include "base/rounding.hpp"
 #include "rules/filters.hpp"
 
 /// A box along one axis of a world that wraps around: from low + shift to low + shift + size + rest.
 struct Span {
-  f64 low, size, rest;  // low: in ]-world, world[, or in [-world / 2, world / 2[ if the world begins there
+  f64 low, size, rest;  // low: less than a world below where the world begins, or less than a world above that
   f64 shift;  // 0, or the world where low is below its beginning
   bool full;  // it covers the whole axis
 
   /// `from`: where the world begins, 0 or -world / 2.
   SMALL static Span of(f64 lo, f64 hi, f64 world, f64 from = 0) {
-    f64 size = hi - lo;
-    f64 back = size - hi;  // -lo, as far as size holds it
-    f64 rest = (hi - (size - back)) - (lo + back);
+    f64 size = hi - lo, rest = rest_of(lo, hi, size);
     // A box that is infinite, or as long as the world, covers the whole axis.
     if (!(size < world || (size == world && rest < 0))) return {0, world, 0, 0, true};
     f64 low = lo >= from && lo < from + world ? lo : remainder(lo, world);
@@ -33,9 +33,15 @@ struct Span {
     return {low, size, rest, low < from ? world : 0, false};
   }
 
+  /// By how much hi - lo exceeds its rounded result.
+  static f64 rest_of(f64 lo, f64 hi, f64 size) {
+    f64 back = size - hi;  // -lo, as far as size holds it
+    return (hi - (size - back)) - (lo + back);
+  }
+
   /// Whether it ends behind where another one begins that is shifted by `further`, a whole number of worlds; or just
   /// there, if `touching` counts.
-  SMALL bool reaches(const Span& other, f64 further, bool touching) const {
+  NOINLINE bool reaches(const Span& other, f64 further, bool touching) const {
     f64 shifted = other.shift - shift + further, about = other.low - low - size + shifted;
     f64 all = __builtin_fabs(other.low) + __builtin_fabs(low) + size + __builtin_fabs(shifted);
     // As `is_below` begins, without its loop, which takes an area a fifth longer.
@@ -100,79 +106,67 @@ struct Span {
 class Wrap {
   Buffer<f32> boxes_;  // the boxes, then the ghosts: rounded to the nearest if at home, else outward
   Buffer<u32> excluded_;  // of both
-  Buffer<u32> owners_;  // per ghost: its box in 24 bits, above them the axes along which it is shifted
-  Buffer<u8> across_;  // per box: the axes along which it crosses the border; whether it is at home
+  Buffer<u32> owners_;  // per place of a ghost: its box or `unowned`; above 24 bits, the axes along which it is shifted
+  Buffer<u8> across_;  // per place: the axes along which a box crosses the border, or `at_home`; 0 of ghosts
   const Filters* filters_ = nullptr;  // maps the boxes searched to slots
   const f32* given_ = nullptr;
   const f64* doubles_ = nullptr;
   const f64* world_ = nullptr;
   f64 from_[3] = {};  // where the world begins
   u32 dimensions_ = 0, count_ = 0, ghosts_ = 0;
-  bool changed_ = false;  // some box may have lost a ghost
+  u32 unused_ = 0, next_unused_ = 0;  // ghosts without a box; none of them is before that place
+  bool lost_ = false;  // some box may have lost a ghost
   bool touching_ = true;
 
  public:
   /// The boxes that are to be searched, and how many there are, with their ghosts. `given`: the boxes by slot, as
   /// float32 and, unless null, as doubles. Also puts the exclusion bits of the ghosts behind those of the boxes.
-  /// `in_order`: ghosts have to be in the order of their boxes.
-  SMALL const f32* unfold(u32& count, const u32*& excluded, const Filters& filters, const f32* given,
+  /// `moved`: the boxes that have changed; adds the ghosts that have. `in_order`: ghosts have to be in the order of their
+  /// boxes.
+  SMALL const f32* unfold(u32& count, const u32*& excluded, Changes& moved, const Filters& filters, const f32* given,
                           const f64* doubles, const f64* world, u32 dimensions, bool in_order) {
     dimensions_ = dimensions;
     filters_ = &filters;
     given_ = given;
     doubles_ = doubles;
     world_ = world;
+    if (in_order) count_ = ghosts_ = unused_ = 0;
     u32 had = count_;
-    count_ = count;
-    across_.grow(u64(count) + 1, smaller(had, count));
-    if (in_order) had = ghosts_ = 0;
-    if (count > had) __builtin_memset(across_.data() + had, 0, count - had);
-    boxes_.grow(u64(count) * 2 * dimensions + 4, 0);
-    changed_ = had != count;
-    choose_beginning();
-    place_all();
-    if (changed_) keep_ghosts();
-    write_ghosts();
+    if (had == 0) moved.note_all();
+    lost_ = count < had;
+    make_room(larger(count, had), u64(had) + ghosts_, moved);
+    make_way(count, moved);
+    count_ = next_unused_ = count;
+    choose_beginning(moved);
+    u64 held = u64(count) + ghosts_;
+    place_boxes(moved);
+    make_room(count, held, moved);
+    if (lost_) keep_ghosts(moved);
+    write_ghosts(moved);
     count += ghosts_;
     if (excluded) {
       u32* bits = excluded_.reserve(count);
-      for (u32 k = 0; k < count; k++) bits[k] = excluded[k < count_ ? k : owners_[k - count_] & slot_mask];
+      for (u32 k = 0; k < count; k++) bits[k] = excluded_of(k, excluded);
       excluded = bits;
     }
     return boxes_.data();
   }
 
-  /// Ghosts to boxes; keeps each overlapping pair once, and those that only touch if that counts.
-  NOINLINE void fold(Pairs& pairs, bool touching) {
+  /// Which of these are at home.
+  const u8* homes() const { return across_.data(); }
+
+  /// Ghosts to boxes; keeps each overlapping pair once, and those that only touch if that counts. What is stable is two
+  /// boxes at home that do not only touch. `noted`: whether the technique has recorded which pairs are in doubt.
+  SMALL void fold(Pairs& pairs, bool touching, bool noted) {
     touching_ = touching;
     const bool exact = touching && !doubles_;
-    const u32 width = 2 * dimensions_, all = (1u << dimensions_) - 1;
-    const u8* across = across_.data();
-    const f32* boxes = boxes_.data();
-    u8x16 maxima;  // of the last four numbers of a box
-    for (u32 n = 0; n < 16; n++) maxima[n] = u8(dimensions_ == 2 ? 8 + n % 8 : smaller(4 + n, 15u));
-    u64* list = pairs.list.data();
-    u64 kept = 0;
-    for (u64 p = 0; p < pairs.count; p++) {
-      u32 a = u32(list[p]), b = u32(list[p] >> 32);
-      bool keep;
-      if (b < count_ && (across[a] & across[b] & at_home)) {
-        keep = exact;
-        if (!keep) {
-          const f32 *one = boxes + u64(a) * width, *other = boxes + u64(b) * width;
-          f32x4 ends = bits<f32x4>(swizzle(load<u8x16>(one + width - 4), maxima)),
-                its = bits<f32x4>(swizzle(load<u8x16>(other + width - 4), maxima));
-          u32 apart = bitmask((load<f32x4>(one) >= its) | (load<f32x4>(other) >= ends)) & all;
-          keep = !apart || overlap(a, b);
-        }
-      } else {
-        u32 ghost_a = take_owner(a), ghost_b = take_owner(b);
-        keep = a != b && is_first(a, ghost_a, b, ghost_b);
-      }
-      list[kept] = pair_of(a, b);
-      kept += keep;
+    Fold at{pairs.list.data(), pairs.stable, pairs.stable};
+    for (u32 k = 0; noted && !exact && k < pairs.doubt_count; k++) {
+      fold(at, pairs.doubts[2 * k], false);
+      fold(at, pairs.doubts[2 * k + 1], true);
     }
-    pairs.count = kept;
+    fold(at, pairs.count, !exact && !noted);
+    pairs.count = at.kept;
   }
 
   SMALL void release() {
@@ -180,15 +174,68 @@ class Wrap {
     excluded_.release();
     owners_.release();
     across_.release();
-    count_ = ghosts_ = 0;
+    count_ = ghosts_ = unused_ = 0;
   }
 
  private:
   static constexpr u32 most_looked_at = 64;  // boxes
-  static constexpr u32 at_home = 8;  // beside the bits of up to three axes
+  static constexpr u32 unowned = slot_mask;  // the owner of a ghost that is not used
+
+  struct Fold {
+    u64* list;
+    u64 next, kept;
+  };
+
+  /// Folds the pairs up to this one. `doubt`: two boxes at home may not overlap in the numbers given.
+  NOINLINE void fold(Fold& at, u64 until, bool doubt) const {
+    const u8* across = across_.data();
+    u64* list = at.list;
+    u64 next = at.next, kept = at.kept;
+    for (; next < until; next++) {
+      u32 a = u32(list[next]), b = u32(list[next] >> 32);
+      bool keep = true;
+      if (!(across[a] & across[b] & at_home)) {
+        u32 ghost_a = take_owner(a), ghost_b = take_owner(b);
+        keep = a != b && larger(a, b) != unowned && is_first(a, ghost_a, b, ghost_b);
+      } else if (doubt) {
+        keep = overlap(a, b);
+      }
+      list[kept] = pair_of(a, b);
+      kept += keep;
+    }
+    at.next = next;
+    at.kept = kept;
+  }
+
+  /// Makes room for these boxes and the ghosts. `held`: how many of both are preserved.
+  SMALL void make_room(u32 count, u64 held, Changes& moved) {
+    const u32 width = 2 * dimensions_;
+    u64 all = u64(count) + ghosts_;
+    if (all > max_slots) fail(Fault::out_of_memory, f64(all) * width * sizeof(f32));
+    boxes_.grow(all * width + 4, held * width);
+    moved.make_room(all);
+  }
+
+  /// Ghosts leave the places of new boxes, and take those of boxes that are gone: as few of them as possible.
+  SMALL void make_way(u32 count, Changes& moved) {
+    const u32 width = 2 * dimensions_;
+    bool more = count > count_;
+    u64 had = u64(count_) + ghosts_, most = u64(larger(count, count_)) + ghosts_;
+    owners_.grow(most + 1, had);
+    across_.grow(most + 1, had);
+    if (most > had) __builtin_memset(across_.data() + had, 0, most - had);
+    u32 some = smaller(more ? count - count_ : count_ - count, ghosts_);
+    u32 from = more ? count_ : count_ + ghosts_ - some, to = more ? count + ghosts_ - some : count;
+    for (u32 k = 0; k < some; k++) {
+      owners_[to + k] = owners_[from + k];
+      across_[to + k] = 0;
+      __builtin_memcpy(&boxes_[u64(to + k) * width], &boxes_[u64(from + k) * width], width * sizeof(f32));
+      moved.note(to + k);
+    }
+  }
 
   /// Chooses where the world begins along each axis: at minus half its size if many more boxes are inside then.
-  SMALL void choose_beginning() {
+  SMALL void choose_beginning(Changes& moved) {
     for (u32 a = 0; a < dimensions_; a++) {
       f64 world = world_[a];
       i32 more = 0, looked = 0;
@@ -196,12 +243,14 @@ class Wrap {
         f64 lo = number(k, a), hi = number(k, dimensions_ + a);
         more += (lo >= -world / 2 && hi < world / 2) - (lo >= 0 && hi < world);
       }
-      from_[a] = 4 * more > looked ? -world / 2 : 0;
+      f64 from = 4 * more > looked ? -world / 2 : 0;
+      if (from != from_[a]) moved.note_all();
+      from_[a] = from;
     }
   }
 
-  /// Copies the boxes into the world, and notes which of them cross its border.
-  NOINLINE void place_all() {
+  /// Copies the boxes that have changed into the world, and notes which of them cross its border.
+  NOINLINE void place_boxes(const Changes& moved) {
     const u32 width = 2 * dimensions_;
     f32x4 above_first, above_last, below_first, below_last;
     for (u32 n = 0; n < 4; n++) {
@@ -211,23 +260,65 @@ class Wrap {
       below_first[n] = round_down(from_[one] + world_[one]);
       below_last[n] = round_down(from_[other] + world_[other]);
     }
-    f32* box = boxes_.data();
-    for (u32 k = 0; k < count_; k++, box += width) {
-      const f32* its = given_ + u64(filters_->slot(k)) * width;
-      f32x4 first = load<f32x4>(its), last = load<f32x4>(its + width - 4);
-      store(box, first);
-      store(box + width - 4, last);
-      i32x4 inside = (first > above_first) & (first < below_first) & (last > above_last) & (last < below_last);
-      u32 now = bitmask(inside) == 15 ? at_home : place(k, box), was = across_[k];
-      if (now == was) continue;
+    const u32* slots = filters_->some() ? filters_->slots() : nullptr;
+    f32* boxes = boxes_.data();
+    auto inside = [&](u32 k) {
+      f32x4 first = load<f32x4>(boxes + u64(k) * width), last = load<f32x4>(boxes + u64(k) * width + width - 4);
+      return (first > above_first) & (first < below_first) & (last > above_last) & (last < below_last);
+    };
+    auto copy = [&](u32 k) {
+      const f32* its = given_ + u64(slots ? slots[k] : k) * width;
+      f32* box = boxes + u64(k) * width;
+      store(box, load<f32x4>(its));
+      store(box + width - 4, load<f32x4>(its + width - 4));
+    };
+    auto look = [&](u32 k) NOINLINE {
+      u32 now = bitmask(inside(k)) == 15 ? at_home : place(k, boxes + u64(k) * width), was = across_[k];
       across_[k] = u8(now);
-      for (u32 some = now & 7; some; some = (some - 1) & now & 7) {  // a ghost for each subset of the axes
-        if (!(some & ~was)) continue;
-        owners_.grow(u64(ghosts_) + 1, ghosts_);
-        owners_[ghosts_++] = k | some << 24;
-      }
-      changed_ |= (was & ~now & 7) != 0;
+      if ((now | was) & ~at_home) cross(k, was, now);
+    };
+    for (u32 n = 0; n < moved.count() && !moved.all(); n++) {
+      u32 k = moved.list()[n];
+      if (k >= count_) continue;
+      copy(k);
+      look(k);
     }
+    if (!moved.all()) return;
+    if (!slots) __builtin_memcpy(boxes, given_, u64(count_) * width * sizeof(f32));
+    for (u32 k = 0; slots && k < count_; k++) copy(k);
+    u32 k = 0;
+    for (; k + 4 <= count_; k += 4) {
+      i32x4 all = inside(k) & inside(k + 1) & inside(k + 2) & inside(k + 3);
+      u8* four = across_.data() + k;
+      if (bitmask(all) == 15 && !(load<u32>(four) & 0x07070707)) store(four, at_home * 0x01010101u);
+      else
+        for (u32 n = k; n < k + 4; n++) look(n);
+    }
+    for (; k < count_; k++) look(k);
+  }
+
+  /// Gives a box the ghosts that it lacks, and notes whether it has too many.
+  SMALL void cross(u32 k, u32 was, u32 now) {
+    for (u32 some = now & 7; some; some = (some - 1) & now & 7) {  // a ghost for each subset of the axes
+      if (!(some & ~was)) continue;
+      u32 at = new_ghost();
+      owners_[at] = k | some << 24;
+      across_[at] = 0;
+    }
+    lost_ |= (was & ~now & 7) != 0;
+  }
+
+  /// The place of a new ghost.
+  SMALL u32 new_ghost() {
+    if (unused_ == 0) {
+      u64 at = u64(count_) + ghosts_++;
+      owners_.grow(at + 1, at);
+      across_.grow(at + 1, at);
+      return u32(at);
+    }
+    unused_--;
+    while (owners_[next_unused_] != unowned) next_unused_++;
+    return next_unused_;
   }
 
   /// Moves a box into the world; returns the axes along which it crosses the border.
@@ -243,28 +334,38 @@ class Wrap {
     return across;
   }
 
-  /// Removes the ghosts that boxes no longer have; the last one takes the place of each.
-  SMALL void keep_ghosts() {
-    for (u32 g = ghosts_; g-- > 0;) {
-      u32 owner = owners_[g] & slot_mask, axes = owners_[g] >> 24;
-      if (owner >= count_ || (axes & ~u32(across_[owner]))) owners_[g] = owners_[--ghosts_];
+  /// Takes away the ghosts that boxes no longer have. They stay where they are until another box needs one: a technique
+  /// that retains candidates then has no fewer boxes. If most are unused, these are removed; the last one takes the place of
+  /// each.
+  SMALL void keep_ghosts(Changes& moved) {
+    for (u32 at = count_; at < count_ + ghosts_; at++) {
+      u32 owner = owners_[at] & slot_mask, axes = owners_[at] >> 24;
+      if (owner == unowned || (owner < count_ && !(axes & ~u32(across_[owner])))) continue;
+      owners_[at] = unowned;
+      unused_++;
     }
+    if (2 * unused_ <= ghosts_) return;
+    for (u32 at = count_ + ghosts_; at-- > count_;) {
+      if (owners_[at] != unowned) continue;
+      owners_[at] = owners_[count_ + --ghosts_];
+      moved.note(at);
+    }
+    unused_ = 0;
   }
 
-  /// Puts the ghosts behind the boxes.
-  SMALL void write_ghosts() {
+  /// Puts the ghosts behind the boxes, if they have changed.
+  SMALL void write_ghosts(Changes& moved) {
     const u32 width = 2 * dimensions_;
-    u64 all = u64(count_) + ghosts_;
-    if (all > max_slots) fail(Fault::out_of_memory, f64(all) * width * sizeof(f32));
-    boxes_.grow(all * width + 4, u64(count_) * width);
-    for (u32 g = 0; g < ghosts_; g++) {
-      u32 k = owners_[g] & slot_mask, some = owners_[g] >> 24;
+    for (u32 at = count_; at < count_ + ghosts_; at++) {
+      u32 k = owners_[at] & slot_mask, some = owners_[at] >> 24;
+      if (k == unowned || (!moved.has(k) && !moved.has(at))) continue;
+      moved.note(at);
       const f32* of = boxes_.data() + u64(k) * width;
-      f32* ghost = boxes_.data() + (u64(count_) + g) * width;
+      f32* ghost = boxes_.data() + u64(at) * width;
       for (u32 a = 0; a < dimensions_; a++) {
-        bool moved = some >> a & 1;
-        ghost[a] = moved ? round_down(from_[a]) : of[a];
-        ghost[dimensions_ + a] = moved ? beyond(span(k, a), world_[a], from_[a]) : of[dimensions_ + a];
+        bool across = some >> a & 1;
+        ghost[a] = across ? round_down(from_[a]) : of[a];
+        ghost[dimensions_ + a] = across ? beyond(span(k, a), world_[a], from_[a]) : of[dimensions_ + a];
       }
     }
   }
@@ -274,10 +375,15 @@ class Wrap {
     return doubles_ ? doubles_[at] : f64(given_[at]);
   }
 
+  u32 excluded_of(u32 k, const u32* excluded) const {
+    take_owner(k);
+    return k == unowned ? 0 : excluded[k];
+  }
+
   /// From a ghost to its box; returns the axes along which it is shifted.
   u32 take_owner(u32& k) const {
     if (k < count_) return 0;
-    u32 owner = owners_[k - count_];
+    u32 owner = owners_[k];
     k = owner & slot_mask;
     return owner >> 24;
   }
@@ -292,8 +398,12 @@ class Wrap {
     return overlap;
   }
 
-  SMALL Span span(u32 k, u32 axis) const {
-    return Span::of(number(k, axis), number(k, dimensions_ + axis), world_[axis], from_[axis]);
+  Span span(u32 k, u32 axis) const {
+    f64 lo = number(k, axis), hi = number(k, dimensions_ + axis), world = world_[axis], from = from_[axis];
+    f64 size = hi - lo;
+    if (size < world && lo > from - world && lo < from + world)
+      return {lo, size, Span::rest_of(lo, hi, size), lo < from ? world : 0, false};
+    return Span::of(lo, hi, world, from);
   }
 
   /// A bound for the rounding errors.
@@ -317,8 +427,20 @@ class Wrap {
     return round_up(larger(from, span.low + span.shift + span.size - world + 2 * slack(world)));
   }
 
+  /// Whether two boxes overlap as they stand in the world, by more than may have been rounded.
+  bool overlap_clearly(u32 a, u32 b) const {
+    const f32 *one = boxes_.data() + u64(a) * 2 * dimensions_, *other = boxes_.data() + u64(b) * 2 * dimensions_;
+    bool overlap = true;
+    for (u32 n = 0; n < dimensions_; n++) {
+      f32 more = f32(world_[n]) * 0x1p-20f + 1e-30f;
+      overlap &= one[dimensions_ + n] - other[n] > more && other[dimensions_ + n] - one[n] > more;
+    }
+    return overlap;
+  }
+
   /// Whether these are the boxes or ghosts by which the pair is to be reported.
-  SMALL bool is_first(u32 a, u32 ghost_a, u32 b, u32 ghost_b) const {
+  NOINLINE bool is_first(u32 a, u32 ghost_a, u32 b, u32 ghost_b) const {
+    if (overlap_clearly(a, b)) return !(ghost_a | ghost_b);
     for (u32 axis = 0; axis < dimensions_; axis++) {
       Span first = span(a, axis), second = span(b, axis);
       bool one = ghost_a >> axis & 1, other = ghost_b >> axis & 1;

@@ -25,7 +25,7 @@ template <int D> class Finder {
       pairs.stable = 0;
     }
     ran_ = chosen;
-    pairs.same = false;
+    pairs.same = pairs.parted = false;
     techniques_.with(ran_, [&](auto& technique) { technique.update(scene, settings, pairs, stats); });
   }
 

@@ -185,7 +185,8 @@ template <int D> class Numbers {
     f32* boxes = boxes_.data();
     f64* exact = exact_.data();
     Changes& changes = written.changes;
-    const GapMap<D>& map = this->map();
+    typename GapMap<D>::Less less = {};  // floats are not mapped
+    if constexpr (rounding) less = map().less();
     const bool notes = !changes.all();
     typename GapMap<D>::Sizes sizes;
     Changes::Notes changed = changes.begin();
@@ -194,7 +195,7 @@ template <int D> class Numbers {
       u32 slot = slots[k];
       f32* to = boxes + u64(slot) * width;
       f32x4 first, last;
-      GapMap<D>::narrowed(from, first, last);
+      GapMap<D>::narrowed(less, from, first, last);
       if constexpr (rounding) {
         sizes.see(first, last);
         f64* its = exact + u64(slot) * width;
@@ -208,17 +209,17 @@ template <int D> class Numbers {
       store_box<D>(to, first, last);
     }
     if (notes) changes.end(changed);
-    if (rounding && !(map.plain() && sizes.all_are_sized())) choice_.count_more(round_again(box, step, slots, count));
+    if (rounding && !(less.alone && sizes.all_are_sized())) choice_.count_more(round_again(box, step, slots, count));
     for (u32 k = 0; written.shown() && k < count; k++) written.show(boxes, slots[k]);
   }
 
   /// Rounds boxes, some of which the quick way may not have got right; returns how many collapse. All of them, since the
   /// last of two in the same slot counts.
   NOINLINE u32 round_again(const f64* box, u32 step, const u32* slots, u32 count) {
-    const bool plain = map().plain();
+    const auto less = map().less();
     f32* boxes = boxes_.data();
     u32 collapsed = 0;
-    for (u32 k = 0; k < count; k++, box += step) collapsed += map().round(plain, box, boxes + u64(slots[k]) * width);
+    for (u32 k = 0; k < count; k++, box += step) collapsed += map().round(less, box, boxes + u64(slots[k]) * width);
     return collapsed;
   }
 

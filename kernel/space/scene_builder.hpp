@@ -1,7 +1,7 @@
 // Builds the scene to search from a space: boxes enlarged by their reaches, without those that can meet nobody, and
 // with ghosts if the world wraps around.
 // Cost: nothing if no box has a reach or a rule and the world does not wrap around; otherwise a copy of the boxes for
-// each. Without ghosts, only boxes that have changed are copied, if it is known which.
+// each. Only boxes that have changed are copied, if it is known which.
 #pragma once
 #include "rules/wrap.hpp"
 #include "space/store.hpp"
@@ -11,7 +11,7 @@ template <int D> class SceneBuilder {
 
   Buffer<f32> picked_;  // the boxes searched, if not all are
   u32 picked_count_ = 0;  // as of the last update; 0: not held
-  Changes moved_;  // places of these that have changed
+  Changes moved_;  // places of boxes searched that have changed, if not all are searched or the world wraps around
   Buffer<u32> groups_;  // of these
   Buffer<f32> grown_;  // the boxes enlarged by their reaches, if some box has one
   Buffer<f64> grown_exact_;  // the same as doubles, from which they are rounded
@@ -45,10 +45,13 @@ template <int D> class SceneBuilder {
     }
     groups.updated();
     if (store.world()) {
+      find_moved(scene, filters);
       if (picks) scene.count = filters.searched();
-      scene.changes = nullptr;
       scene.filtered |= scene.excluded != nullptr;  // exclusion bits of ghosts may change too
-      scene.boxes = wrap.unfold(scene.count, scene.excluded, filters, boxes, doubles, store.world(), D, in_order);
+      scene.boxes = wrap.unfold(scene.count, scene.excluded, moved_, filters, boxes, doubles, store.world(), D,
+                                in_order);
+      scene.homes = wrap.homes();
+      if (scene.changes) scene.changes = &moved_;
     } else if (picks) {
       pick(scene, filters);
     }
@@ -68,25 +71,32 @@ template <int D> class SceneBuilder {
   }
 
  private:
+  /// Finds the places of the boxes that have changed.
+  SMALL void find_moved(const Scene<D>& scene, const Filters& filters) {
+    u32 n = filters.some() ? filters.searched() : scene.count;
+    moved_.clear(n);
+    if (!scene.listed() || scene.changes->most(scene.count)) return moved_.note_all();
+    for (u32 k = 0; k < scene.changes->count(); k++) {
+      u32 slot = scene.changes->list()[k];
+      if (slot >= scene.count) continue;
+      u32 place = filters.some() ? filters.place(slot) : slot;
+      if (place < n) moved_.note(place);
+    }
+    for (u32 k = 0; filters.some() && k < filters.moved().count(); k++) {
+      if (filters.moved().list()[k] < n) moved_.note(filters.moved().list()[k]);
+    }
+  }
+
   /// Leaves only the boxes that are searched, in their places.
   SMALL void pick(Scene<D>& scene, const Filters& filters) {
     u32 n = filters.searched();
     f32* to = picked_.grow(u64(n) * width + Numbers<D>::padding, u64(picked_count_) * width);
-    moved_.clear(n);
-    if (picked_count_ > 0 && scene.listed()) {
-      auto copy = [&](u32 place) {
-        if (place >= n) return;
-        moved_.note(place);
-        copy_box(scene.box(filters.slots()[place]), to + u64(place) * width);
-      };
-      for (u32 k = 0; k < scene.changes->count(); k++) {
-        u32 slot = scene.changes->list()[k];
-        if (slot < scene.count) copy(filters.place(slot));
-      }
-      for (u32 k = 0; k < filters.moved().count(); k++) copy(filters.moved().list()[k]);
-    } else {
-      copy_all(scene, filters.slots(), n, to);
-      moved_.note_all();
+    find_moved(scene, filters);
+    if (picked_count_ == 0) moved_.note_all();
+    if (moved_.all()) copy_all(scene, filters.slots(), n, to);
+    for (u32 k = 0; !moved_.all() && k < moved_.count(); k++) {
+      u32 place = moved_.list()[k];
+      copy_box(scene.box(filters.slots()[place]), to + u64(place) * width);
     }
     if (scene.changes) scene.changes = &moved_;
     scene.boxes = to;
@@ -115,7 +125,7 @@ template <int D> class SceneBuilder {
   NOINLINE void grow_each(const Store<D>& store, const u32* slots, u32 many, u32 count) {
     const f32* boxes = store.numbers.boxes();
     const GapMap<D>& map = store.numbers.map();
-    const bool plain = map.plain();
+    const auto less = map.less();
     for (u32 k = 0; k < many; k++) {
       u32 slot = slots ? slots[k] : k;
       if (slot >= count) continue;
@@ -126,7 +136,7 @@ template <int D> class SceneBuilder {
         f64x2 given = doubles ? load<f64x2>(doubles + at + n) : f64x2{boxes[at + n], boxes[at + n + 1]};
         ::store(box + n, given + f64x2{n < D ? -reach : reach, n + 1 < D ? -reach : reach});
       }
-      map.round(plain, box, grown_.data() + at);
+      map.round(less, box, grown_.data() + at);
     }
   }
 };

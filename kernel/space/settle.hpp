@@ -5,14 +5,14 @@
 
 namespace detail {
 
-/// Whether some box lies at infinity along an axis: a difference of its bounds is NaN, or infinite if they were
-/// rounded, so the sweep does not record its pairs as in doubt.
-template <int D, class T> SMALL bool some_nowhere(const T* boxes, u32 count) {
-  bool some = false;
-  for (u64 k = 0; k < u64(count) * 2 * D; k += 2 * D) {
-    for (u32 a = 0; a < D; a++) some |= boxes[k + a] == __builtin_inff() || boxes[k + D + a] == -__builtin_inff();
-  }
-  return some;
+/// Whether some box lies at infinity along an axis, where numbers are bounded by the largest: a difference of its bounds is
+/// NaN, or infinite, so the sweep does not record its pairs as in doubt.
+template <int D> NOINLINE bool some_nowhere(const f32* boxes, u32 count) {
+  const f32x4 first = {1, 1, D == 2 ? -1 : 1, -1}, last = {1, D == 2 ? 1 : -1, -1, -1}, most = splat(__FLT_MAX__);
+  i32x4 some = {};
+  for (const f32* box = boxes; box < boxes + u64(count) * 2 * D; box += 2 * D)
+    some |= (load<f32x4>(box) * first >= most) | (load<f32x4>(box + 2 * D - 4) * last >= most);
+  return any(some);
 }
 
 /// Writes those pairs that overlap, contiguously; returns the end.
@@ -50,7 +50,7 @@ SMALL void settle_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles
   };
   bool all = !noted;
   u32 n = store.ids.count();
-  if (!touching) all |= doubles ? detail::some_nowhere<D>(doubles, n) : detail::some_nowhere<D>(boxes, n);
+  if (!touching) all |= detail::some_nowhere<D>(boxes, n);
   for (u32 k = 0; k < (all ? 1 : pairs.doubt_count); k++) {
     if (!all) keep(pairs.doubts[2 * k]);
     u64 until = all ? pairs.count : pairs.doubts[2 * k + 1];
@@ -82,8 +82,6 @@ NOINLINE inline void part_groups(Pairs& pairs, const u32* groups) {
 /// Replaces slots by ids, the smaller first.
 NOINLINE inline void name_pairs(Pairs& pairs, const Ids& ids) {
   u64* list = pairs.list.data();
-  for (u64 p = 0; p < pairs.count; p++) {
-    u32 a = ids.id(u32(list[p])), b = ids.id(u32(list[p] >> 32));
-    list[p] = pair_of(a, b);
-  }
+  const u32* names = ids.names();
+  for (u64 p = 0; p < pairs.count; p++) list[p] = pair_of(names[u32(list[p])], names[list[p] >> 32]);
 }

@@ -196,7 +196,6 @@ template <int D> class Space {
     search(scene, chosen);
     // With doubles, bounds may have changed by less than float32 shows.
     bool same = pairs.same && !store.numbers.written.renamed && !builder_.doubles;
-    if (store.own.filters.active() || store.world() || !store.ids.same()) pairs.stable = 0;
     note_seen();
     if (stats.candidates == 0) stats.candidates = f64(pairs.count);
     stats.pairs = f64(pairs.count);
@@ -208,7 +207,7 @@ template <int D> class Space {
   SMALL void search(const Scene<D>& scene, Technique chosen) {
     pairs.count = pairs.doubt_count = 0;
     if (ordered_) pairs.stable = 0;  // they were sorted, or will be
-    pairs.watch = (builder_.doubles || !options_.touching) && !store.world();
+    pairs.watch = builder_.doubles || !options_.touching;
     stats = Stats{};
     Settings mapped = options_;
     for (u32 n = 0; options_.bounds[0] < options_.bounds[D] && n < 2 * D; n++)
@@ -232,12 +231,13 @@ template <int D> class Space {
   /// Turns pairs of slots found in float32 into the pairs to report.
   SMALL void settle() {
     const Own& own = store.own;
-    if (store.world()) builder_.wrap.fold(pairs, options_.touching);
+    if (store.world()) builder_.wrap.fold(pairs, options_.touching, finder.notes_doubts());
     else if (pairs.watch) settle_doubts(pairs, store, builder_.doubles, finder.notes_doubts(), options_.touching);
     if (own.filters.active()) own.filters.finish(pairs);
-    if (own.groups.some()) part_groups(pairs, own.groups.data());
+    if (own.groups.some() && !pairs.parted) part_groups(pairs, own.groups.data());
     if (ordered_ && finder.varies_order(finder.ran())) order_.sort(pairs.list.data(), pairs.count, store.ids.count());
     if (!store.ids.same()) name_pairs(pairs, store.ids);
+    if (own.filters.active() || !store.ids.same()) pairs.stable = 0;
   }
 
   SMALL void publish() {

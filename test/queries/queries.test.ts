@@ -125,6 +125,11 @@ describe('at the edges', () => {
     // The square of a distance so small is 0.
     exact.set(0, -2, 0, 0, 0).update();
     expect(exact.queryCircle(5e-324, 0, 0)).toEqual([0]);
+    // So is that of a radius so small: the circle still overlaps what its centre is inside of.
+    expect(exact.queryCircle(-1, -0, 1e-170, { touching: false })).toEqual([]);
+    exact.set(0, -2, -1, 0, 1).update();
+    expect(exact.queryCircle(-1, 0, 1e-170, { touching: false })).toEqual([0]);
+    expect(exact.queryCircle(0, 0, 1e-170, { touching: false })).toEqual([]);
   });
 
   test('before the first update there is nothing', () => {

@@ -1,0 +1,89 @@
+// Worlds that wrap around in which few boxes change: only these are moved into the world, and ghosts that are no longer
+// needed stay until another box needs one. Whatever changes, a space finds the pairs of one that starts anew. SEED=…
+// runs a failure again, RUNS=… runs more.
+import { BroadPhase } from 'broadphase';
+import { describe, expect, test } from 'vitest';
+import { createRandom } from '../../src/scenes/random.ts';
+import { runs, seed } from '../support/runs.ts';
+import { setBox } from '../support/set-box.ts';
+
+const most = 150;
+const frames = 80;
+
+type Space = BroadPhase<2 | 3>;
+type Random = () => number;
+
+const upTo = (random: Random, n: number) => Math.floor(random() * n);
+
+/** A box anywhere in three worlds or, mostly, in the one at `origin`; on borders, too; a few as long as the world. */
+function anyBox(random: Random, wrap: readonly number[], origin: number): number[] {
+  const lower = wrap.map((size) => {
+    const at = random() < 0.1 ? (upTo(random, 7) - 3) * (size / 2) : (random() + origin) * size;
+    return random() < 0.1 ? at + size * (upTo(random, 3) - 1) : at;
+  });
+  const giant = random() < 0.02;
+  return [...lower, ...lower.map((at, a) => at + (giant ? random() * 1.2 * wrap[a]! : upTo(random, 6) * 0.7))];
+}
+
+/** A few calls, made to all spaces alike. */
+function change(spaces: Space[], random: Random, wrap: readonly number[], origin: number): void {
+  const id = upTo(random, most);
+  const [first] = spaces as [Space];
+  const box = first.get(id);
+  const kind = random();
+  const value = upTo(random, 3);
+  const another = anyBox(random, wrap, origin);
+  const step = wrap.map(() => (random() - 0.5) * 0.8);
+  const stepped = Array.from(box ?? [], (at, k) => at + step[k % wrap.length]!);
+  for (const space of spaces) {
+    if (!box) setBox(space, id, another);
+    else if (kind < 0.5) setBox(space, id, stepped);
+    else if (kind < 0.6) setBox(space, id, another);
+    else if (kind < 0.7) space.delete(id);
+    else if (kind < 0.78) space.setEnabled(id, value > 0);
+    else if (kind < 0.82) space.setStatic(id, value > 1);
+    else if (kind < 0.86) space.setFilter(id, 1 << value, 0b101);
+    else if (kind < 0.9) space.setGroup(id, value);
+    else if (kind < 0.93) space.setReach(id, value / 2);
+  }
+}
+
+const keysOf = (space: Space) =>
+  Array.from({ length: space.pairCount }, (_, k) => space.pairs[2 * k]! * most + space.pairs[2 * k + 1]!).sort(
+    (a, b) => a - b,
+  );
+
+describe.each([2, 3] as const)(`in %d dimensions (SEED=${seed})`, (dimensions) => {
+  const wrap = ([24, 17, 20] as const).slice(0, dimensions) as [number, number];
+  test.each(['auto', 'incremental', 'retained-grid', 'sweep-and-prune', 'aabb-tree'] as const)('%s', (technique) => {
+    let [retained, moved] = [0, 0];
+    for (let run = 0; run < runs(16); run++) {
+      const random = createRandom(seed + run);
+      const [origin, touching, busy] = [run % 3 ? 0 : -0.5, run % 4 > 0, run % 2 ? 3 : 12];
+      const options = { dimensions, wrap, touching, events: true };
+      const spaces: Space[] = [
+        new BroadPhase({ ...options, technique }),
+        new BroadPhase({ ...options, technique: 'brute-force' }),
+      ];
+      for (let id = 0; id < most / 2; id++) {
+        const box = anyBox(random, wrap, origin);
+        for (const space of spaces) setBox(space, id, box);
+      }
+      let before = new Set<number>();
+      for (let frame = 0; frame < frames; frame++) {
+        for (let call = upTo(random, busy); call > 0; call--) change(spaces, random, wrap, origin);
+        if (random() < 0.02) spaces[0]!.restore(spaces[0]!.snapshot());
+        for (const space of spaces) space.update();
+        const [found, expected] = spaces.map(keysOf) as [number[], number[]];
+        expect(found, `run ${run}, frame ${frame}`).toEqual(expected);
+        const now = new Set(expected);
+        moved += [...now].filter((key) => !before.has(key)).length;
+        before = now;
+        retained += Number(spaces[0]!.stats.reason.includes('are retained'));
+        spaces[0]!.validate();
+      }
+    }
+    expect(moved).toBeGreaterThan(100);
+    if (technique === 'auto') expect(retained).toBeGreaterThan(frames / 2);
+  });
+});
