@@ -1,6 +1,7 @@
-// What changes beside the boxes: a few boxes go off and on, get another filter, group or reach, or are removed and added,
-// in each frame of a world in which a share of the boxes moves little. `auto` against `strip-sweep`, a full rebuild in
-// each frame, in turns on the same frames:
+// What a space costs that has more than boxes: a few of them go off and on, get another filter, group or reach, or are
+// removed and added in each frame; or it has events, ids of its own, a wrapped world. A share of the boxes moves little.
+// `auto` against `strip-sweep`, a full rebuild in each frame, and against `auto` in a space with nothing but the boxes,
+// in turns on the same frames:
 //   npm run bench:changes -- [boxes] [name]
 import { bundle } from '../../scripts/bundle.mjs';
 import { median, quantile } from '../harness/statistics.mjs';
@@ -22,7 +23,10 @@ const off = (space, now, before) => {
   for (const id of now) space.setEnabled(id, false);
 };
 
-/** `before` and `now`: other ids in each frame, and those of the frame before. `first` happens once. */
+/**
+ * `before` and `now`: other ids in each frame, and those of the frame before. `first` happens once. `options`: of the
+ * space, given the size of its world.
+ */
 const changes = {
   nothing: {},
   'one off, one on': { each: (space, now, before) => off(space, now.slice(0, 1), before.slice(0, 1)) },
@@ -69,7 +73,9 @@ const changes = {
       for (const id of now) space.set(id, ...box(id));
     },
   },
-  'a wrapped world': { wraps: true },
+  events: { options: () => ({ events: true }) },
+  'touching: false': { options: () => ({ touching: false }) },
+  'a wrapped world': { options: (wrap) => ({ wrap }) },
   'a snapshot': { each: (space) => void space.snapshot() },
 };
 
@@ -77,18 +83,18 @@ const changes = {
 function play(change, dimensions, share, numbers) {
   state = 7;
   const side = 2 * count ** (1 / dimensions);
-  const wrap = change.wraps ? { wrap: Array(dimensions).fill(side) } : {};
+  const options = { dimensions, ...change.options?.(Array(dimensions).fill(side)) };
   const places = Float64Array.from({ length: count * dimensions }, () => random() * side);
   const box = (id) => {
     const low = Array.from(places.subarray(id * dimensions, (id + 1) * dimensions));
     const all = [...low, ...low.map((at) => at + 1)];
     return numbers === 'float32' ? all.map(Math.fround) : all;
   };
-  const spaces = ['auto', 'strip-sweep'].map((technique) => new BroadPhase({ dimensions, technique, ...wrap }));
-  for (const space of spaces) {
-    for (let id = 0; id < count; id++) space.set(id, ...box(id));
-    change.first?.(space);
-  }
+  const spaces = ['auto', 'strip-sweep'].map((technique) => new BroadPhase({ technique, ...options }));
+  const changed = [...spaces];
+  spaces.push(new BroadPhase({ dimensions }));
+  for (const space of spaces) for (let id = 0; id < count; id++) space.set(id, ...box(id));
+  for (const space of changed) change.first?.(space);
   const times = spaces.map(() => []);
   let before = [];
   for (let frame = -warmUp; frame < rounds; frame++) {
@@ -101,7 +107,7 @@ function play(change, dimensions, share, numbers) {
     const now = Array.from({ length: some }, (_, k) => ((frame + warmUp) * 7919 + k * 31) % count);
     spaces.forEach((space, k) => {
       for (const id of moved) space.set(id, ...box(id));
-      change.each?.(space, now, before, box);
+      if (changed.includes(space)) change.each?.(space, now, before, box);
       const start = performance.now();
       space.update();
       if (frame >= 0) times[k].push(performance.now() - start);
@@ -110,16 +116,18 @@ function play(change, dimensions, share, numbers) {
     if (spaces[0].pairCount !== spaces[1].pairCount)
       throw new Error(`${spaces[0].pairCount} pairs by auto, ${spaces[1].pairCount} by strip-sweep`);
   }
-  const [auto, rebuild] = times;
-  const ratios = auto.map((time, k) => time / rebuild[k]);
+  const [auto, rebuild, plain] = times;
+  const ratioTo = (others) => `${median(auto.map((time, k) => time / others[k])).toFixed(2)}x`;
   const figures = [
     `${median(auto).toFixed(3)} ms`,
     `p95 ${quantile(auto, 0.95).toFixed(3)}`,
     `rebuild ${median(rebuild).toFixed(3)}`,
-    `${median(ratios).toFixed(2)}x`,
+    ratioTo(rebuild),
+    `boxes alone ${median(plain).toFixed(3)}`,
+    ratioTo(plain),
   ];
   for (const space of spaces) space.dispose();
-  return figures.map((figure) => figure.padEnd(16)).join('');
+  return figures.map((figure) => figure.padEnd(20)).join('');
 }
 
 console.log(`${count} boxes, ${rounds} updates after ${warmUp}: medians, and the median of the ratios\n`);

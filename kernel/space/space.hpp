@@ -26,7 +26,6 @@ template <int D> class Space {
   PairOrder order_;
   u32 seen_ = 0;  // boxes in the last update
   bool searching_ = false;  // in the middle of an update: there are no pairs until it ends
-  bool restored_ = false;  // since the last update: its pairs are not in the list that a table is built for
   bool ordered_ =
       false;  // a snapshot was taken or restored: from then on, earlier updates must not affect the order of pairs
 
@@ -52,8 +51,6 @@ template <int D> class Space {
     Technique chosen = choose();
     note_written();
     if (is_at_rest(chosen) || !find(chosen)) return rest();
-    if (restored_) lookups_.table.made = false;
-    restored_ = false;
     if (store.keeps_events) store.events.follow(pairs, lookups_.table);
     publish();
     return -1;
@@ -97,7 +94,7 @@ template <int D> class Space {
     numbers.take_staged(rounded);
     if (head.in_place) numbers.write_in_place(head.count);
     technique = saved_technique(head.technique);
-    restored_ = ordered_ = numbers.written.renamed = true;
+    ordered_ = numbers.written.renamed = true;
     store.seen.restart();
     look_for_map();
     find(choose());
