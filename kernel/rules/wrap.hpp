@@ -10,8 +10,8 @@
 // One copy for 2D and 3D, since it is small code that counts here.
 // If it is known which boxes have changed, only these and their ghosts are moved again. A ghost that its box no longer
 // has stays where it is, without an owner, until another box needs one, so that the number of boxes searched is steady.
-// Cost: 1 to 2 ns for each box that has changed, and for each pair that is not settled; about 50 ns for each box that is
-// not at home, and 10 for each pair of one; a copy of 21 (2D) or 29 (3D) bytes a box.
+// Cost: 1 to 2 ns for each box that has changed, and for each pair that is not settled; some 80 ns for each box that is
+// not at home, and some 20 for each pair of one; a copy of 21 (2D) or 29 (3D) bytes a box.
 #pragma once
 #include "base/rounding.hpp"
 #include "rules/filters.hpp"
