@@ -441,7 +441,7 @@ class Wrap {
       bool wanted = !one && !other, clear = least > more;
       if (least < -more) {  // they do not meet where they stand
         bool theirs = back > world;
-        wanted = theirs ? other && !one : one && !other && past > world;
+        wanted = theirs ? other && !one : one && !other;  // a ghost that was found does reach across
         clear = __builtin_fabsf(back - world) > more && (theirs || __builtin_fabsf(past - world) > more);
       }
       if (!clear) answer = Rough::unclear;
