@@ -155,8 +155,8 @@ class Wrap {
   /// Which of these are at home.
   const u8* homes() const { return across_.data(); }
 
-  /// Ghosts to boxes; keeps each overlapping pair once, and those that only touch if that counts. What is stable is two
-  /// boxes at home that do not only touch. `noted`: whether the technique has recorded which pairs are in doubt.
+  /// Ghosts to boxes; keeps each overlapping pair once, and those that only touch if that counts. Stable pairs are
+  /// of boxes at home, and not in doubt. `noted`: whether the technique has recorded which pairs are in doubt.
   SMALL void fold(Pairs& pairs, bool touching, bool noted) {
     touching_ = touching;
     const bool exact = touching && !doubles_;

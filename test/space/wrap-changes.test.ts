@@ -48,10 +48,8 @@ function change(spaces: Space[], random: Random, wrap: readonly number[], origin
   }
 }
 
-const keysOf = (space: Space) =>
-  Array.from({ length: space.pairCount }, (_, k) => space.pairs[2 * k]! * most + space.pairs[2 * k + 1]!).sort(
-    (a, b) => a - b,
-  );
+const keysOf = (pairs: Uint32Array) =>
+  Array.from({ length: pairs.length / 2 }, (_, k) => pairs[2 * k]! * most + pairs[2 * k + 1]!).sort((a, b) => a - b);
 
 describe.each([2, 3] as const)(`in %d dimensions (SEED=${seed})`, (dimensions) => {
   const wrap = ([24, 17, 20] as const).slice(0, dimensions) as [number, number];
@@ -74,8 +72,12 @@ describe.each([2, 3] as const)(`in %d dimensions (SEED=${seed})`, (dimensions) =
         for (let call = upTo(random, busy); call > 0; call--) change(spaces, random, wrap, origin);
         if (random() < 0.02) spaces[0]!.restore(spaces[0]!.snapshot());
         for (const space of spaces) space.update();
-        const [found, expected] = spaces.map(keysOf) as [number[], number[]];
+        const [found, expected] = spaces.map(({ pairs }) => keysOf(pairs)) as [number[], number[]];
         expect(found, `run ${run}, frame ${frame}`).toEqual(expected);
+        for (const list of ['began', 'ended'] as const) {
+          const [its, others] = spaces.map((space) => keysOf(space[list]));
+          expect(its, `${list}, run ${run}, frame ${frame}`).toEqual(others);
+        }
         const now = new Set(expected);
         moved += [...now].filter((key) => !before.has(key)).length;
         before = now;
