@@ -127,7 +127,7 @@ export function askMany(
   if (!isSize(maxDistance)) checkDistance(`${where}: maxDistance`, maxDistance);
   checkFar(instance, where, kind, numbers, maxDistance);
   if (ignoreEach !== undefined) checkIgnored(where, ignoreEach, count);
-  if (out !== undefined) checkAnswer(where, out, parts);
+  if (out !== undefined) checkAnswer(instance, where, out, parts);
   const ignored = kept(instance, ignoreEach);
   try {
     const at = instance.kernel.stage_questions(length + count) >>> 3;
@@ -246,11 +246,25 @@ function kept(instance: KernelInstance, ids: Options['ignoreEach']): Options['ig
   return ArrayBuffer.isView(ids) && ids.buffer === instance.exports.memory.buffer ? ids.slice() : ids;
 }
 
-/** The answer of an earlier call of the same kind. */
-function checkAnswer(where: string, out: Partial<Answer>, parts: readonly Part[]): void {
+/** The answer of an earlier call of the same kind. No two arrays share memory, nor any with the space. */
+function checkAnswer(instance: KernelInstance, where: string, out: Partial<Answer>, parts: readonly Part[]): void {
   if (typeof out !== 'object' || out === null) badValue(`${where}: out`, out, 'the answer of an earlier call', true);
-  for (const part of parts) {
+  for (let k = 0; k < parts.length; k++) {
+    const part = parts[k]!;
     const { name } = arrays[part];
-    if (!isTypedArray(out[part], name)) badValue(`${where}: out.${part}`, out[part], `a ${name}`, true);
+    const array = out[part];
+    if (!isTypedArray(array, name)) badPart(where, part, array, true);
+    let apart = array!.buffer !== instance.exports.memory.buffer;
+    for (let n = 0; n < k; n++) apart &&= !overlap(array!, out[parts[n]!]!);
+    if (!apart) badPart(where, part, array, false);
   }
 }
+
+function badPart(where: string, part: Part, array: unknown, wrongType: boolean): never {
+  const { name } = arrays[part];
+  const expected = `${name === 'Int8Array' ? 'an' : 'a'} ${name}${wrongType ? '' : ' with memory of its own'}`;
+  badValue(`${where}: out.${part}`, array, expected, wrongType);
+}
+
+const overlap = (a: ArrayBufferView, b: ArrayBufferView) =>
+  a.buffer === b.buffer && a.byteOffset < b.byteOffset + b.byteLength && b.byteOffset < a.byteOffset + a.byteLength;

@@ -217,6 +217,8 @@ describe('what is refused', () => {
   const space = new BroadPhase();
   space.set(7, 0, 0, 10, 10).update();
   const out = space.queryBoxes([0, 0, 1, 1]);
+  const memory = new ArrayBuffer(32);
+  const shared = { distances: new Float64Array(memory), normals: new Int8Array(memory, 24) };
   const bad: [string, () => unknown, string][] = [
     [
       'a length',
@@ -269,6 +271,21 @@ describe('what is refused', () => {
       'another answer',
       () => space.rayCasts([0, 0, 1, 0], { out: out as never }),
       'rayCasts: out.distances: got undefined, expected a Float64Array',
+    ],
+    [
+      'one array twice',
+      () => space.queryBoxes([0, 0, 1, 1], { out: { ids: out.ids, offsets: out.ids } }),
+      'queryBoxes: out.offsets: got [object Uint32Array], expected a Uint32Array with memory of its own',
+    ],
+    [
+      'two parts of one memory that overlap',
+      () => space.rayCasts([0, 0, 1, 0], { out: { ...out, ...shared } }),
+      'rayCasts: out.normals: got [object Int8Array], expected an Int8Array with memory of its own',
+    ],
+    [
+      'an array in the memory of the space',
+      () => space.queryBoxes([0, 0, 1, 1], { out: { ...out, ids: space.pairs } }),
+      'queryBoxes: out.ids: got [object Uint32Array], expected a Uint32Array with memory of its own',
     ],
     ['an option', () => space.sweeps([], { maxDistance: 1 } as never), 'sweeps: there is no option "maxDistance"'],
     [
