@@ -1,11 +1,11 @@
 // `broadphase init`: copies starter/, a small game to start from, into a new folder.
 import { existsSync } from 'node:fs';
-import { cp, mkdir, readdir, readFile } from 'node:fs/promises';
+import { cp, mkdir, readdir, readFile, rm, writeFile } from 'node:fs/promises';
 import { basename, dirname, join, relative, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { devDependencies, version } from '../../package.json' with { type: 'json' };
 import { type Command, exitCode, UsageError } from './arguments.ts';
-import { FileError, write } from './files.ts';
+import { FileError } from './files.ts';
 
 /** Beside the built command, or else in the repository. */
 const starter = ['./starter/', '../../starter/']
@@ -66,14 +66,18 @@ export const initCommand: Command = {
     const there = await readdir(folder).catch(() => []);
     if (there.length > 0) throw new UsageError(`${name} is not empty, expected an empty or new folder`);
     const spec = installed === undefined ? `^${version}` : `file:${relative(folder, resolve(installed))}`;
+    let made: string | undefined; // the first folder on the path that was not there
     try {
-      await mkdir(folder, { recursive: true });
+      made = await mkdir(folder, { recursive: true });
       await cp(starter!, folder, { recursive: true });
+      await writeFile(join(folder, 'package.json'), `${JSON.stringify(manifestOf(folder, spec), null, 2)}\n`);
+      await writeFile(join(folder, '.gitignore'), 'node_modules\ndist\n'); // npm does not pack files of this name
     } catch (error) {
+      // The folder was empty or new, so all that is there was written above.
+      const written = made === undefined ? await readdir(folder).catch(() => []) : [made];
+      for (const each of written) await rm(resolve(folder, each), { recursive: true, force: true }).catch(() => {});
       throw new FileError(`cannot write ${name}: ${(error as Error).message}`);
     }
-    await write(join(folder, 'package.json'), `${JSON.stringify(manifestOf(folder, spec), null, 2)}\n`);
-    await write(join(folder, '.gitignore'), 'node_modules\ndist\n'); // npm does not pack files of this name
     if (input.has('json')) terminal.out(`${JSON.stringify({ folder, broadphase: spec })}\n`);
     else terminal.out(`${name} is ready. Now:\n\n  cd ${shellWord(name)}\n  npm install\n  npm start\n`);
     return exitCode.ok;

@@ -14,6 +14,7 @@ import {
   TraceError,
   worldBits,
 } from './format.ts';
+import { rawMagic } from './raw.ts';
 
 /** How a trace is opened. */
 export interface OpenOptions {
@@ -169,8 +170,7 @@ async function* framesIn(queue: ChunkQueue): AsyncGenerator<StreamedFrame> {
 function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; version: number; world: number; checksum: number } {
   for (let k = 0; k < Math.min(bytes.length, magic.length); k++) {
     if (bytes[k] === magic[k]) continue;
-    const hint = bytes[0] === 0x1f && bytes[1] === 0x8b ? ': it looks like gzip, decompress it first' : '';
-    throw new TraceError(`not a trace${hint}`, -1, k);
+    throw new TraceError(`not a trace${hintOf(bytes)}`, -1, k);
   }
   if (bytes.length < headerBytes) throw truncatedHeader(bytes.length);
   const version = bytes[8] | (bytes[9] << 8);
@@ -185,6 +185,14 @@ function readHeader(bytes: Uint8Array): { dimensions: 2 | 3; version: number; wo
   const known = version > 1 ? worldBits.wraps | worldBits.apart : 0;
   if (version === 0 || (world & ~known) !== 0) throw new TraceError('not a header of this format', -1, 8);
   return { dimensions, version, world, checksum };
+}
+
+/** What bytes that are not a trace look like. */
+function hintOf(bytes: Uint8Array): string {
+  if (bytes[0] === 0x1f && bytes[1] === 0x8b) return ': it looks like gzip, which openAny reads';
+  if (bytes.length >= 4 && uint32At(bytes, 0) === rawMagic)
+    return ': it looks like a raw recording, which openAny reads';
+  return '';
 }
 
 /** The bodies of all frames, including the end, each after its checksum was verified. */

@@ -129,11 +129,14 @@ export class Recording {
 
   /**
    * In a browser: offers the trace so far as a file to save.
+   * @throws Error where there is no page, such as in Node or a worker: there, write `bytes()` to a file
    *
    * @example
-   * record(new BroadPhase()).download(); // throws ReferenceError
+   * record(new BroadPhase()).download(); // throws Error: download: there is no page here
    */
   download(name = 'broadphase.trace'): void {
+    if (typeof document === 'undefined')
+      throw new Error('download: there is no page here, write bytes() to a file instead');
     const link = document.createElement('a');
     link.href = URL.createObjectURL(new Blob([this.bytes()], { type: 'application/octet-stream' }));
     link.download = name;

@@ -1,5 +1,5 @@
 // The command, end to end in this process: what it prints, what it writes, and how it exits.
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { gunzipSync } from 'node:zlib';
@@ -253,5 +253,19 @@ describe('init', () => {
     expect(absent).toMatchObject({ code: 4, out: '', err: expect.stringContaining('absent.tgz') });
     expect(existsSync(file('third'))).toBe(false);
     expect(await run('init', join(small, 'inside'))).toMatchObject({ code: 4, out: '' });
+  });
+
+  test('leaves nothing behind if a file cannot be written', async () => {
+    const there = file('there');
+    mkdirSync(there);
+    for (const parent of [file('new'), there]) {
+      // A folder can be made whose files would have paths that are too long.
+      let deep = parent;
+      while (deep.length < 4088) deep = join(deep, 'd'.repeat(Math.min(200, 4089 - deep.length)));
+      const { code, err } = await run('init', deep);
+      expect([code, err.includes('cannot write')]).toEqual([4, true]);
+    }
+    expect(existsSync(file('new'))).toBe(false);
+    expect(readdirSync(there)).toEqual([]);
   });
 });

@@ -155,9 +155,12 @@ describe('errors say where', () => {
     );
   });
 
-  test('other files are no traces, and gzip is recognised', () => {
+  test('other files are no traces, and those that openAny reads are recognised', () => {
     expect(() => openTrace(new TextEncoder().encode('{"frames": []}  '))).toThrow('header, byte 0: not a trace');
-    expect(() => openTrace(Uint8Array.of(0x1f, 0x8b, 8, 0))).toThrow('looks like gzip');
+    expect(() => openTrace(Uint8Array.of(0x1f, 0x8b, 8, 0))).toThrow('looks like gzip, which openAny reads');
+    expect(() => openTrace(new Uint8Array(Int32Array.of(0x424f5841, 2, 0, 0).buffer))).toThrow(
+      'looks like a raw recording, which openAny reads',
+    );
     expect(() => openTrace(new Uint8Array())).toThrow('truncated: 0 bytes');
   });
 
