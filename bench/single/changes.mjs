@@ -25,7 +25,7 @@ const off = (space, now, before) => {
 
 /**
  * `before` and `now`: other ids in each frame, and those of the frame before. `first` happens once. `options`: of the
- * space, given the size of its world.
+ * space, given the size of its world. `idOf`: the id of the k-th box.
  */
 const changes = {
   nothing: {},
@@ -54,6 +54,11 @@ const changes = {
       for (const id of now) space.setFilter(id, space.filterOf(id).layer === 1 ? 2 : 1, 3);
     },
   },
+  'four kinds that meet some': {
+    first: (space) => {
+      for (let id = 0; id < count; id++) space.setFilter(id, 1 << (id % 4), [0b0111, 0b0011, 0b1101, 0b0100][id % 4]);
+    },
+  },
   'all in groups, 20 change': {
     first: (space) => {
       for (let id = 0; id < count; id++) space.setGroup(id, 1 + (id >> 3));
@@ -73,6 +78,7 @@ const changes = {
       for (const id of now) space.set(id, ...box(id));
     },
   },
+  'ids of its own': { idOf: (id) => 3 * id + 1 },
   events: { options: () => ({ events: true }) },
   'touching: false': { options: () => ({ touching: false }) },
   'a wrapped world': { options: (wrap) => ({ wrap }) },
@@ -93,7 +99,8 @@ function play(change, dimensions, share, numbers) {
   const spaces = ['auto', 'strip-sweep'].map((technique) => new BroadPhase({ technique, ...options }));
   const changed = [...spaces];
   spaces.push(new BroadPhase({ dimensions }));
-  for (const space of spaces) for (let id = 0; id < count; id++) space.set(id, ...box(id));
+  const idIn = (space, id) => (change.idOf && changed.includes(space) ? change.idOf(id) : id);
+  for (const space of spaces) for (let id = 0; id < count; id++) space.set(idIn(space, id), ...box(id));
   for (const space of changed) change.first?.(space);
   const times = spaces.map(() => []);
   let before = [];
@@ -106,7 +113,7 @@ function play(change, dimensions, share, numbers) {
     }
     const now = Array.from({ length: some }, (_, k) => ((frame + warmUp) * 7919 + k * 31) % count);
     spaces.forEach((space, k) => {
-      for (const id of moved) space.set(id, ...box(id));
+      for (const id of moved) space.set(idIn(space, id), ...box(id));
       if (changed.includes(space)) change.each?.(space, now, before, box);
       const start = performance.now();
       space.update();

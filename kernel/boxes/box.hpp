@@ -18,6 +18,9 @@ enum : u32 {
   is_blue = 1u << 26,
 };
 
+/// Beside the exclusion bits of a box, below them, may be the class of its rule. Marks of a technique fit below that.
+inline constexpr u32 class_bit = 1 << 4, class_mask = 0xff * class_bit;
+
 /// In a world that wraps around, of a box strictly inside it: its pairs with others like it are those of any other world.
 inline constexpr u8 at_home = 8;
 
@@ -27,15 +30,18 @@ inline bool one_group(u32 a, u32 b) { return (a == b) & (a != 0); }
 template <int D> struct Scene {
   const f32* boxes;  // D minima, then D maxima, per slot
   u32 count;
-  const u32* excluded;  // exclusion bits per slot; null if no slot has any
-  const Changes* changes = nullptr;  // what may have changed since the last update; null: anything
-  bool filtered = false;  // since the last update, exclusion bits or groups of changed boxes may have changed
+  const u32* rules;  // per slot, exclusion bits and class; null if no slot has either
+  const Changes*
+      changes = nullptr;  // what may have changed since the last update; null: anything, numbers of classes too
+  bool filtered = false;  // since the last update, rules or groups of changed boxes may have changed
+  const u64* meets = nullptr;  // per class, the classes it meets; null if exclusion bits tell all that is known here
   const u32* groups = nullptr;  // per slot, null if no slot has one: pairs within a group are not reported
 
   const u8* homes = nullptr;  // per slot, null if the world does not wrap around: `at_home` or not
 
   const f32* box(u32 slot) const { return boxes + u64(slot) * 2 * D; }
-  u32 excluded_of(u32 slot) const { return excluded ? excluded[slot] : 0; }
+  u32 rule_of(u32 slot) const { return rules ? rules[slot] : 0; }
+  u32 excluded_of(u32 slot) const { return rule_of(slot) & ~slot_mask; }
   u32 group_of(u32 slot) const { return groups ? groups[slot] : 0; }
   bool is_at_home(u32 slot) const { return !homes || (homes[slot] & at_home); }
   /// Whether it is known which boxes may have changed.
@@ -106,7 +112,7 @@ template <int D> struct SceneItems {
   AxisOrder<D> order;
 
   Item<D> operator[](u32 slot) const {
-    u32 tag = slot | (scene.excluded ? scene.excluded[slot] : 0);
+    u32 tag = slot | scene.excluded_of(slot);
     if constexpr (D == 2) {
       return {bits<f32x4>(swizzle(load<u8x16>(scene.boxes + 4 * size_t(slot)), order.pick)), tag};
     } else {

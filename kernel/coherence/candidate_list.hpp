@@ -25,21 +25,23 @@ template <int D> class CandidateList {
   static constexpr u32 doubt_step = 32;  // candidates whose pairs are recorded as in doubt together
   static constexpr u32 padding = 4;  // vector loads may read this many floats past the last box
   static constexpr Tuning<D> tuning = {};
-  // In a tag, below the exclusion bits:
+  // In a tag, below the exclusion bits and the class:
   // moved: it has a new region; again: for the second time or more
-  enum : u32 { rests = 1, fresh = 2, moved = 4, again = 8 };
+  enum : u32 { rests = 1, fresh = 2, moved = 4, again = 8, marks = 15 };
 
   StripSweep<D>& anew_;
   u32 count_ = 0;  // boxes in the list; 0: there is no list
   bool watched_ = false;  // pairs in doubt are recorded
-  bool filtered_ = false;  // some have exclusion bits
-  bool grouped_ = false;  // some have a group
+  struct {
+    bool rules = false, groups = false;  // some have
+    const u64* meets = nullptr;  // per class, those it meets; null if that does not matter
+  } known_;  // of the boxes
   // Per slot:
   Buffer<f32> regions_;
   Buffer<f32> origins_;  // boxes as they were when the list was made; without a list, when the samples were taken
   u32 origin_count_ = 0, origin_age_ = 0;  // number of these boxes; updates since
-  Buffer<u32> tags_;  // exclusion bits, and below them these marks
-  Buffer<u32> groups_;  // while `grouped_`: two boxes of one group are not a candidate
+  Buffer<u32> tags_;  // exclusion bits and class, and below them these marks
+  Buffer<u32> groups_;  // while some have one: two boxes of one group are not a candidate
   Buffer<u32> late_;  // slots of late boxes; after them, those that a search finds
   Places<D> places_;  // of late boxes
   bool finished_ = false;  // whether the candidates were found
@@ -82,9 +84,9 @@ template <int D> class CandidateList {
   /// The work of making the list, while that is the last sweep.
   f64 made_work() const { return anew_.work() + built_.candidates + 2.0 * count_; }
 
-  /// Sets whether pairs in doubt are recorded. If that is new, settled pairs may be in doubt, so the list is dropped.
-  void watch(bool watched) {
-    if (watched && !watched_) forget();
+  /// Drops the list if pairs in doubt are to be recorded that may be settled, or if classes have other numbers.
+  void check(const Scene<D>& scene, bool watched) {
+    if ((watched && !watched_) || known_.meets != scene.meets || (known_.meets && !scene.changes)) forget();
     watched_ = watched;
   }
 
@@ -134,14 +136,15 @@ template <int D> class CandidateList {
     resting_ = 0;
     enclose(scene, plan.margin, plan.lead > 0 ? known : 0, f32(plan.lead) / larger(1u, origin_age_), far);
     remember(scene, common);
-    filtered_ = scene.excluded != nullptr;
-    grouped_ = scene.groups != nullptr;
-    if (grouped_) __builtin_memcpy(groups_.reserve(n), scene.groups, n * sizeof(u32));
+    known_.rules = scene.rules != nullptr;
+    known_.meets = scene.meets;
+    known_.groups = scene.groups != nullptr;
+    if (known_.groups) __builtin_memcpy(groups_.reserve(n), scene.groups, n * sizeof(u32));
     count_ = n;
     margin_ = plan.margin;
     candidates_.count = extra_.count = settled_.count = head_ = 0;
     built_ = Stats{};
-    anew_.fill(Scene<D>{regions_.data(), n, scene.excluded}, built_, true);
+    anew_.fill(Scene<D>{regions_.data(), n, scene.rules}, built_, true);
     finished_ = false;
     places_.forget();
     shift_ = {};
@@ -152,7 +155,7 @@ template <int D> class CandidateList {
   /// Finds the candidates of a list that has begun. Gives up and returns false if that takes more than `most` tests.
   SMALL bool finish(f64 most) {
     if (!anew_.sweep(candidates_, most)) return false;
-    if (grouped_) filter(candidates_, [&](u32 a, u32 b) { return !one_group(groups_[a], groups_[b]); });
+    if (known_.groups || known_.meets) filter(candidates_, [&](u32 a, u32 b) { return !are_apart(a, b); });
     built_.candidates = f64(candidates_.count);
     if (resting_ > 0) settle();
     return finished_ = true;
@@ -172,7 +175,7 @@ template <int D> class CandidateList {
     u32 enough = u32(smaller(most * n / tuning.late_among(n), n / 2.0));
     if (!shifts && scene.listed() && !scene.changes->most(n)) late_count_ = look_at(scene, both, list);
     else late_count_ = resting_ ? look<true>(scene, both, list, enough) : look<false>(scene, both, list, enough);
-    bool other = filtered_ != (scene.excluded != nullptr) || grouped_ != (scene.groups != nullptr);
+    bool other = known_.rules != (scene.rules != nullptr) || known_.groups != (scene.groups != nullptr);
     if (scene.filtered || other) refilter(scene, both, list);
     if (late_count_ + (n - both) > enough) return false;
     met_ = 0;
@@ -183,7 +186,7 @@ template <int D> class CandidateList {
       if (tags_[slot] & moved) places_.remove(region(slot), slot);
     }
     make_room(n, both);
-    if (grouped_) groups_.grow(n, both);
+    if (known_.groups) groups_.grow(n, both);
     places_.make_room(n, both);
     for (u32 slot = had; slot < n; slot++) {
       tags_[slot] = fresh;
@@ -200,6 +203,7 @@ template <int D> class CandidateList {
     u64* out = pairs.room(pairs.list.data() + same, head - same);
     if (head > same) __builtin_memcpy(out, settled_.list.data() + same, (head - same) * sizeof(u64));
     pairs.count = head;
+    pairs.kept = same;
     test(scene, candidates_, pairs);
     test(scene, extra_, pairs);
     pairs.stable = head_ = head;
@@ -241,7 +245,7 @@ template <int D> class CandidateList {
         ahead = bounded((shift_(load<f32x4>(box)) - load<f32x4>(origins_.data() + u64(slot) * width)) * splat(lead),
                         far);
       widen(box, bits<f32>(bits<u32>(margin) & (rest - 1)), ahead, region(slot));
-      tags_[slot] = rest | scene.excluded_of(slot);
+      tags_[slot] = rest | scene.rule_of(slot);
     }
   }
 
@@ -330,21 +334,28 @@ template <int D> class CandidateList {
     return found;
   }
 
-  /// Adds boxes whose exclusion bits or group have changed to the late boxes, marked as new ones.
+  /// Adds boxes whose rule or group have changed to the late boxes, marked as new ones.
   NOINLINE void refilter(const Scene<D>& scene, u32 until, u32* list) {
-    filtered_ = scene.excluded != nullptr;
-    bool were_grouped = grouped_;
-    grouped_ = scene.groups != nullptr;
-    if (grouped_ && !were_grouped) __builtin_memset(groups_.reserve(count_), 0, count_ * sizeof(u32));
+    known_.rules = scene.rules != nullptr;
+    bool were_grouped = known_.groups;
+    known_.groups = scene.groups != nullptr;
+    if (known_.groups && !were_grouped) __builtin_memset(groups_.reserve(count_), 0, count_ * sizeof(u32));
     bool listed = scene.listed();
     for (u32 k = 0, all = listed ? scene.changes->count() : until; k < all; k++) {
       u32 slot = listed ? scene.changes->list()[k] : k;
       if (slot >= until) continue;
-      bool one = ((grouped_ | were_grouped) ? groups_[slot] : 0) == scene.group_of(slot);
-      if (one && (tags_[slot] & ~slot_mask) == scene.excluded_of(slot)) continue;
+      bool one = ((known_.groups | were_grouped) ? groups_[slot] : 0) == scene.group_of(slot);
+      if (one && (tags_[slot] & ~marks) == scene.rule_of(slot)) continue;
       tags_[slot] |= fresh;
       list[late_count_++] = slot;  // perhaps for the second time: `serve` skips it then
     }
+  }
+
+  /// Whether the classes or the groups of two boxes forbid that they are a pair.
+  bool are_apart(u32 a, u32 b) const {
+    auto class_of = [&](u32 slot) { return (tags_[slot] & class_mask) / class_bit; };
+    return (known_.groups && one_group(groups_[a], groups_[b])) ||
+           (known_.meets && !(known_.meets[class_of(a)] >> class_of(b) & 1));
   }
 
   /// The base of a box: the region that it had first.
@@ -376,8 +387,8 @@ template <int D> class CandidateList {
       if (tag & moved) places_.remove(region(slot), slot);
       else if (!(tag & fresh)) places_.keep_base(region(slot), slot);
       if (tag & fresh) {  // its listed candidates are dropped below
-        tag = fresh | scene.excluded_of(slot);
-        if (grouped_) groups_[slot] = scene.group_of(slot);
+        tag = fresh | scene.rule_of(slot);
+        if (known_.groups) groups_[slot] = scene.group_of(slot);
         places_.forget_base(slot);
       }
       tags_[slot] = (tag & ~rests) | moved | (tag & moved ? u32(again) : 0);
@@ -438,8 +449,8 @@ template <int D> class CandidateList {
     for (u32 k = 0; k < found; k++) {
       u32 other = near[k];
       *out = pair_of(slot, other);
-      u32 together = grouped_ && one_group(groups_[slot], groups_[other]);
-      out += !(boxes_touch<D>(its_base, base(other)) | together | (tag & tags_[other] & ~slot_mask));
+      u32 apart = are_apart(slot, other);
+      out += !(boxes_touch<D>(its_base, base(other)) | apart | (tag & tags_[other] & ~slot_mask));
     }
     extra_.count = Pairs::between(extra_.list.data(), out);
     __builtin_memcpy(region(slot), larger_one, width * sizeof(f32));

@@ -42,10 +42,10 @@ template <int D> class Incremental {
 
   void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
     pairs.count = 0;
-    list_.watch(pairs.watch);
+    list_.check(scene, pairs.watch);
     bool kept = find(scene, f32(options.margin), pairs, stats);
     if (!kept) rebuild(scene, options, pairs, stats);
-    pairs.parted = kept && scene.groups;
+    pairs.checked = kept;
     stats.reason = f64(u32(kept                                                  ? Reason::kept
                            : pause_ > 0 || scene.count < Watch<D>::least_watched ? Reason::moving
                                                                                  : Reason::watching));

@@ -10,9 +10,11 @@ inline u64 pair_of(u32 a, u32 b) { return u64(smaller(a, b)) | u64(larger(a, b))
 struct Pairs {
   Buffer<u64> list;  // in memory: slot a, slot b, slot a, …
   u64 count = 0;
-  u64 stable = 0;     // length of the prefix unchanged since a technique reported it
+  // The head of the list, as a technique reported it, may stay if all of it is in the next report.
+  u64 stable = 0;  // its length
+  u64 kept = 0;  // set by a technique: how much of it is as it was after the last update, in ids
   bool same = false;  // set by a technique: the pairs are those of the last update
-  bool parted = false;  // set by a technique: no pair is within a group
+  bool checked = false;  // set by a technique: no pair is forbidden by what the scene tells of rules and groups
 
   // A pair is in doubt if two of its bounds are equal in float32: in the numbers given they may be apart.
   bool watch = false;   // whether to record them

@@ -31,7 +31,6 @@ class Classes {
  public:
   struct Class {
     Rule rule;
-    u64 meets;  // bit d: it meets class d
     u32 count;  // its boxes when the classes were built
     u32 bits;  // its exclusion bits in the search
     bool lonely;
@@ -39,7 +38,8 @@ class Classes {
   static constexpr u32 rest = most;  // stands for all classes beyond that number: they may meet any box
 
  private:
-  Buffer<Class> classes_;  // in a buffer, as is the table, so that the wasm does not contain zeros for them
+  Buffer<Class> classes_;  // in a buffer, as are the others, so that the wasm does not contain zeros for them
+  Buffer<u64> meets_;  // per class; bit d: it meets class d
   Buffer<u8> table_;  // by hash: number of the class + 1
   u32 count_ = 0;
   bool check_ = false;
@@ -49,15 +49,18 @@ class Classes {
 
   /// Whether the search may find forbidden pairs.
   bool check() const { return check_; }
+  /// Per class, a bit for each that it meets; null if the search finds no forbidden pairs, or not all classes are known.
+  const u64* meets() const { return check_ && !classes_[rest].count ? meets_.data() : nullptr; }
 
   /// Builds the classes of these boxes. Writes which class each is in.
   SMALL void build(const Rule* rules, u32 count, u8* class_of) {
     classes_.reserve(most + 1);
+    meets_.reserve(most);
     __builtin_memset(table_.reserve(table_size), 0, table_size);
     // The first class is that of boxes that are off, so that there is always room for it.
-    classes_[0] = {nobody, 0, 0, 0, false};
+    classes_[0] = {nobody, 0, 0, false};
     count_ = table_[home(nobody)] = 1;
-    classes_[rest] = {everybody, 0, 0, 0, false};
+    classes_[rest] = {everybody, 0, 0, false};
     for (u32 s = 0; s < count; s++) {
       u32 its = find(rules[s], true);
       class_of[s] = u8(its);
@@ -73,7 +76,7 @@ class Classes {
       u32 found = table_[at];
       if (found == 0) {
         if (!add || count_ == most) return rest;
-        classes_[count_] = {rule, 0, 0, rule.excluded, false};
+        classes_[count_] = {rule, 0, rule.excluded, false};
         table_[at] = u8(count_ + 1);
         return count_++;
       }
@@ -96,15 +99,15 @@ class Classes {
     u64 lonely = 0, wanting = 0;  // sets of classes: bit c stands for class c
     for (u32 c = 0; c < count_; c++) {
       Class& mine = classes_[c];
-      mine.meets = 0;
-      for (u32 d = 0; d < count_; d++) mine.meets |= u64(meet(mine.rule, classes_[d].rule)) << d;
-      mine.lonely = !mine.meets && !(beyond && mine.rule.layer && mine.rule.mask);
+      meets_[c] = 0;
+      for (u32 d = 0; d < count_; d++) meets_[c] |= u64(meet(mine.rule, classes_[d].rule)) << d;
+      mine.lonely = !meets_[c] && !(beyond && mine.rule.layer && mine.rule.mask);
       lonely |= u64(mine.lonely) << c;
       free &= ~mine.bits;
     }
     for (u32 c = 0; c < count_; c++) {
       const Class& mine = classes_[c];
-      wanting |= u64(!mine.lonely && !mine.bits && !(mine.meets >> c & 1)) << c;
+      wanting |= u64(!mine.lonely && !mine.bits && !(meets_[c] >> c & 1)) << c;
     }
     for (; free && wanting; free &= free - 1) {
       u32 largest = rest;
@@ -114,7 +117,7 @@ class Classes {
       u64 members = u64(1) << largest;
       for (u32 c = 0; c < count_; c++) {
         u64 with_me = members | u64(1) << c;
-        if (!(lonely >> c & 1) && !(classes_[c].meets & with_me)) members = with_me;
+        if (!(lonely >> c & 1) && !(meets_[c] & with_me)) members = with_me;
       }
       for (u32 c = 0; c < count_; c++) {
         if (members >> c & 1) classes_[c].bits |= free & -free;
@@ -124,7 +127,7 @@ class Classes {
     for (u32 c = 0; c < count_; c++) {
       for (u32 d = 0; d <= c; d++) {
         bool searched = !((lonely >> c | lonely >> d) & 1) && !(classes_[c].bits & classes_[d].bits);
-        check_ |= searched && !(classes_[c].meets >> d & 1);
+        check_ |= searched && !(meets_[c] >> d & 1);
       }
     }
   }

@@ -27,8 +27,8 @@ class Filters {
   Buffer<u8> class_of_;  // per slot, while classes are built
   Buffer<u32> places_;  // per slot, while `some_`
   Buffer<u32> slots_;  // per place, while `some_`
-  Buffer<u32> excluded_;  // per place: the exclusion bits for the search
-  Changes moved_;  // places that got another box or other bits in the last update
+  Buffer<u32> tags_;  // per place: the exclusion bits for the search, and the class
+  Changes moved_;  // places that got another box or another rule in the last update
 
  public:
   static constexpr u32 nowhere = 0xffffffff;  // the place of a slot that is not searched
@@ -99,10 +99,12 @@ class Filters {
   bool some() const { return active_ && some_; }
   /// The number of boxes that are searched.
   u32 searched() const { return searched_; }
-  /// Places that got another box or other exclusion bits in the last update.
+  /// Places that got another box or another rule in the last update.
   const Changes& moved() const { return moved_; }
-  /// The exclusion bits, per place.
-  const u32* excluded() const { return excluded_.data(); }
+  /// The exclusion bits and the class, per place.
+  const u32* tags() const { return tags_.data(); }
+  /// Per class, those it meets; null if they are not needed, or not known.
+  const u64* meets() const { return classes_.meets(); }
   /// The slots of all places while `some`, and the slot of a place.
   const u32* slots() const { return slots_.data(); }
   u32 slot(u32 place) const { return some() ? slots_[place] : place; }
@@ -117,15 +119,18 @@ class Filters {
     return to.data();
   }
 
-  /// After the search: turns places back into slots, and removes forbidden pairs.
+  /// Whether forbidden pairs are removed after every search.
+  bool removes() const { return active_ && classes_.check() && !meets(); }
+
+  /// After the search: turns places back into slots, and removes forbidden pairs, unless the technique has.
   NOINLINE void finish(Pairs& pairs) const {
-    const bool check = classes_.check(), some = some_;
+    const bool check = classes_.check() && !(meets() && pairs.checked), some = some_;
     if (!some && !check) return;
     const Rule* rules = rules_.data();
     const u32* slots = slots_.data();
     u64* list = pairs.list.data();
-    u64 kept = 0;
-    for (u64 p = 0; p < pairs.count; p++) {
+    u64 kept = pairs.kept;
+    for (u64 p = kept; p < pairs.count; p++) {
       u32 a = u32(list[p]), b = u32(list[p] >> 32);
       if (some) {
         a = slots[a];
@@ -145,16 +150,14 @@ class Filters {
     for (u32 s = 0; s < count; s++) searched_ += !classes_[class_of[s]].lonely;
     some_ = searched_ < count;
     mixed_ = false;
-    excluded_.reserve(larger(count, 1u));
+    tags_.reserve(larger(count, 1u));
     if (some_) number_all(count);
     for (u32 s = 0, place = 0; s < count; s++) {
-      const Classes::Class& its = classes_[class_of[s]];
-      if (its.lonely) {
+      if (classes_[class_of[s]].lonely) {
         places_[s] = nowhere;
         continue;
       }
-      // Boxes beyond the counted classes each use their own bits.
-      excluded_[place] = class_of[s] == Classes::rest ? rules_[s].excluded : its.bits;
+      tags_[place] = tag(s, class_of[s]);
       if (some_) {
         slots_[place] = s;
         places_[s] = place;
@@ -166,7 +169,7 @@ class Filters {
 
   /// Follows each change. Returns false if one needs another class, and all boxes are in classes.
   SMALL bool follow(u32 count) {
-    excluded_.grow(count, smaller(searched_, count));
+    tags_.grow(count, smaller(searched_, count));
     if (!some_) searched_ = count;
     else {
       for (u32 s = count; s < count_; s++) drop(s);
@@ -178,10 +181,9 @@ class Filters {
       u32 s = changed_.list()[k];
       if (s >= count) continue;
       u32 its = classes_.find(rules_[s], false);
-      bool beyond = its == Classes::rest;
-      if (beyond && classes_[its].count == 0) return false;
+      if (its == Classes::rest && classes_[its].count == 0) return false;
       if (!classes_[its].lonely) {
-        put(s, beyond ? rules_[s].excluded : classes_[its].bits);
+        put(s, tag(s, its));
         continue;
       }
       if (!some_) {
@@ -193,6 +195,11 @@ class Filters {
     return true;
   }
 
+  /// What is stored of the rule of a slot in this class. Boxes beyond the classes each use their own bits.
+  u32 tag(u32 slot, u32 its) const {
+    return (its == Classes::rest ? rules_[slot].excluded : classes_[its].bits) | its * class_bit;
+  }
+
   /// Gives each slot its own number as its place.
   SMALL void number_all(u32 count) {
     places_.reserve(count);
@@ -200,8 +207,8 @@ class Filters {
     for (u32 s = 0; s < count; s++) places_[s] = slots_[s] = s;
   }
 
-  /// Gives a slot that is searched these exclusion bits, and, if it has none, the last place.
-  void put(u32 slot, u32 bits) {
+  /// Gives a slot that is searched this tag, and, if it has none, the last place.
+  void put(u32 slot, u32 tag) {
     u32 place = slot;
     if (some_) {
       place = places_[slot];
@@ -212,7 +219,7 @@ class Filters {
         places_[slot] = place;
       }
     }
-    excluded_[place] = bits;
+    tags_[place] = tag;
     moved_.note(place);
   }
 
@@ -225,7 +232,7 @@ class Filters {
     if (place == last) return;
     slots_[place] = slots_[last];
     places_[slots_[place]] = place;
-    excluded_[place] = excluded_[last];
+    tags_[place] = tags_[last];
     mixed_ = true;
     moved_.note(place);
   }

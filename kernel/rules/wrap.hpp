@@ -1,6 +1,6 @@
 // Worlds that wrap around: what leaves on one side comes in on the other.
 // Idea: each box is moved by whole worlds until its minimum is inside, and where it then reaches across the border, a
-// ghost of it, of what reaches across, is put at the other side: up to 2^D - 1 ghosts a box. Techniques search boxes
+// ghost of it is put one world back, at the other side: up to 2^D - 1 ghosts a box. Techniques search boxes
 // and ghosts alike. A pair may be found several times, also by its ghosts. It is kept only when found by the first of
 // these, per axis: the two boxes; the first and the other's ghost; the first's ghost and the other.
 // Along each axis the world begins at 0, or at minus half its size where that leaves more boxes as they were given.
@@ -105,7 +105,7 @@ struct Span {
 
 class Wrap {
   Buffer<f32> boxes_;  // the boxes, then the ghosts: rounded to the nearest if at home, else outward
-  Buffer<u32> excluded_;  // of both
+  Buffer<u32> rules_;  // of both
   Buffer<u32> owners_;  // per place of a ghost: its box or `unowned`; above 24 bits, the axes along which it is shifted
   Buffer<u8> across_;  // per place: the axes along which a box crosses the border, or `at_home`; 0 of ghosts
   const Filters* filters_ = nullptr;  // maps the boxes searched to slots
@@ -113,6 +113,7 @@ class Wrap {
   const f64* doubles_ = nullptr;
   const f64* world_ = nullptr;
   f64 from_[3] = {};  // where the world begins
+  f32 sizes_[4] = {};  // of the world
   u32 dimensions_ = 0, count_ = 0, ghosts_ = 0;
   u32 unused_ = 0, next_unused_ = 0;  // ghosts without a box; none of them is before that place
   bool lost_ = false;  // some box may have lost a ghost
@@ -120,16 +121,17 @@ class Wrap {
 
  public:
   /// The boxes that are to be searched, and how many there are, with their ghosts. `given`: the boxes by slot, as
-  /// float32 and, unless null, as doubles. Also puts the exclusion bits of the ghosts behind those of the boxes.
+  /// float32 and, unless null, as doubles. Also puts the rules of the ghosts behind those of the boxes.
   /// `moved`: the boxes that have changed; adds the ghosts that have. `in_order`: ghosts have to be in the order of their
   /// boxes.
-  SMALL const f32* unfold(u32& count, const u32*& excluded, Changes& moved, const Filters& filters, const f32* given,
+  SMALL const f32* unfold(u32& count, const u32*& rules, Changes& moved, const Filters& filters, const f32* given,
                           const f64* doubles, const f64* world, u32 dimensions, bool in_order) {
     dimensions_ = dimensions;
     filters_ = &filters;
     given_ = given;
     doubles_ = doubles;
     world_ = world;
+    for (u32 a = 0; a < dimensions; a++) sizes_[a] = f32(world[a]);
     if (in_order) count_ = ghosts_ = unused_ = 0;
     u32 had = count_;
     if (had == 0) moved.note_all();
@@ -144,10 +146,10 @@ class Wrap {
     if (lost_) keep_ghosts(moved);
     write_ghosts(moved);
     count += ghosts_;
-    if (excluded) {
-      u32* bits = excluded_.reserve(count);
-      for (u32 k = 0; k < count; k++) bits[k] = excluded_of(k, excluded);
-      excluded = bits;
+    if (rules) {
+      u32* all = rules_.reserve(count);
+      for (u32 k = 0; k < count; k++) all[k] = rule_of(k, rules);
+      rules = all;
     }
     return boxes_.data();
   }
@@ -171,7 +173,7 @@ class Wrap {
 
   SMALL void release() {
     boxes_.release();
-    excluded_.release();
+    rules_.release();
     owners_.release();
     across_.release();
     count_ = ghosts_ = unused_ = 0;
@@ -192,16 +194,16 @@ class Wrap {
     u64* list = at.list;
     u64 next = at.next, kept = at.kept;
     for (; next < until; next++) {
-      u32 a = u32(list[next]), b = u32(list[next] >> 32);
-      bool keep = true;
-      if (!(across[a] & across[b] & at_home)) {
-        u32 ghost_a = take_owner(a), ghost_b = take_owner(b);
-        keep = a != b && larger(a, b) != unowned && is_first(a, ghost_a, b, ghost_b);
-      } else if (doubt) {
-        keep = overlap(a, b);
+      u64 pair = list[next];
+      u32 a = u32(pair), b = u32(pair >> 32);
+      if (across[a] & across[b] & at_home) {
+        list[kept] = pair;
+        kept += !doubt || overlap(a, b);
+        continue;
       }
+      u32 ghost_a = take_owner(a), ghost_b = take_owner(b);
       list[kept] = pair_of(a, b);
-      kept += keep;
+      kept += a != b && larger(a, b) != unowned && is_first(a, ghost_a, b, ghost_b);
     }
     at.next = next;
     at.kept = kept;
@@ -363,9 +365,12 @@ class Wrap {
       const f32* of = boxes_.data() + u64(k) * width;
       f32* ghost = boxes_.data() + u64(at) * width;
       for (u32 a = 0; a < dimensions_; a++) {
-        bool across = some >> a & 1;
-        ghost[a] = across ? round_down(from_[a]) : of[a];
-        ghost[dimensions_ + a] = across ? beyond(span(k, a), world_[a], from_[a]) : of[dimensions_ + a];
+        if (some >> a & 1) {
+          shift_back(span(k, a), world_[a], ghost[a], ghost[dimensions_ + a]);
+        } else {
+          ghost[a] = of[a];
+          ghost[dimensions_ + a] = of[dimensions_ + a];
+        }
       }
     }
   }
@@ -375,9 +380,9 @@ class Wrap {
     return doubles_ ? doubles_[at] : f64(given_[at]);
   }
 
-  u32 excluded_of(u32 k, const u32* excluded) const {
+  u32 rule_of(u32 k, const u32* rules) const {
     take_owner(k);
-    return k == unowned ? 0 : excluded[k];
+    return k == unowned ? 0 : rules[k];
   }
 
   /// From a ghost to its box; returns the axes along which it is shifted.
@@ -422,9 +427,11 @@ class Wrap {
     return hi + more >= until;
   }
 
-  /// The upper end of the ghost, rounded up.
-  static f32 beyond(const Span& span, f64 world, f64 from) {
-    return round_up(larger(from, span.low + span.shift + span.size - world + 2 * slack(world)));
+  /// The box moved into the world, less one world, rounded outward.
+  static void shift_back(const Span& span, f64 world, f32& low, f32& high) {
+    f64 at = span.low + span.shift - world, more = 2 * slack(world);
+    low = round_down(at - more);
+    high = round_up(at + span.size + more);
   }
 
   enum class Rough { no, yes, unclear };
@@ -432,22 +439,17 @@ class Wrap {
   /// What `is_first` returns, as far as the boxes tell as they stand in the world, rounded.
   Rough is_first_roughly(u32 a, u32 ghost_a, u32 b, u32 ghost_b) const {
     const f32 *first = boxes_.data() + u64(a) * 2 * dimensions_, *second = boxes_.data() + u64(b) * 2 * dimensions_;
-    Rough answer = Rough::yes;
-    for (u32 axis = 0; axis < dimensions_; axis++) {
-      bool one = ghost_a >> axis & 1, other = ghost_b >> axis & 1;
-      f32 world = f32(world_[axis]), more = world * 0x1p-20f + 1e-30f;  // than may have been rounded
-      f32 past = first[dimensions_ + axis] - second[axis], back = second[dimensions_ + axis] - first[axis];
-      f32 least = smaller(past, back);
-      bool wanted = !one && !other, clear = least > more;
-      if (least < -more) {  // they do not meet where they stand
-        bool theirs = back > world;
-        wanted = theirs ? other && !one : one && !other;  // a ghost that was found does reach across
-        clear = __builtin_fabsf(back - world) > more && (theirs || __builtin_fabsf(past - world) > more);
-      }
-      if (!clear) answer = Rough::unclear;
-      else if (!wanted) return Rough::no;
-    }
-    return answer;
+    f32x4 past = load<f32x4>(first + dimensions_) - load<f32x4>(second);
+    f32x4 back = load<f32x4>(second + dimensions_) - load<f32x4>(first), least = min(past, back);
+    f32x4 world = load<f32x4>(sizes_), more = world * splat(0x1p-20f) + splat(1e-30f);  // than may have been rounded
+    auto beyond = [&](f32x4 length) { return bitmask(length > world); };
+    auto differs = [&](f32x4 length) { return bitmask((length > world + more) | (length < world - more)); };
+    // Bits of axes. They do not meet where they stand; then a ghost that was found does reach across: whose?
+    u32 apart = bitmask(least < -more), theirs = beyond(back);
+    u32 clear = (apart & differs(back) & (theirs | differs(past))) | (~apart & bitmask(least > more));
+    u32 wanted_a = apart & ~theirs, wanted_b = apart & theirs, axes = (1u << dimensions_) - 1;
+    if (clear & ((ghost_a ^ wanted_a) | (ghost_b ^ wanted_b)) & axes) return Rough::no;
+    return ~clear & axes ? Rough::unclear : Rough::yes;
   }
 
   /// Whether these are the boxes or ghosts by which the pair is to be reported.

@@ -25,7 +25,8 @@ template <int D> class Finder {
       pairs.stable = 0;
     }
     ran_ = chosen;
-    pairs.same = pairs.parted = false;
+    pairs.same = pairs.checked = false;
+    pairs.kept = 0;
     techniques_.with(ran_, [&](auto& technique) { technique.update(scene, settings, pairs, stats); });
   }
 

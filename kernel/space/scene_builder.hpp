@@ -35,7 +35,8 @@ template <int D> class SceneBuilder {
     if (filters.active()) {
       filters.update(scene.count, in_order);
       scene.filtered = !filters.moved().none();
-      scene.excluded = filters.excluded();
+      scene.rules = filters.tags();
+      scene.meets = filters.meets();
       if (filters.moved().all()) scene.changes = nullptr;
     }
     bool picks = filters.some();
@@ -47,9 +48,8 @@ template <int D> class SceneBuilder {
     if (store.world()) {
       find_moved(scene, filters);
       if (picks) scene.count = filters.searched();
-      scene.filtered |= scene.excluded != nullptr;  // exclusion bits of ghosts may change too
-      scene.boxes = wrap.unfold(scene.count, scene.excluded, moved_, filters, boxes, doubles, store.world(), D,
-                                in_order);
+      scene.filtered |= scene.rules != nullptr;  // those of ghosts may change too
+      scene.boxes = wrap.unfold(scene.count, scene.rules, moved_, filters, boxes, doubles, store.world(), D, in_order);
       scene.homes = wrap.homes();
       if (scene.changes) scene.changes = &moved_;
     } else if (picks) {

@@ -42,7 +42,7 @@ SMALL void settle_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles
   const Filters& filters = store.own.filters;
   const f32* boxes = store.numbers.boxes();
   u64* list = pairs.list.data();
-  u64 at = 0, kept = 0;
+  u64 at = pairs.stable, kept = at;  // what is stable is not in doubt
   auto keep = [&](u64 until) {
     if (kept != at && until > at) __builtin_memmove(list + kept, list + at, (until - at) * sizeof(u64));
     kept += until - at;
@@ -79,9 +79,9 @@ NOINLINE inline void part_groups(Pairs& pairs, const u32* groups) {
   pairs.count = kept;
 }
 
-/// Replaces slots by ids, the smaller first.
+/// Replaces slots by ids, the smaller first. What is kept has been named before.
 NOINLINE inline void name_pairs(Pairs& pairs, const Ids& ids) {
   u64* list = pairs.list.data();
   const u32* names = ids.names();
-  for (u64 p = 0; p < pairs.count; p++) list[p] = pair_of(names[u32(list[p])], names[list[p] >> 32]);
+  for (u64 p = pairs.kept; p < pairs.count; p++) list[p] = pair_of(names[u32(list[p])], names[list[p] >> 32]);
 }

@@ -25,6 +25,7 @@ template <int D> class Space {
   Lookups lookups_;
   PairOrder order_;
   u32 seen_ = 0;  // boxes in the last update
+  bool mapped_ = false;  // the pairs are not in the slots that the technique saw
   bool searching_ = false;  // in the middle of an update: there are no pairs until it ends
   bool ordered_ =
       false;  // a snapshot was taken or restored: from then on, earlier updates must not affect the order of pairs
@@ -190,6 +191,7 @@ template <int D> class Space {
   SMALL bool find(Technique chosen) {
     searching_ = true;
     Scene<D> scene = builder_.build(store, finder.follows_changes(chosen), !finder.varies_order(chosen));
+    if (!keeps_head(scene)) pairs.stable = 0;
     search(scene, chosen);
     // With doubles, bounds may have changed by less than float32 shows.
     bool same = pairs.same && !store.numbers.written.renamed && !builder_.doubles;
@@ -197,13 +199,22 @@ template <int D> class Space {
     if (stats.candidates == 0) stats.candidates = f64(pairs.count);
     stats.pairs = f64(pairs.count);
     if (same) searching_ = false;
-    else settle();
+    else settle(scene.groups);
     return !same;
+  }
+
+  /// Whether pairs that stay at the head of the list are as they are to be reported.
+  SMALL bool keeps_head(const Scene<D>& scene) {
+    const Own& own = store.own;
+    bool were_mapped = mapped_;
+    mapped_ = own.filters.some() || !store.ids.same();
+    if (ordered_ || own.filters.removes() || (own.groups.some() && !scene.groups)) return false;
+    if (own.filters.active() && !own.filters.moved().none()) return false;
+    return !store.numbers.written.renamed || !(mapped_ || were_mapped);
   }
 
   SMALL void search(const Scene<D>& scene, Technique chosen) {
     pairs.count = pairs.doubt_count = 0;
-    if (ordered_) pairs.stable = 0;  // they were sorted, or will be
     pairs.watch = builder_.doubles || !options_.touching;
     stats = Stats{};
     Settings mapped = options_;
@@ -225,16 +236,15 @@ template <int D> class Space {
     store.numbers.written.renamed = false;
   }
 
-  /// Turns pairs of slots found in float32 into the pairs to report.
-  SMALL void settle() {
+  /// Turns pairs of slots found in float32 into the pairs to report. `grouped`: the technique knew of groups.
+  SMALL void settle(bool grouped) {
     const Own& own = store.own;
     if (store.world()) builder_.wrap.fold(pairs, options_.touching, finder.notes_doubts());
     else if (pairs.watch) settle_doubts(pairs, store, builder_.doubles, finder.notes_doubts(), options_.touching);
     if (own.filters.active()) own.filters.finish(pairs);
-    if (own.groups.some() && !pairs.parted) part_groups(pairs, own.groups.data());
+    if (own.groups.some() && !(grouped && pairs.checked)) part_groups(pairs, own.groups.data());
     if (ordered_ && finder.varies_order(finder.ran())) order_.sort(pairs.list.data(), pairs.count, store.ids.count());
     if (!store.ids.same()) name_pairs(pairs, store.ids);
-    if (own.filters.active() || !store.ids.same()) pairs.stable = 0;
   }
 
   SMALL void publish() {

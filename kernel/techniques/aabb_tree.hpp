@@ -180,7 +180,7 @@ template <int D> class AabbTree {
     for (u32 slot = 0; slot < scene.count; slot++) {
       const f32* box = scene.boxes + u64(slot) * width;
       const f32* fat = fat_.data() + u64(slot) * width;
-      u32 excluded = scene.excluded ? scene.excluded[slot] : 0;
+      u32 excluded = scene.excluded_of(slot);
       u32 inside = bitmask(load<f32x4>(fat) <= load<f32x4>(box)) &
                    bitmask(load<f32x4>(box + D) <= load<f32x4>(fat + D));
       bool stays = slot < had && !(~inside & ((1 << D) - 1)) && (tags_[slot] | rests) == (excluded | rests);

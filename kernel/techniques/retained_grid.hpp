@@ -87,12 +87,10 @@ template <int D> class RetainedGrid {
   }
 
  private:
-  static u32 tag_of(const Scene<D>& scene, u32 slot) { return scene.excluded ? scene.excluded[slot] : 0; }
-
   /// Copies a box, for comparison in the next update.
   void keep(const Scene<D>& scene, u32 slot) {
     __builtin_memcpy(&boxes_[u64(slot) * 2 * D], scene.boxes + u64(slot) * 2 * D, 2 * D * sizeof(f32));
-    tags_[slot] = tag_of(scene, slot);
+    tags_[slot] = scene.excluded_of(slot);
   }
 
   /// Puts all boxes into new cells, with room for more.

@@ -126,6 +126,69 @@ test('a world at rest has its pairs in the order of a restored one after the fir
   expect(Array.from(space.setAll(boxes).update().pairs)).toEqual(Array.from(restored.pairs));
 });
 
+test('of boxes that are all alike and at rest, the pairs are of those that are on', () => {
+  const random = createRandom(8);
+  const spaces = (['auto', 'brute-force'] as const).map((technique) => new BroadPhase({ technique }));
+  let off = [3, 4, 5];
+  for (const space of spaces) {
+    for (let id = 0; id < 40; id++) space.set(id, 0, 0, 1, 1);
+    for (let id = 51; id < 2000; id++) space.set(id, id, 9, id + 1.5, 10);
+    for (const id of off) space.setEnabled(id, false);
+  }
+  let retained = 0;
+  for (let frame = 0; frame < 300; frame++) {
+    const [on, ...others] = off as [number, number, number];
+    if (frame % 3 === 2) off = [...others, (on + 1 + Math.floor(random() * 30)) % 40];
+    for (const space of spaces) {
+      space.setEnabled(on, !off.includes(on));
+      for (const id of off) space.setEnabled(id, false);
+      space.set(50, frame, 9, frame + 0.5, 10).update();
+    }
+    retained += Number(spaces[0]!.stats.reason.includes('are retained'));
+    expect(keysOf(spaces[0]!), `frame ${frame}`).toEqual(keysOf(spaces[1]!));
+  }
+  expect(retained, 'updates in which candidates are retained').toBeGreaterThan(100);
+});
+
+test('boxes that stay where they are, and get other ids, are reported by these', () => {
+  const spaces = (['auto', 'brute-force'] as const).map((technique) => new BroadPhase({ technique }));
+  let retained = 0;
+  for (let frame = 0; frame < 100; frame++) {
+    const ids = (k: number) => (frame < 20 || frame % 3 === 0 ? k : 3 * k + (frame % 7));
+    for (const space of spaces) {
+      if (frame >= 20) space.clear();
+      for (let k = 0; k < 500; k++) space.set(ids(k), k, 0, k + 1.5, 1);
+      space.set(ids(500), frame, 0.5, frame + 0.5, 1).update();
+    }
+    retained += Number(spaces[0]!.stats.reason.includes('are retained'));
+    expect(keysOf(spaces[0]!), `frame ${frame}`).toEqual(keysOf(spaces[1]!));
+  }
+  expect(retained, 'updates in which candidates are retained').toBeGreaterThan(40);
+});
+
+test.each([4, 80])('of %i filters, two boxes at rest exchange theirs, and a third gets a new one', (filters) => {
+  const spaces = (['auto', 'brute-force'] as const).map((technique) => new BroadPhase({ technique }));
+  const masks = [0b0111, 0b0011, 0b1101, 0b0100] as const; // no exclusion bits can say who meets whom
+  for (const space of spaces) {
+    for (let id = 0; id < 500; id++) {
+      const unused = (id % filters) << 8;
+      space.set(id, id, 0, id + 2.5, 1).setFilter(id, 1 << (id % 4), masks[id % 4]! | unused);
+    }
+  }
+  let retained = 0;
+  for (let frame = 0; frame < 120; frame++) {
+    const swapped = Math.floor(frame / 10) % 2;
+    for (const space of spaces) {
+      for (const id of [0, 1]) space.setFilter(id, 1 << (id ^ swapped), masks[id ^ swapped]!);
+      if (frame % 10 === 0) space.setFilter(2, 4, masks[2] | (1 << (18 + frame / 10)));
+      space.set(500, frame, 0.5, frame + 0.5, 1).update();
+    }
+    retained += Number(spaces[0]!.stats.reason.includes('are retained'));
+    expect(keysOf(spaces[0]!), `frame ${frame}`).toEqual(keysOf(spaces[1]!));
+  }
+  expect(retained, 'updates in which candidates are retained').toBeGreaterThan(60);
+});
+
 test('another technique gets boxes that were off in the order of all', () => {
   const space = new BroadPhase();
   const boxes = Float32Array.from({ length: 4 * 100 }, (_, k) => (k >> 2) * 0.6 + (k % 4 < 2 ? 0 : 1));
