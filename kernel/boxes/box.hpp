@@ -6,6 +6,7 @@
 // colour (bipartite search).
 #pragma once
 #include "boxes/changes.hpp"
+#include "boxes/rule.hpp"
 
 inline constexpr u32 slot_mask = 0x00ffffff;
 inline constexpr u32 max_slots = 1u << 24;
@@ -19,7 +20,7 @@ enum : u32 {
 };
 
 /// Beside the exclusion bits of a box, below them, may be the class of its rule. Marks of a technique fit below that.
-inline constexpr u32 class_bit = 1 << 4, class_mask = 0xff * class_bit;
+inline constexpr u32 class_bit = 1 << 4, class_mask = 0x7ff * class_bit;
 
 /// In a world that wraps around, of a box strictly inside it: its pairs with others like it are those of any other world.
 inline constexpr u8 at_home = 8;
@@ -34,7 +35,7 @@ template <int D> struct Scene {
   const Changes*
       changes = nullptr;  // what may have changed since the last update; null: anything, numbers of classes too
   bool filtered = false;  // since the last update, rules or groups of changed boxes may have changed
-  const u64* meets = nullptr;  // per class, the classes it meets; null if exclusion bits tell all that is known here
+  const Rule* classes = nullptr;  // the rule of each class; null if exclusion bits tell all that is known here
   const u32* groups = nullptr;  // per slot, null if no slot has one: pairs within a group are not reported
 
   const u8* homes = nullptr;  // per slot, null if the world does not wrap around: `at_home` or not

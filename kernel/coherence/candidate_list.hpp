@@ -34,7 +34,7 @@ template <int D> class CandidateList {
   bool watched_ = false;  // pairs in doubt are recorded
   struct {
     bool rules = false, groups = false;  // some have
-    const u64* meets = nullptr;  // per class, those it meets; null if that does not matter
+    const Rule* classes = nullptr;  // the rule of each; null if that does not matter
   } known_;  // of the boxes
   // Per slot:
   Buffer<f32> regions_;
@@ -86,7 +86,7 @@ template <int D> class CandidateList {
 
   /// Drops the list if pairs in doubt are to be recorded that may be settled, or if classes have other numbers.
   void check(const Scene<D>& scene, bool watched) {
-    if ((watched && !watched_) || known_.meets != scene.meets || (known_.meets && !scene.changes)) forget();
+    if ((watched && !watched_) || known_.classes != scene.classes || (known_.classes && !scene.changes)) forget();
     watched_ = watched;
   }
 
@@ -137,7 +137,7 @@ template <int D> class CandidateList {
     enclose(scene, plan.margin, plan.lead > 0 ? known : 0, f32(plan.lead) / larger(1u, origin_age_), far);
     remember(scene, common);
     known_.rules = scene.rules != nullptr;
-    known_.meets = scene.meets;
+    known_.classes = scene.classes;
     known_.groups = scene.groups != nullptr;
     if (known_.groups) __builtin_memcpy(groups_.reserve(n), scene.groups, n * sizeof(u32));
     count_ = n;
@@ -155,7 +155,7 @@ template <int D> class CandidateList {
   /// Finds the candidates of a list that has begun. Gives up and returns false if that takes more than `most` tests.
   SMALL bool finish(f64 most) {
     if (!anew_.sweep(candidates_, most)) return false;
-    if (known_.groups || known_.meets) filter(candidates_, [&](u32 a, u32 b) { return !are_apart(a, b); });
+    if (known_.groups || known_.classes) filter(candidates_, [&](u32 a, u32 b) { return !are_apart(a, b); });
     built_.candidates = f64(candidates_.count);
     if (resting_ > 0) settle();
     return finished_ = true;
@@ -355,7 +355,7 @@ template <int D> class CandidateList {
   bool are_apart(u32 a, u32 b) const {
     auto class_of = [&](u32 slot) { return (tags_[slot] & class_mask) / class_bit; };
     return (known_.groups && one_group(groups_[a], groups_[b])) ||
-           (known_.meets && !(known_.meets[class_of(a)] >> class_of(b) & 1));
+           (known_.classes && !meet(known_.classes[class_of(a)], known_.classes[class_of(b)]));
   }
 
   /// The base of a box: the region that it had first.

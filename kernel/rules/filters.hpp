@@ -24,7 +24,7 @@ class Filters {
   Buffer<Rule> staged_;  // what `replace` puts in place of them
   Changes changed_;  // slots whose rules changed since the last update
   Classes classes_;
-  Buffer<u8> class_of_;  // per slot, while classes are built
+  Buffer<u16> class_of_;  // per slot, while classes are built
   Buffer<u32> places_;  // per slot, while `some_`
   Buffer<u32> slots_;  // per place, while `some_`
   Buffer<u32> tags_;  // per place: the exclusion bits for the search, and the class
@@ -103,8 +103,8 @@ class Filters {
   const Changes& moved() const { return moved_; }
   /// The exclusion bits and the class, per place.
   const u32* tags() const { return tags_.data(); }
-  /// Per class, those it meets; null if they are not needed, or not known.
-  const u64* meets() const { return classes_.meets(); }
+  /// The rule of each class; null if it is not needed, or not all are known.
+  const Rule* classes() const { return classes_.rules(); }
   /// The slots of all places while `some`, and the slot of a place.
   const u32* slots() const { return slots_.data(); }
   u32 slot(u32 place) const { return some() ? slots_[place] : place; }
@@ -120,11 +120,11 @@ class Filters {
   }
 
   /// Whether forbidden pairs are removed after every search.
-  bool removes() const { return active_ && classes_.check() && !meets(); }
+  bool removes() const { return active_ && classes_.check() && !classes(); }
 
   /// After the search: turns places back into slots, and removes forbidden pairs, unless the technique has.
   NOINLINE void finish(Pairs& pairs) const {
-    const bool check = classes_.check() && !(meets() && pairs.checked), some = some_;
+    const bool check = classes_.check() && !(classes() && pairs.checked), some = some_;
     if (!some && !check) return;
     const Rule* rules = rules_.data();
     const u32* slots = slots_.data();
@@ -144,7 +144,7 @@ class Filters {
 
  private:
   SMALL void classify(u32 count) {
-    u8* class_of = class_of_.reserve(larger(count, 1u));
+    u16* class_of = class_of_.reserve(larger(count, 1u));
     classes_.build(rules_.data(), count, class_of);
     searched_ = 0;
     for (u32 s = 0; s < count; s++) searched_ += !classes_[class_of[s]].lonely;
@@ -180,7 +180,7 @@ class Filters {
     for (u32 k = 0; k < changed_.count(); k++) {
       u32 s = changed_.list()[k];
       if (s >= count) continue;
-      u32 its = classes_.find(rules_[s], false);
+      u32 its = classes_.find(rules_[s], classes_.some_further());
       if (its == Classes::rest && classes_[its].count == 0) return false;
       if (!classes_[its].lonely) {
         put(s, tag(s, its));

@@ -36,7 +36,7 @@ template <int D> class SceneBuilder {
       filters.update(scene.count, in_order);
       scene.filtered = !filters.moved().none();
       scene.rules = filters.tags();
-      scene.meets = filters.meets();
+      scene.classes = filters.classes();
       if (filters.moved().all()) scene.changes = nullptr;
     }
     bool picks = filters.some();

@@ -166,22 +166,23 @@ test('boxes that stay where they are, and get other ids, are reported by these',
   expect(retained, 'updates in which candidates are retained').toBeGreaterThan(40);
 });
 
-test.each([4, 80])('of %i filters, two boxes at rest exchange theirs, and a third gets a new one', (filters) => {
+test.each([4, 80, 1200])('of %i filters, two boxes at rest exchange theirs, and a third gets a new one', (filters) => {
   const spaces = (['auto', 'brute-force'] as const).map((technique) => new BroadPhase({ technique }));
-  const masks = [0b0111, 0b0011, 0b1101, 0b0100] as const; // no exclusion bits can say who meets whom
+  const masks = [0b010111, 0b0011, 0b101101, 0b0100] as const; // no exclusion bits can say who meets whom
+  const own = [0b0001, 0b0100] as const; // of boxes 0 and 1, the only ones of their layers
   for (const space of spaces) {
-    for (let id = 0; id < 500; id++) {
+    for (let id = 0; id < 1200; id++) {
       const unused = (id % filters) << 8;
       space.set(id, id, 0, id + 2.5, 1).setFilter(id, 1 << (id % 4), masks[id % 4]! | unused);
     }
   }
   let retained = 0;
-  for (let frame = 0; frame < 120; frame++) {
+  for (let frame = 0; frame < 100; frame++) {
     const swapped = Math.floor(frame / 10) % 2;
     for (const space of spaces) {
-      for (const id of [0, 1]) space.setFilter(id, 1 << (id ^ swapped), masks[id ^ swapped]!);
-      if (frame % 10 === 0) space.setFilter(2, 4, masks[2] | (1 << (18 + frame / 10)));
-      space.set(500, frame, 0.5, frame + 0.5, 1).update();
+      for (const id of [0, 1]) space.setFilter(id, 16 << (id ^ swapped), own[id ^ swapped]!);
+      if (frame % 10 === 0) space.setFilter(102, 4, masks[2] | (1 << (20 + frame / 10)));
+      space.set(1200, frame, 0.5, frame + 0.5, 1).update();
     }
     retained += Number(spaces[0]!.stats.reason.includes('are retained'));
     expect(keysOf(spaces[0]!), `frame ${frame}`).toEqual(keysOf(spaces[1]!));
