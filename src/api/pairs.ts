@@ -22,7 +22,8 @@ export interface Pairs<D extends Dimensions> {
    * Each overlapping pair of ids once, `[a0, b0, a1, b1, …]` with a < b, as of the last update: boxes deleted since are
    * still in it. The order depends only on the calls made. A view of the kernel's memory: valid until the next
    * `update()`, or until adding many boxes at once, or thousands of queries in one call, makes memory grow; then its
-   * length is 0. Adding a few boxes, or making queries one by one, does not invalidate it.
+   * length is 0. Adding a few boxes, or making queries one by one, does not invalidate it. Do not write to it: lookups and
+   * the next events read it too.
    *
    * @example
    * const space = new BroadPhase();

@@ -2,10 +2,12 @@
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createScene } from '../../src/scenes/index.ts';
+import { createRandom } from '../../src/scenes/random.ts';
 import { expectSameWords, firstDifference } from '../support/expect-pairs.ts';
 import { Modelled } from '../support/model.ts';
 import { readTrace, traceNames } from '../support/recordings.ts';
 import { keysOf, pairOf } from '../support/reference.ts';
+import { setBox } from '../support/set-box.ts';
 
 const combinations = BroadPhase.techniques.flatMap((technique) =>
   ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
@@ -48,6 +50,41 @@ describe.each(combinations)('%s in %d dimensions', (technique, dimensions) => {
     expectEvents(space.boxes(0) && space.update(), before);
     expect(space.ended.length).toBe(2 * before.length);
     expectEvents(space.update(), new Float64Array());
+  });
+});
+
+// Of a crowd whose pairs are elsewhere in the list after each update, the lists are sorted from then on.
+describe.each([
+  ['auto', 2],
+  ['auto', 3],
+  ['strip-sweep', 2],
+  ['spatial-grid', 3],
+] as const)('%s in a dense crowd in %d dimensions', (technique, dimensions) => {
+  test('follows it, also once it is restored', () => {
+    const random = createRandom(dimensions);
+    const side = dimensions === 2 ? 60 : 30;
+    const places = Array.from({ length: 400 * dimensions }, () => random() * side);
+    const options = { technique, dimensions, events: true };
+    let space = new BroadPhase<2 | 3>(options);
+    let twin: BroadPhase<2 | 3> | undefined;
+    let before: Float64Array = new Float64Array();
+    for (let frame = 0; frame < 60; frame++) {
+      for (let k = 0; k < places.length; k++) places[k] = Math.min(side, Math.max(0, places[k]! + 3 * random() - 1.5));
+      if (frame === 20) space.delete(7);
+      if (frame === 30) twin = new BroadPhase<2 | 3>(options).restore(space.snapshot());
+      if (frame === 45) space = new BroadPhase<2 | 3>(options).restore(space.snapshot());
+      const boxes = (id: number) => places.slice(id * dimensions, (id + 1) * dimensions);
+      for (const each of twin ? [space, twin] : [space]) {
+        for (let id = 0; id < 400; id++) {
+          if (id !== 7 || frame < 20) setBox(each, id, [...boxes(id), ...boxes(id).map((at) => at + 8)]);
+        }
+        each.update();
+      }
+      before = expectEvents(space, before, new Set(frame === 20 ? [7] : []));
+      for (const list of twin ? (['pairs', 'began', 'ended'] as const) : [])
+        expect(twin![list], `${list} of frame ${frame}`).toEqual(space[list]);
+    }
+    expect(before.length).toBeGreaterThan(2000);
   });
 });
 
