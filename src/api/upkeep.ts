@@ -51,8 +51,8 @@ export interface Upkeep {
    * that a restored space gives them in the same order as the original. `auto` and `incremental` sort their pairs for
    * that.
    *
-   * @throws RangeError that names the first bad box written through `boxes()`; Error if that array was detached, as in
-   * {@link BroadPhase.update}
+   * @throws RangeError that names the first bad box written through `boxes()`; Error if that array was requested
+   * since the last update, and detached
    *
    * @example
    * const space = new BroadPhase();

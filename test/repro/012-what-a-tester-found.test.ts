@@ -83,6 +83,15 @@ test('options in the place of 3D are refused in 2D', () => {
   expect(() => space.sweep!(0, 0, 1, 1, 1, 0, undefined, undefined, undefined, {})).toThrow(TypeError);
 });
 
+test('a snapshot after an update has all that was written, though memory has grown since', () => {
+  const space = new BroadPhase();
+  const view = space.boxes(2);
+  view[2] = 9;
+  space.update();
+  for (let count = 1000; view.length > 0; count *= 2) space.queryBoxes(new Float64Array(4 * count));
+  expect([...new BroadPhase().restore(space.snapshot()).get(0)!]).toEqual([0, 0, 9, 0]);
+});
+
 test('a snapshot notices, as an update does, that what was written in place may be lost', () => {
   const space = new BroadPhase();
   space.boxes(2);
