@@ -32,8 +32,7 @@ template <int D> struct Scene {
   const f32* boxes;  // D minima, then D maxima, per slot
   u32 count;
   const u32* rules;  // per slot, exclusion bits and class; null if no slot has either
-  const Changes*
-      changes = nullptr;  // what may have changed since the last update; null: anything, numbers of classes too
+  const Changes* changes = nullptr;  // what may have changed since the last update; null: anything, classes too
   bool filtered = false;  // since the last update, rules or groups of changed boxes may have changed
   const Rule* classes = nullptr;  // the rule of each class; null if exclusion bits tell all that is known here
   const u32* groups = nullptr;  // per slot, null if no slot has one: pairs within a group are not reported
