@@ -243,9 +243,8 @@ template <int D> class Space {
     else if (pairs.watch) settle_doubts(pairs, store, builder_.doubles, finder.notes_doubts(), options_.touching);
     if (own.filters.active()) own.filters.finish(pairs);
     if (own.groups.some() && !(grouped && pairs.checked)) part_groups(pairs, own.groups.data());
-    bool follows = store.keeps_events && !pairs.checked && (ordered_ || store.events.scattered);
-    if (follows || (ordered_ && finder.varies_order(finder.ran())))
-      order_.sort(pairs.list.data(), pairs.count, store.ids.count());
+    bool sorts = ordered_ || (store.keeps_events && !pairs.checked && store.events.scattered);
+    if (sorts && finder.varies_order(finder.ran())) order_.sort(pairs.list.data(), pairs.count, store.ids.count());
     if (!store.ids.same()) name_pairs(pairs, store.ids);
   }
 
