@@ -166,6 +166,22 @@ test('boxes that stay where they are, and get other ids, are reported by these',
   expect(retained, 'updates in which candidates are retained').toBeGreaterThan(40);
 });
 
+test('pairs at rest stay, under ids of their own, beside a box at infinity where touching does not count', () => {
+  const options = { touching: false } as const;
+  const spaces = (['auto', 'brute-force'] as const).map((technique) => new BroadPhase({ ...options, technique }));
+  for (const space of spaces) {
+    for (let k = 0; k < 500; k++) space.set(7 * k + 3, k, 0, k + 1.5, 1);
+    space.set(1, Infinity, 0, Infinity, 1).set(2, 600, 0, Infinity, 1);
+  }
+  let retained = 0;
+  for (let frame = 0; frame < 60; frame++) {
+    for (const space of spaces) space.set(0, frame, 0.5, frame + 0.5, 1).update();
+    retained += Number(spaces[0]!.stats.reason.includes('are retained'));
+    expect(keysOf(spaces[0]!), `frame ${frame}`).toEqual(keysOf(spaces[1]!));
+  }
+  expect(retained, 'updates in which candidates are retained').toBeGreaterThan(40);
+});
+
 test.each([4, 80, 1200])('of %i filters, two boxes at rest exchange theirs, and a third gets a new one', (filters) => {
   const spaces = (['auto', 'brute-force'] as const).map((technique) => new BroadPhase({ technique }));
   const masks = [0b010111, 0b0011, 0b101101, 0b0100] as const; // no exclusion bits can say who meets whom
