@@ -53,7 +53,7 @@ describe.each(combinations)('%s in %d dimensions', (technique, dimensions) => {
   });
 });
 
-// Of a crowd whose pairs are elsewhere in the list after each update, the lists are sorted from then on.
+// A crowd whose pairs are elsewhere in the list after each update: `auto` sorts the lists from then on, others do not.
 describe.each([
   ['auto', 2],
   ['auto', 3],
