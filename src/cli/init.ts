@@ -63,7 +63,11 @@ export const initCommand: Command = {
     const given = input.text('package');
     if (given !== undefined && !existsSync(given)) throw new FileError(`cannot read ${given}: there is no such file`);
     const installed = given ?? (await installedHere());
-    const there = await readdir(folder).catch(() => []);
+    // Nothing is written to, nor removed from, a folder that cannot be looked into.
+    const there = await readdir(folder).catch((error: NodeJS.ErrnoException) => {
+      if (error.code === 'ENOENT') return [];
+      throw new FileError(`cannot write ${name}: ${error.message}`);
+    });
     if (there.length > 0) throw new UsageError(`${name} is not empty, expected an empty or new folder`);
     const spec = installed === undefined ? `^${version}` : `file:${relative(folder, resolve(installed))}`;
     let made: string | undefined; // the first folder on the path that was not there
