@@ -25,8 +25,7 @@ template <int D> class CandidateList {
   static constexpr u32 doubt_step = 32;  // candidates whose pairs are recorded as in doubt together
   static constexpr u32 padding = 4;  // vector loads may read this many floats past the last box
   static constexpr Tuning<D> tuning = {};
-  // In a tag, below the exclusion bits and the class:
-  // moved: it has a new region; again: for the second time or more
+  // In a tag, below exclusion bits and class. moved: it has a new region; again: for the second time or more
   enum : u32 { rests = 1, fresh = 2, moved = 4, again = 8, marks = 15 };
 
   StripSweep<D>& anew_;
@@ -166,8 +165,7 @@ template <int D> class CandidateList {
   /// then a new list is due. `size`, `spacing`: of boxes.
   SMALL bool follow(const Scene<D>& scene, const Shift& common, f64 most, f32 size, f64 spacing) {
     u32 n = scene.count, had = count_, both = smaller(n, had);
-    // A search may find as many slots as there were boxes when the list was made.
-    u32* list = late_.reserve(u64(n) + larger(n, anew_.count()) + 4);
+    u32* list = late_.reserve(u64(n) + larger(n, anew_.count()) + 4);  // a search may find all boxes of the strips
     Shift shift = common_.after(common.back());
     bool shifts = shift.differs(shift_);
     shift_ = shift;
@@ -430,11 +428,13 @@ template <int D> class CandidateList {
     settled_.count = left;
   }
 
-  /// Gives a late box a new region. `near`: room for all slots.
+  /// Gives a late box a new region, with a margin of `aside`, or of the list if it jumped. `near`: room for all slots.
   NOINLINE void enlarge(const Scene<D>& scene, u32 slot, f32 aside, u32* near) {
     f32 box[width + padding], larger_one[width + padding];
     u32 tag = tags_[slot];
     shifted(scene.box(slot), box);
+    widen(region(slot), 2 * aside, f32x4{}, larger_one);  // a box that has left this has jumped
+    if (!(tag & fresh) && !is_expected<false>(scene.box(slot), larger_one, tag, shift_)) aside = margin_;
     widen(box, aside, f32x4{}, larger_one);
     if (tag & again) reach(larger_one, region(slot), aside);
     const f32* its_base = base(slot);

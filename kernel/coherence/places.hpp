@@ -4,7 +4,7 @@
 // range. The boxes of a cell form a chain. Grids repeat themselves, so that boxes may be anywhere, also in clusters far
 // from one another; the coarsest has one cell for all.
 // Cost: 10 to 20 ns to insert or remove a box; in a search 1 ns for each cell, 2 for each region nearby. 8 bytes per box,
-// up to 6 for cells, and the base of each late box.
+// up to 11 (2D) or 18 (3D) for cells, and the base of each late box.
 // From: F. Schornbaum, "Hierarchical Hash Grids for Coarse Collision Detection", 2009.
 #pragma once
 #include "base/box_tests.hpp"
@@ -130,7 +130,7 @@ template <int D> class Places {
   /// Makes empty grids for this many boxes, the finest with cells of this width; returns how many cells they have.
   SMALL u32 divide(u32 boxes, f32 cell) {
     u32 side = 1, all = 0;
-    while (in_all(2 * side) <= boxes && side < 1u << (most_grids - 1)) side *= 2;
+    while (in_all(2 * side) <= (D == 2 ? 2 : 4) * boxes && side < 1u << (most_grids - 1)) side *= 2;
     for (grid_count_ = 0; side > 0; side /= 2, cell *= 2) {
       grids_[grid_count_++] = {1 / cell, side, all, false};
       all += in_all(side);

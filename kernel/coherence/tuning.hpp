@@ -8,8 +8,8 @@
 template <int D> struct Tuning {
   f64 candidate = D == 2 ? 2 : 3;  // tests: to test a candidate
   f64 planning = 3000;  // tests: to choose a margin
-  f64 late = D == 2 ? 350 : 500;  // tests: to give a box that has left its region a new one
-  f64 far = D == 2 ? 1e9 : 5e4;  // boxes: among so many, that takes twice as long, since caches do not hold them all
+  f64 late = D == 2 ? 300 : 400;  // tests: to give a box that has left its region a new one
+  f64 far = 5e4;  // boxes: among so many, that takes twice as long, since caches do not hold them all
   f64 late_margin = 0.5;  // of a box's size: the margin of that new region, or the list's if larger
   f64 burst = 0.5;  // of a rebuild: the most work for late boxes that a plan may expect in one update
   f64 spike = 2;  // of an update's mean work, making the list included: if late boxes take more in one, the list ends
