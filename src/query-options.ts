@@ -1,5 +1,5 @@
 // The options and the results of the queries in queries.ts, and their checks.
-import { badId, badNumber, badValue, checkBits, isId, isSize } from './errors.ts';
+import { badId, badNumber, badValue, checkBits, isId } from './errors.ts';
 
 /** Options of every query, each of which adds an `out` or a `visit` of its own. */
 export interface QueryOptions {
@@ -19,7 +19,10 @@ export interface AreaOptions {
 export interface IdsOptions extends QueryOptions, AreaOptions {
   /** Filled and returned, instead of a new array. If you reuse it and the options, queries make no garbage. */
   out?: number[] | undefined;
-  /** Called for each answer instead of collecting them; `false` ends the search. The answer is then empty. */
+  /**
+   * Called for each answer instead of collecting them; `false` ends the search. The answer is then empty. Must not call
+   * `update` or `restore` of this space, or the query throws; nor may it return a Promise. So for each `visit`, `accept`.
+   */
   visit?: ((id: number) => unknown) | undefined;
 }
 
@@ -230,9 +233,4 @@ export function checkMost(where: string, k: unknown): number {
 
 export function checkVisitor(where: string, visitor: unknown): void {
   if (typeof visitor !== 'function') badValue(where, visitor, 'a function', true);
-}
-
-export function checkDistance(where: string, distance: number): number {
-  if (!isSize(distance)) badNumber(where, distance, 'a number, at least 0');
-  return distance;
 }
