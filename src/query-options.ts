@@ -106,21 +106,30 @@ export interface SweepHit {
   normal: number[];
 }
 
-/** Options of {@link BroadPhase.sweep}. */
-export interface SweepOptions extends QueryOptions {
-  /**
-   * Whether a hit counts: called for each hit, by time, until it returns true. The hit is the object that will be
-   * returned.
-   */
-  accept?: ((id: number, hit: Readonly<SweepHit>) => boolean) | undefined;
+/** Options of {@link BroadPhase.sweep}: `accept` or `visit`, not both. */
+export type SweepOptions = QueryOptions & {
   /** Filled and returned, instead of a new object. */
   out?: SweepHit | undefined;
-  /**
-   * Called for each box on the path, by time, instead of returning the first; `false` ends the search. The hit is the
-   * same object each time. Without `accept`: a visitor sees all hits.
-   */
-  visit?: ((id: number, time: number, hit: Readonly<SweepHit>) => unknown) | undefined;
-}
+} & (
+    | {
+        /**
+         * Whether a hit counts: called for each hit, by time, until it returns true. The hit is the object that will be
+         * returned.
+         */
+        accept?: ((id: number, hit: Readonly<SweepHit>) => boolean) | undefined;
+        /** Not with `accept`. */
+        visit?: undefined;
+      }
+    | {
+        /**
+         * Called for each box on the path, by time, instead of returning the first; `false` ends the search. The hit is
+         * the same object each time. Without `accept`: a visitor sees all hits.
+         */
+        visit?: ((id: number, time: number, hit: Readonly<SweepHit>) => unknown) | undefined;
+        /** Not with `visit`. */
+        accept?: undefined;
+      }
+  );
 
 /** Answers to many queries. */
 export interface ManyIds {
