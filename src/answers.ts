@@ -2,7 +2,7 @@
 // their arguments and write them to the kernel's io array; the kernel answers (kernel/questions/queries.hpp); the code
 // here copies the answers to where the caller wants them. A visitor gets them in parts, so that it can end the search,
 // and may make queries itself.
-import { badQuery, badValue, checkOptions, checkOut, maxId } from './errors.ts';
+import { badQuery, badValue, checkBoolean, checkOptions, checkOut, maxId } from './errors.ts';
 import { afterAt, ioLength, orderNear, orderRay, orderWay, touchingAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import {
@@ -101,8 +101,7 @@ export function area(
     visitArea(instance, where, planes, mask, ignored, others, options.visit);
     return none as number[];
   }
-  const out = options?.out ?? [];
-  checkOut(where, out);
+  const out = checkOut(where, options?.out);
   try {
     return copyIds(instance, ids(instance, where, planes, mask, ignored, 0, everything), out, others);
   } catch (error) {
@@ -115,7 +114,7 @@ export function tellTouching(instance: KernelInstance, where: string, options: A
   // Without an object of its own, which would be garbage in every frame.
   const given = options?.touching;
   const touching = given === undefined ? instance.touching : given;
-  if (typeof touching !== 'boolean') badValue(`${where}: touching`, touching, 'true or false', true);
+  if (typeof touching !== 'boolean') checkBoolean(`${where}: touching`, touching);
   instance.io()[touchingAt] = touching ? 1 : 0;
 }
 
@@ -192,9 +191,8 @@ function visitArea(
       for (let k = 0; k < count; k++) {
         const id = visit.ids[k]!; // for planes, the bits above it say whether it is in front of all
         if (others?.includes(id & maxId)) continue;
-        if ((planes === shape ? (visitor as (id: number) => unknown)(id) : visitor(id & maxId, id > maxId)) === false)
-          return;
-        if (instance.kernel.updates() !== updates) updatedInside(where);
+        const told = planes === shape ? (visitor as (id: number) => unknown)(id) : visitor(id & maxId, id > maxId);
+        if (ends(instance, where, updates, told)) return;
       }
     }
   } catch (error) {
@@ -261,10 +259,8 @@ function walk(
         if (others?.includes(id)) continue;
         left--;
         if (hit !== undefined) writeHit(instance, visit, k, kind, hit);
-        if (into !== undefined) {
-          if ((call as Accept)(id, into)) return true;
-        } else if ((call as Visitor)(id, visit.ranks[k]!, hit) === false) return true;
-        if (instance.kernel.updates() !== updates) updatedInside(where, into);
+        const told = into ? (call as Accept)(id, into) : (call as Visitor)(id, visit.ranks[k]!, hit);
+        if (ends(instance, where, updates, told, into)) return true;
       }
       if (count < wanted) return false;
       after = visit.ids[count - 1]!;
@@ -349,8 +345,12 @@ export function known(where: string, count: number): number {
   );
 }
 
-function updatedInside(where: string, into?: Hit): never {
-  const by = into === undefined ? 'visit' : 'accept';
+/** Whether what a visitor, or an `accept` with its hit, has returned ends the search. */
+function ends(instance: KernelInstance, where: string, updates: number, told: unknown, into?: Hit): boolean {
+  const by = into ? 'accept' : 'visit';
+  if (told && (into ? told !== true : told instanceof Promise)) checkBoolean(`${where}: ${by} returned`, told);
+  if (told === !!into) return true;
+  if (instance.kernel.updates() === updates) return false;
   throw new Error(`${where}: update or restore was called by ${by}, expected it to wait until the search has ended`);
 }
 

@@ -116,6 +116,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     this.#instance = open(options);
     this.#ring = this.#instance.ring;
     this.dimensions = this.#instance.dimensions as D;
+    this.#with('new BroadPhase', arguments.length, 1);
   }
 
   /** Frameworks that wrap objects in proxies, such as Vue, leave objects alone whose name here is not `Object`. */
@@ -211,11 +212,11 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
 
   setAll(boxes: Boxes, count?: number): this {
-    setAll(this.#instance, boxes, count);
+    setAll(this.#with('setAll', arguments.length, 2), boxes, count);
     return this;
   }
   boxes(count: number): Float32Array {
-    return expose(this.#instance, count);
+    return expose(this.#with('boxes', arguments.length, 1), count);
   }
 
   delete(id: number): boolean {
@@ -275,35 +276,36 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
 
   setFilter(id: number, layer: number, mask: number): this {
-    rules.setFilter(this.#instance, id, layer, mask);
+    rules.setFilter(this.#with('setFilter', arguments.length, 3), id, layer, mask);
     return this;
   }
   filterOf(id: number): rules.Filter | undefined {
     return rules.filterOf(this.#instance, id);
   }
-  setStatic(id: number, ...given: [] | [isStatic: boolean]): this {
-    rules.setStatic(this.#instance, id, given.length === 0 || given[0]);
+  setStatic(id: number, ...given: [] | [isStatic: boolean]): this;
+  setStatic(id: number, isStatic?: boolean): this {
+    rules.setStatic(this.#with('setStatic', arguments.length, 2), id, arguments.length < 2 || isStatic!);
     return this;
   }
   isStatic(id: number): boolean {
     return rules.isStatic(this.#instance, id);
   }
   setEnabled(id: number, enabled: boolean): this {
-    rules.setEnabled(this.#instance, id, enabled);
+    rules.setEnabled(this.#with('setEnabled', arguments.length, 2), id, enabled);
     return this;
   }
   isEnabled(id: number): boolean {
     return rules.isEnabled(this.#instance, id);
   }
   setGroup(id: number, group: number): this {
-    rules.setGroup(this.#instance, id, group);
+    rules.setGroup(this.#with('setGroup', arguments.length, 2), id, group);
     return this;
   }
   groupOf(id: number): number | undefined {
     return rules.groupOf(this.#instance, id);
   }
   setReach(id: number, distance: number): this {
-    rules.setReach(this.#instance, id, distance);
+    rules.setReach(this.#with('setReach', arguments.length, 2), id, distance);
     return this;
   }
   reachOf(id: number): number | undefined {
@@ -330,7 +332,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   get ended(): Uint32Array {
     return endedIn(this.#instance);
   }
-  /** The instance, for a query: it is refused if it has too many arguments, undefined ones too, as `set` is. */
+  /** The instance, for a call: it is refused if it has too many arguments, undefined ones too, as `set` is. */
   #with(where: string, got: number, most: number): KernelInstance {
     if (got > most)
       throw new TypeError(`${where}: got ${got} arguments, expected at most ${most} in ${this.dimensions}D`);
@@ -339,12 +341,12 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   isColliding(a: number, b: number): boolean {
     return places.isColliding(this.#with('isColliding', arguments.length, 2), a, b);
   }
-  collisionsOf(id: number, out: number[] = []): number[] {
+  collisionsOf(id: number, out?: number[]): number[] {
     return places.collisionsOf(this.#with('collisionsOf', arguments.length, 2), id, out);
   }
   pairsWith(other: BroadPhase<D>): Uint32Array {
     if (!(Object(other) === other && #instance in other))
-      badValue('pairsWith', other, 'another BroadPhase of the same entry point', true);
+      badValue('pairsWith', other, 'another BroadPhase, of the same import', true);
     return pairsWith(this.#instance, other.#instance, this.#kept);
   }
 

@@ -7,6 +7,8 @@ import {
   badQuery,
   badValue,
   checkAttached,
+  checkBoolean,
+  checkDistance,
   checkNumberArray,
   checkOptions,
   corners,
@@ -20,7 +22,6 @@ import { asks, limitAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { ray2, ray3 } from './queries.ts';
 import {
-  checkDistance,
   checkMost,
   everything,
   isCount,
@@ -105,7 +106,7 @@ export function askMany(
   let { kind } = question;
   if (kind === asks.box) {
     const within = options?.within === undefined ? false : options.within;
-    if (typeof within !== 'boolean') badValue(`${where}: within`, within, 'true or false', true);
+    if (typeof within !== 'boolean') checkBoolean(`${where}: within`, within);
     if (within) kind = asks.within;
   }
   // Compared first, since returning a large number would be garbage.

@@ -75,17 +75,19 @@ export function badBox(where: string, id: number, box: ArrayLike<unknown>, dimen
       );
     }
   }
-  throw new Error(`${where}: box ${id} was refused, but nothing is wrong with it: please report this`);
+  throw new Error(`${where}: box ${id} was refused: please report this`);
 }
 
-/** A call with too few or too many arguments. */
-function badCount(
+/** The id of a box, and the number of arguments of the call that sets it. */
+function checkCount(
   where: string,
-  id: number,
+  id: unknown,
   got: number,
   dimensions: 2 | 3,
   names: readonly string[] = corners[dimensions],
-): never {
+): asserts id is number {
+  checkId(where, id);
+  if (got === 1 + names.length) return;
   throw new TypeError(
     `${where}: got ${got} arguments for box ${id}, expected ${1 + names.length} in ${dimensions}D: id, ${names.join(', ')}`,
   );
@@ -94,16 +96,11 @@ function badCount(
 /** A bad box by centre and half size: says which of its numbers is wrong. */
 export function badCentred(got: number, id: unknown, given: readonly unknown[], dimensions: 2 | 3): never {
   const where = 'setCentred';
-  checkId(where, id);
   const names = centred[dimensions];
-  if (got !== 1 + names.length) badCount(where, id, got, dimensions, names);
-  for (const [k, name] of names.entries()) {
-    const value = given[k];
-    const what = `${where}: ${name} of box ${id}`;
-    const expected = k < dimensions ? 'a finite number' : 'a number, at least 0';
-    if (!(k < dimensions ? Number.isFinite(value) : isSize(value))) badNumber(what, value, expected);
-  }
-  throw new Error(`${where}: box ${id} was refused, but nothing is wrong with it: please report this`);
+  const of = ` of box ${id}`;
+  checkCount(where, id, got, dimensions, names);
+  for (let k: number = dimensions; k < names.length; k++) checkDistance(`${where}: ${names[k]}${of}`, given[k]);
+  badQuery(where, given, names.slice(0, dimensions), 'a finite number', of);
 }
 
 /** Any other argument or option. */
@@ -121,7 +118,7 @@ export function badNumber(where: string, value: unknown, expected: string): neve
 export const isFinitePositive = (value: unknown, least = Number.MIN_VALUE): value is number =>
   Number.isFinite(value) && Number(value) >= least;
 
-export function checkBoolean(what: string, value: unknown): void {
+export function checkBoolean(what: string, value: unknown): asserts value is boolean {
   if (typeof value !== 'boolean') badValue(what, value, 'true or false', true);
 }
 
@@ -152,8 +149,7 @@ export function checkNumberArray(where: string, numbers: unknown): void {
 
 /** Whether the arguments are a good id and a good box. */
 export function checkBox(where: string, id: number, box: readonly number[], dimensions: 2 | 3): void {
-  checkId(where, id);
-  if (box.length !== 2 * dimensions) badCount(where, id, 1 + box.length, dimensions);
+  checkCount(where, id, 1 + box.length, dimensions);
   let good = box.every((value) => typeof value === 'number');
   for (let k = 0; k < dimensions; k++) good &&= box[k]! <= box[k + dimensions]!;
   if (!good) badBox(where, id, box, dimensions);
@@ -175,9 +171,10 @@ export function checkBits(where: string, bits: unknown): void {
   badValue(where, bits, `an integer from 0 to 4294967295${bits < 0 ? ' (of signed bits, write bits >>> 0)' : ''}`);
 }
 
-/** Checks an array to write answers to. */
-export function checkOut(where: string, out: unknown): void {
+/** An array to write answers to: the given one, or a new one. */
+export function checkOut<Out extends unknown[]>(where: string, out = [] as unknown[] as Out): Out {
   if (!Array.isArray(out)) badValue(`${where}: out`, out, 'an array', true);
+  return out;
 }
 
 /** Whether a hit can be written to it. */
@@ -192,7 +189,8 @@ export function badHit(where: string, out: unknown, far: 'distance' | 'time'): n
 /** Checks an object of options: all must be known, except undefined ones. */
 export function checkOptions(where: string, options: unknown, known: readonly string[]): void {
   if (options === undefined) return;
-  if (typeof options !== 'object' || options === null || Array.isArray(options)) {
+  // Neither an array, nor a Map, nor a space.
+  if (typeof options !== 'object' || options === null || Symbol.iterator in options) {
     badValue(where, options, 'an object of options', true);
   }
   for (const name in options) {
@@ -221,25 +219,27 @@ function edits(from: string, to: string): number {
   return row[to.length]!;
 }
 
-/** Reports wrong numbers of a query: `names` are their names, `expected` what each must be. */
+/** Reports wrong numbers of a query: `names` are their names, `expected` what each must be, `of` whose they are. */
 export function badQuery(
   where: string,
   given: readonly unknown[],
   names: readonly string[],
   expected: 'a number' | 'a finite number',
+  of = '',
 ): never {
   for (const [k, name] of names.entries()) {
     const value = given[k];
+    const what = `${where}: ${name}${of}`;
     const unbounded = expected === 'a number' && /^m(in|ax)[XYZ]$/.test(name);
-    if (typeof value !== 'number') badNumber(`${where}: ${name}`, value, 'a number');
-    if (Number.isNaN(value)) badValue(`${where}: ${name}`, value, expected);
-    if (!unbounded && !Number.isFinite(value)) badValue(`${where}: ${name}`, value, 'a finite number');
+    if (typeof value !== 'number') badNumber(what, value, 'a number');
+    if (Number.isNaN(value)) badValue(what, value, expected);
+    if (!unbounded && !Number.isFinite(value)) badValue(what, value, 'a finite number');
   }
   for (const [k, name] of names.entries()) {
     const above = names.indexOf(name.replace('min', 'max'));
     const low = given[k] as number;
     const high = given[above] as number;
-    if (low > high) badValue(`${where}: ${name}`, low, `no more than ${names[above]}, which is ${high}`);
+    if (low > high) badValue(`${where}: ${name}${of}`, low, `no more than ${names[above]}, which is ${high}`);
   }
   badValue(where, given, names.join(', '), true);
 }
@@ -260,7 +260,12 @@ export const areNumbers = (
   typeof f === 'number';
 
 /** Half the size of a box, a radius or a distance: infinite ones too. */
-export const isSize = (size: unknown): boolean => typeof size === 'number' && size >= 0;
+export const isSize = (size: unknown): size is number => typeof size === 'number' && size >= 0;
+
+export function checkDistance(where: string, distance: unknown): number {
+  if (!isSize(distance)) badNumber(where, distance, 'a number, at least 0');
+  return distance;
+}
 
 /** Finds what is wrong with the arguments of `set`. */
 export function badSet(
@@ -274,15 +279,13 @@ export function badSet(
   f: unknown,
   dimensions: 2 | 3,
 ): never {
-  checkId('set', id);
-  if (given !== 1 + 2 * dimensions) badCount('set', id, given, dimensions);
+  checkCount('set', id, given, dimensions);
   badBox('set', id, [a, b, c, d, e, f], dimensions);
 }
 
 /** Finds what is wrong with the arguments of `setSwept`. */
 export function badSwept(got: number, id: unknown, given: readonly unknown[], dimensions: 2 | 3): never {
-  if (!isId(id)) badId('setSwept', id);
   const names = dimensions === 2 ? sweep2 : sweep3;
-  if (got !== 1 + names.length) badCount('setSwept', id, got, dimensions, names);
-  badQuery('setSwept', given, names, 'a number');
+  checkCount('setSwept', id, got, dimensions, names);
+  badQuery('setSwept', given, names, 'a number', ` of box ${id}`);
 }

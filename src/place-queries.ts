@@ -1,9 +1,9 @@
 // The queries about places: which boxes collide, and which are in a box, at a point, or in a circle.
 import { area, copyIds, isNumber, number, point } from './answers.ts';
-import { badQuery, badValue, checkId, checkOut, corners } from './errors.ts';
+import { badQuery, checkBoolean, checkDistance, checkId, checkOut, corners } from './errors.ts';
 import { noCircle, radiusAt, within } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-import { type BoxOptions, boxOptions, checkDistance, type IdsOptions } from './query-options.ts';
+import { type BoxOptions, boxOptions, type IdsOptions } from './query-options.ts';
 
 export function isColliding(instance: KernelInstance, a: number, b: number): boolean {
   checkId('isColliding: a', a);
@@ -15,9 +15,9 @@ export function isColliding(instance: KernelInstance, a: number, b: number): boo
   }
 }
 
-export function collisionsOf(instance: KernelInstance, id: number, out: number[]): number[] {
+export function collisionsOf(instance: KernelInstance, id: number, given?: number[]): number[] {
   checkId('collisionsOf', id);
-  checkOut('collisionsOf', out);
+  const out = checkOut('collisionsOf', given);
   try {
     return copyIds(instance, instance.kernel.partners(id), out);
   } catch (error) {
@@ -53,7 +53,7 @@ export function queryBox(
   io[2] = c;
   io[3] = d;
   const wholly = options?.within === undefined ? false : options.within;
-  if (typeof wholly !== 'boolean') badValue('queryBox: within', wholly, 'true or false', true);
+  checkBoolean('queryBox: within', wholly);
   io[radiusAt] = wholly ? within : noCircle;
   return area(instance, 'queryBox', options, boxOptions);
 }

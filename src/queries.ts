@@ -17,11 +17,21 @@ import {
   type Visitor,
   visitOrder,
 } from './answers.ts';
-import { badHit, badQuery, badValue, checkOptions, checkOut, isHit, isSize, sweep2, sweep3 } from './errors.ts';
+import {
+  badHit,
+  badQuery,
+  badValue,
+  checkDistance,
+  checkOptions,
+  checkOut,
+  isHit,
+  isSize,
+  sweep2,
+  sweep3,
+} from './errors.ts';
 import { limitAt, orderNear, orderRay, orderWay } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import {
-  checkDistance,
   checkMost,
   everything,
   farOptions,
@@ -77,8 +87,7 @@ export function rayCastAll(
     visitOrder(instance, 'rayCastAll', orderRay, options, everything, options.visit as Visitor);
     return none as RayHit[];
   }
-  const out = options?.out ?? [];
-  checkOut('rayCastAll', out);
+  const out: RayHit[] = checkOut('rayCastAll', options?.out);
   for (let k = 0; k < out.length; k++) if (!isHit(out[k])) badHit(`rayCastAll: out[${k}]`, out[k], 'distance');
   const count = order(instance, 'rayCastAll', orderRay, options, everything);
   for (let k = 0; k < count; k++) {
@@ -172,8 +181,7 @@ export function nearest(
     visitOrder(instance, 'nearest', orderNear, options, wanted, options.visit);
     return none as number[];
   }
-  const out = options?.out ?? [];
-  checkOut('nearest', out);
+  const out: number[] = checkOut('nearest', options?.out);
   const distances = options?.distances;
   if (distances !== undefined && (!Array.isArray(distances) || distances === out)) {
     badValue('nearest: distances', distances, 'an array other than out', true);

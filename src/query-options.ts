@@ -1,5 +1,5 @@
 // The options and the results of the queries in queries.ts, and their checks.
-import { badId, badNumber, badValue, checkBits, isId, isSize } from './errors.ts';
+import { badId, badNumber, badValue, checkBits, isId } from './errors.ts';
 
 /** Options of every query, each of which adds an `out` or a `visit` of its own. */
 export interface QueryOptions {
@@ -19,7 +19,10 @@ export interface AreaOptions {
 export interface IdsOptions extends QueryOptions, AreaOptions {
   /** Filled and returned, instead of a new array. If you reuse it and the options, queries make no garbage. */
   out?: number[] | undefined;
-  /** Called for each answer instead of collecting them; `false` ends the search. The answer is then empty. */
+  /**
+   * Called for each answer instead of collecting them; `false` ends the search. The answer is then empty. Must not call
+   * `update` or `restore` of this space, or the query throws; nor may it return a Promise. So for each `visit`, `accept`.
+   */
   visit?: ((id: number) => unknown) | undefined;
 }
 
@@ -103,21 +106,30 @@ export interface SweepHit {
   normal: number[];
 }
 
-/** Options of {@link BroadPhase.sweep}. */
-export interface SweepOptions extends QueryOptions {
-  /**
-   * Whether a hit counts: called for each hit, by time, until it returns true. The hit is the object that will be
-   * returned.
-   */
-  accept?: ((id: number, hit: Readonly<SweepHit>) => boolean) | undefined;
+/** Options of {@link BroadPhase.sweep}: `accept` or `visit`, not both. */
+export type SweepOptions = QueryOptions & {
   /** Filled and returned, instead of a new object. */
   out?: SweepHit | undefined;
-  /**
-   * Called for each box on the path, by time, instead of returning the first; `false` ends the search. The hit is the
-   * same object each time. Without `accept`: a visitor sees all hits.
-   */
-  visit?: ((id: number, time: number, hit: Readonly<SweepHit>) => unknown) | undefined;
-}
+} & (
+    | {
+        /**
+         * Whether a hit counts: called for each hit, by time, until it returns true. The hit is the object that will be
+         * returned.
+         */
+        accept?: ((id: number, hit: Readonly<SweepHit>) => boolean) | undefined;
+        /** Not with `accept`. */
+        visit?: undefined;
+      }
+    | {
+        /**
+         * Called for each box on the path, by time, instead of returning the first; `false` ends the search. The hit is
+         * the same object each time. Without `accept`: a visitor sees all hits.
+         */
+        visit?: ((id: number, time: number, hit: Readonly<SweepHit>) => unknown) | undefined;
+        /** Not with `visit`. */
+        accept?: undefined;
+      }
+  );
 
 /** Answers to many queries. */
 export interface ManyIds {
@@ -230,9 +242,4 @@ export function checkMost(where: string, k: unknown): number {
 
 export function checkVisitor(where: string, visitor: unknown): void {
   if (typeof visitor !== 'function') badValue(where, visitor, 'a function', true);
-}
-
-export function checkDistance(where: string, distance: number): number {
-  if (!isSize(distance)) badNumber(where, distance, 'a number, at least 0');
-  return distance;
 }

@@ -14,37 +14,33 @@ export interface Filter {
 type Call = 'set_filter' | 'set_static' | 'set_enabled' | 'set_group' | 'set_reach';
 
 export function setFilter(instance: KernelInstance, id: number, layer: number, mask: number): void {
-  checkId('setFilter', id);
   checkBits('setFilter: layer', layer);
   checkBits('setFilter: mask', mask);
   tell(instance, 'setFilter', 'set_filter', id, layer, mask);
 }
 
 export function setStatic(instance: KernelInstance, id: number, isStatic: boolean): void {
-  checkId('setStatic', id);
   checkBoolean('setStatic: isStatic', isStatic);
   tell(instance, 'setStatic', 'set_static', id, isStatic ? 1 : 0);
 }
 
 export function setEnabled(instance: KernelInstance, id: number, enabled: boolean): void {
-  checkId('setEnabled', id);
   checkBoolean('setEnabled: enabled', enabled);
   tell(instance, 'setEnabled', 'set_enabled', id, enabled ? 1 : 0);
 }
 
 export function setGroup(instance: KernelInstance, id: number, group: number): void {
-  checkId('setGroup', id);
   checkBits('setGroup: group', group);
   tell(instance, 'setGroup', 'set_group', id, group);
 }
 
 export function setReach(instance: KernelInstance, id: number, distance: number): void {
-  checkId('setReach', id);
   if (!isFinitePositive(distance, 0)) badNumber('setReach: distance', distance, 'a finite number, at least 0');
   tell(instance, 'setReach', 'set_reach', id, distance);
 }
 
 function tell(instance: KernelInstance, where: string, call: Call, id: number, value: number, mask = 0): void {
+  checkId(where, id);
   try {
     if (instance.kernel[call](id, value, mask) === 0) noBox(where, id);
   } catch (error) {

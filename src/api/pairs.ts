@@ -118,7 +118,8 @@ export interface Pairs<D extends Dimensions> {
    * in no pair, and static boxes and groups make no difference. The order depends on the calls made. The array stays as
    * it is until the next call. If tens of thousands of boxes move, the first call may detach views such as `pairs`.
    *
-   * @param other a space with the same `dimensions`, `wrap` and `touching`
+   * @param other a space with the same `dimensions`, `wrap` and `touching`, of the same entry point, imported from the
+   *   same copy of the package
    * @throws TypeError for anything but another space; RangeError for one that differs in these; Error for one that was
    *   disposed, and as queries do: see {@link BroadPhase}
    *

@@ -172,7 +172,8 @@ export interface Queries<D extends Dimensions> {
    * The first box that a moving box hits, or `undefined`: the swept test for boxes that move too fast to be tested
    * frame by frame. It hits the boxes that its path leads into: a box on a floor hits it only when it moves down. A box of
    * zero size along an axis also hits the edges there, as a ray does: on a row of tiles the next one. If it overlaps a box
-   * from the start, the time is 0 and the normal is all zeros. Of several hit at the same time, faces come before
+   * from the start, the time is 0 and the normal is all zeros, unless it also moves into a box of a smaller id that it
+   * touches, which then comes first. Of several hit at the same time, faces come before
    * corners, then the smallest id. A box that is in the space hits itself: name it in `ignore`. A box that stops at
    * `x + dx * time` touches, up to rounding, and never ends inside: see the guide to queries. 2D: `sweep(minX, minY, maxX,
    * maxY, dx, dy, options?)`, 3D: `sweep(minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz, options?)`.

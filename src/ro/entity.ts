@@ -120,7 +120,7 @@ export class Entity {
     if (!Number.isFinite(pos.x) || !Number.isFinite(pos.y)) {
       throw new RangeError(`${this.#name()}: pos is ${ov3.str(pos)}, expected finite numbers`);
     }
-    if (!(size.x >= 0 && size.y >= 0 && size.x < Infinity && size.y < Infinity)) {
+    if (!(Number.isFinite(size.x) && Number.isFinite(size.y) && size.x >= 0 && size.y >= 0)) {
       throw new RangeError(`${this.#name()}: size is ${ov3.str(size)}, expected finite numbers, 0 or more`);
     }
     const { min, max } = this.#aabb;

@@ -1,4 +1,5 @@
 // Arithmetic and geometry on plain numbers, for games on a grid.
+import { checkFinite } from './checks.ts';
 import type { Vector } from './vector.ts';
 
 /**
@@ -10,9 +11,7 @@ import type { Vector } from './vector.ts';
  * math.toNearest(37, 10); // → 40
  */
 export function toNearest(value: number, multiple: number): number {
-  if (!(multiple > 0 && multiple < Infinity)) {
-    throw new RangeError(`ro.math: multiple is ${multiple}, expected a finite number above 0`);
-  }
+  checkFinite('ro.math: multiple', multiple);
   return Math.round(value / multiple) * multiple;
 }
 
@@ -54,7 +53,8 @@ export function angleTo(x1: number, y1: number, x2?: number, y2?: number): numbe
 }
 
 /**
- * Where the endless line through points 1 and 2 meets the one through points 3 and 4.
+ * Where the endless line through points 1 and 2 meets the one through points 3 and 4, rounded. It holds where
+ * coordinates differ by 0 or by 1e-50 to 1e50: beyond, products may overflow or vanish, and the result is wrong or null.
  * @param target filled and returned, if given
  * @returns the point, or null when the lines are parallel
  *

@@ -3,6 +3,7 @@
 // The canvas' width and height attributes, as they are when the screen is made, say how much of the world is seen.
 // How large that is shown is CSS's business (say `width: 100%`), and the number of pixels behind it follows from both
 // and the display's density, so lines stay sharp on any display, at any size, at any zoom.
+import { checkFinite } from './checks.ts';
 import type { Vector } from './vector.ts';
 
 /**
@@ -27,9 +28,7 @@ export class Screen {
    * @throws RangeError for another scale, Error when the canvas has no 2D context to give.
    */
   constructor(canvas: HTMLCanvasElement, scale = 1) {
-    if (!(scale > 0 && scale < Infinity)) {
-      throw new RangeError(`ro.Screen: scale is ${scale}, expected a finite number above 0`);
-    }
+    checkFinite('ro.Screen: scale', scale);
     const ctx = canvas.getContext('2d');
     if (!ctx)
       throw new Error('ro.Screen: the canvas has no 2D context; expected one without a context of another kind');

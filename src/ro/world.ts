@@ -2,6 +2,7 @@
 //
 // Positions advance in steps of one fixed length, because the velocity of Verlet integration is a distance per step.
 // The loop lets the display call as often as it likes and takes as many steps as the time since then is worth.
+import { checkFinite } from './checks.ts';
 import { BruteForce } from './coltech/brute-force.ts';
 import type { Pair, Technique } from './coltech/technique.ts';
 import type { Entity } from './entity.ts';
@@ -39,6 +40,8 @@ export interface WorldOptions<E extends Entity = Entity> {
 }
 
 const optionNames = ['coltech', 'debug', 'scale', 'timeStep', 'init', 'draw', 'handleCollisions', 'update'];
+/** From this place on, they are functions. */
+const firstCallback = 4;
 
 /**
  * Holds the entities, moves them on step by step, and ties technique, screen and input together. One step: clear the
@@ -86,17 +89,23 @@ export class World<E extends Entity = Entity> {
   /**
    * @param canvas a canvas, the id of one, or null for a world that draws nothing and needs no page
    * @throws Error for an id that no canvas of the page has, RangeError for a number out of range, TypeError for an unknown
-   * option.
+   * option and for a value of another type.
    */
   constructor(canvas: HTMLCanvasElement | string | null, options: WorldOptions<E> = {}) {
     for (const name in options) {
-      if (optionNames.includes(name)) continue;
-      throw new TypeError(`ro.World: there is no option "${name}", expected one of ${optionNames.join(', ')}`);
+      const place = optionNames.indexOf(name);
+      if (place < 0) {
+        throw new TypeError(`ro.World: there is no option "${name}", expected one of ${optionNames.join(', ')}`);
+      }
+      const value = options[name as keyof typeof options];
+      if (place >= firstCallback && value !== undefined && typeof value !== 'function') {
+        refuse(name, value, 'a function');
+      }
     }
     const { coltech = new BruteForce<E>(), debug = false, scale = 1, timeStep = DEFAULT_TIME_STEP } = options;
-    if (!(timeStep > 0 && timeStep < Infinity)) {
-      throw new RangeError(`ro.World: timeStep is ${timeStep}, expected a finite number of milliseconds above 0`);
-    }
+    if (typeof debug !== 'boolean') refuse('debug', debug, 'true or false');
+    checkFinite('ro.World: scale', scale);
+    checkFinite('ro.World: timeStep', timeStep);
     expectEmpty(coltech);
     this.screen = canvas === null ? null : new Screen(findCanvas(canvas), scale);
     this.input = this.screen && new Input(this.screen);
@@ -206,9 +215,7 @@ export class World<E extends Entity = Entity> {
    * world.step(-1); // throws RangeError: ro.World: dt is -1
    */
   step(dt: number = this.timeStep): void {
-    if (!(dt >= 0 && dt < Infinity)) {
-      throw new RangeError(`ro.World: dt is ${dt}, expected a finite number of milliseconds, 0 or more`);
-    }
+    checkFinite('ro.World: dt', dt, 0);
 
     this.screen?.clear();
     this.draw();
@@ -298,7 +305,13 @@ export class World<E extends Entity = Entity> {
   }
 }
 
-function expectEmpty({ entities: { length } }: { entities: readonly unknown[] }): void {
+function refuse(name: string, value: unknown, expected: string): never {
+  throw new TypeError(`ro.World: ${name} is ${String(value)}, expected ${expected}`);
+}
+
+function expectEmpty(coltech: { entities: readonly unknown[] }): void {
+  if (!Array.isArray(coltech?.entities)) refuse('coltech', coltech, 'a technique, such as those of ro.coltech');
+  const { length } = coltech.entities;
   if (length > 0) throw new Error(`ro.World: the coltech has ${length} entities, expected one without any`);
 }
 

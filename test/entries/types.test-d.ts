@@ -62,6 +62,10 @@ space3.queryPlanes([{ normal: [0, 0, 1], constant: 0 }]);
 space2.rayCast(0, 0, 1, 0)?.distance.toFixed();
 space3.rayCastAll(0, 0, 0, 1, 0, 0, { out: [] }).at(0);
 space2.sweep(0, 0, 1, 1, 5, 5, { ignore: 1 })?.time.toFixed();
+space2.sweep(0, 0, 1, 1, 5, 5, { accept: (id, hit) => id > hit.time });
+space2.sweep(0, 0, 1, 1, 5, 5, { visit: (id, time, hit) => id > time + hit.time });
+// @ts-expect-error: a visitor sees all hits
+space2.sweep(0, 0, 1, 1, 5, 5, { accept: () => true, visit: () => true });
 space3.nearest(0, 0, 0, 2, { maxDistance: 1 });
 // @ts-expect-error: a box of four numbers in 3D
 space3.queryBox(0, 0, 1, 1);

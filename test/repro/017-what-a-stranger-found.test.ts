@@ -84,7 +84,7 @@ describe('what is wrong is said', () => {
   test.each<[string, () => unknown]>([
     ['wrap: got [, ], expected 2 numbers above 0', () => new BroadPhase({ wrap: new Array(2) as never })],
     ['setStatic: isStatic: got undefined', () => space.setStatic(7, undefined as never)],
-    ['expected another BroadPhase of the same entry point', () => space.pairsWith({} as never)],
+    ['expected another BroadPhase, of the same import', () => space.pairsWith({} as never)],
     ['the id is [[[object Array]]]', () => space.has(circular as never)],
     ['the id is a hostile object', () => space.has(revoked.proxy as never)],
     [

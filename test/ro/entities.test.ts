@@ -270,6 +270,27 @@ describe('bad input', () => {
     expect(() => new ro.World(null, { timeStep })).toThrow(`timeStep is ${timeStep}, expected a finite number`);
   });
 
+  test.each([
+    [{ scale: -1 }, 'scale is -1, expected a finite number above 0'],
+    [{ debug: 1 }, 'debug is 1, expected true or false'],
+    [{ update: 5 }, 'update is 5, expected a function'],
+    [{ init: 5 }, 'init is 5, expected a function'],
+    [{ draw: null }, 'draw is null, expected a function'],
+    [{ timeStep: '16' }, 'timeStep is 16, expected a finite number above 0'],
+    [{ coltech: 5 }, 'coltech is 5, expected a technique'],
+    [{ coltech: null }, 'coltech is null, expected a technique, such as those of ro.coltech'],
+    [{ coltech: {} }, 'coltech is [object Object], expected a technique, such as those of ro.coltech'],
+  ])('the options of a world cannot be %o', (options, message) => {
+    expect(() => new ro.World(null, options as never)).toThrow(message);
+  });
+
+  test('nor can its technique be set to something else, nor a step be a string', () => {
+    const world = new ro.World(null);
+    expect(() => Object.assign(world, { broadPhase: {} })).toThrow('coltech is [object Object], expected a technique');
+    expect(() => world.step('16' as never)).toThrow('ro.World: dt is 16, expected a finite number');
+    expect(() => new ro.Entity(0, 0, '5' as never, 1)).toThrow('size is');
+  });
+
   test('a canvas has to be one, and an id the id of one', () => {
     expect(() => new ro.World('game')).toThrow(/there is no document to find the canvas "game" in; expected null/);
     vi.stubGlobal('document', { getElementById: (id: string) => (id === 'text' ? {} : null) });

@@ -48,8 +48,10 @@ test.each([2, 3] as const)('bad boxes and ways are refused in %d dimensions', (d
       expect(() => setSwept(space, 1, ...good.with(at, value as unknown as number))).toThrow(TypeError);
     }
   }
-  expect(() => setSwept(space, 1, ...good.with(0, 2))).toThrow('setSwept: minX: got 2');
-  expect(() => setSwept(space, 1, ...good.with(2 * dimensions, Infinity))).toThrow('setSwept: dx: got Infinity');
+  expect(() => setSwept(space, 1, ...good.with(0, 2))).toThrow('setSwept: minX of box 1: got 2');
+  expect(() => setSwept(space, 1, ...good.with(2 * dimensions, Infinity))).toThrow(
+    'setSwept: dx of box 1: got Infinity',
+  );
   expect(() => setSwept(space, 1, ...good, 1)).toThrow(
     `setSwept: got ${2 + good.length} arguments for box 1, expected`,
   );

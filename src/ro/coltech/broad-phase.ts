@@ -23,8 +23,6 @@ export class BroadPhase<E extends Collidable = Entity> extends EntityList<E> {
   readonly #slots: (E | undefined)[] = [];
   readonly #slotOf = new Map<E, number>();
   readonly #free: number[] = [];
-  /** Given up since the last update, whose pairs may still name them: free only at the next one. */
-  #released: number[] = [];
 
   /** @param options those of `broadphase`; the world is flat, so `dimensions` is always 2 */
   constructor(options: Omit<BroadPhaseOptions, 'dimensions'> = {}) {
@@ -60,17 +58,13 @@ export class BroadPhase<E extends Collidable = Entity> extends EntityList<E> {
     super.removeEntity(entity);
     const slot = this.idOf(entity);
     this.#slotOf.delete(entity);
-    this.#released.push(slot);
+    this.#slots[slot] = undefined;
+    this.#free.push(slot);
     this.space.delete(slot);
   }
 
   override update(): void {
     super.update();
-    for (const slot of this.#released) {
-      this.#slots[slot] = undefined;
-      this.#free.push(slot);
-    }
-    this.#released = [];
     this.#slots.forEach((entity, slot) => {
       if (entity) this.#place(slot, entity);
     });
@@ -79,6 +73,7 @@ export class BroadPhase<E extends Collidable = Entity> extends EntityList<E> {
   }
 
   queryForCollisionPairs(): Pair<E>[] {
+    this.refresh();
     const ids = this.space.pairs;
     const pairs: Pair<E>[] = [];
     for (let i = 0; i < ids.length; i += 2) {

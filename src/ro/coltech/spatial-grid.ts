@@ -146,6 +146,7 @@ export class SpatialGrid<E extends Collidable = Entity> extends EntityList<E> {
 
   /** Tests the entities of every occupied cell against each other, each pair once. */
   queryForCollisionPairs(): Pair<E>[] {
+    this.refresh();
     const pairs: Pair<E>[] = [];
     const checked = new Set<string>();
     this.collisionTests = 0;

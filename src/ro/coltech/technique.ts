@@ -14,16 +14,17 @@ export interface Technique<E extends Collidable = Entity> {
   addEntity(entity: E): void;
   /** No longer looks after this entity. */
   removeEntity(entity: E): void;
-  /** Reads where the entities are now. Has to follow every move, adding and removing before the next query. */
+  /** Reads where the entities are now. Nothing may move between it and a query that follows, as in a world's step. */
   update(): void;
-  /** Every pair of entities whose boxes overlapped at the last update, each pair once. */
+  /** Every pair of entities whose boxes overlap, each pair once. Those in `coltech` need no update before. */
   queryForCollisionPairs(): Pair<E>[];
   /** Strokes the structure it searches, in world units. */
   draw?(ctx: CanvasRenderingContext2D): void;
 }
 
 /**
- * The part of a technique that is the same for all of them: to write one, add `queryForCollisionPairs`.
+ * The part of a technique that is the same for all of them: to write one, add `queryForCollisionPairs`, which calls
+ * `refresh` first if it needs `update`.
  *
  * @example
  * class Nothing extends coltech.EntityList {
@@ -48,6 +49,8 @@ export abstract class EntityList<E extends Collidable = Entity> implements Techn
   readonly #byId = new Map<number, E>();
   /** They as an array, until one comes or goes. */
   #list: readonly E[] | undefined;
+  /** Whether the next query comes right after an update. */
+  #fresh = false;
 
   /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
   get [Symbol.toStringTag](): string {
@@ -79,7 +82,7 @@ export abstract class EntityList<E extends Collidable = Entity> implements Techn
     if (present) throw new Error(`addEntity: another entity has the _roId ${id}, expected each to have its own`);
     checkAABB(entity);
     this.#byId.set(id, entity);
-    this.#list = undefined;
+    this.#changed();
   }
 
   /** @throws Error for an entity that is not here; the list stays as it was. */
@@ -88,12 +91,34 @@ export abstract class EntityList<E extends Collidable = Entity> implements Techn
       throw new Error(`removeEntity: entity ${entity._roId} is not here, expected one that was added`);
     }
     this.#byId.delete(entity._roId);
+    this.#changed();
+  }
+
+  #changed(): void {
     this.#list = undefined;
+    this.#fresh = false;
   }
 
   /** @throws RangeError for the first entity whose box is not one (NaN, or min above max), naming it. */
   update(): void {
     for (const entity of this.#byId.values()) checkAABB(entity);
+    this.#fresh = true;
+  }
+
+  /**
+   * Updates, unless `update` was called since the last query, and nothing was added or removed since: the first thing
+   * that a query does. So a world's step updates once, and a query at any other time sees the boxes as they are.
+   * @throws as `update` does.
+   *
+   * @example
+   * const technique = new coltech.SpatialGrid(0, 0, 100, 100, 10);
+   * new World(null, { coltech: technique }).addEntity(new Entity(0, 0, 4, 4));
+   * technique.refresh();
+   * technique.allocatedCells; // → 1
+   */
+  refresh(): void {
+    if (!this.#fresh) this.update();
+    this.#fresh = false;
   }
 
   abstract queryForCollisionPairs(): Pair<E>[];
