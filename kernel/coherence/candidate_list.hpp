@@ -7,7 +7,7 @@
 //   - Late: a box that has left its region gets another, with the candidates that this adds. They are searched for in
 //     the strips that were swept to make the list, and among the new regions of other late boxes. Its base, which is
 //     its first region, still determines which candidates are listed. If it is late again, its region also reaches back
-//     to the one before, so that boxes that jitter are soon held.
+//     to the one before, so that boxes that jitter are soon held, and ahead, for those that move on.
 //   - At rest: a box that has not moved since the previous list was made is its own region. Pairs of two such boxes are
 //     settled: they are at the head of the list of pairs and are not tested again. In a world that wraps around, boxes at
 //     its border are never at rest, since their pairs have to be folded in each update.
@@ -154,7 +154,7 @@ template <int D> class CandidateList {
   /// Finds the candidates of a list that has begun. Gives up and returns false if that takes more than `most` tests.
   SMALL bool finish(f64 most) {
     if (!anew_.sweep(candidates_, most)) return false;
-    if (known_.groups || known_.classes) filter(candidates_, [&](u32 a, u32 b) { return !are_apart(a, b); });
+    if (known_.groups || known_.classes) candidates_.filter([&](u32 a, u32 b) { return !are_apart(a, b); });
     built_.candidates = f64(candidates_.count);
     if (resting_ > 0) settle();
     return finished_ = true;
@@ -242,14 +242,14 @@ template <int D> class CandidateList {
       if (slot < known)
         ahead = bounded((shift_(load<f32x4>(box)) - load<f32x4>(origins_.data() + u64(slot) * width)) * splat(lead),
                         far);
-      widen(box, bits<f32>(bits<u32>(margin) & (rest - 1)), ahead, region(slot));
+      f32x4 aside = splat(bits<f32>(bits<u32>(margin) & (rest - 1)));
+      widen(box, min(ahead, f32x4{}) - aside, max(ahead, f32x4{}) + aside, region(slot));
       tags_[slot] = rest | scene.rule_of(slot);
     }
   }
 
-  /// Enlarges a box by `aside` on all sides, and by `ahead` in its direction. In 3D, writes one number past the region.
-  static void widen(const f32* box, f32 aside, f32x4 ahead, f32* out) {
-    f32x4 low = min(ahead, f32x4{}) - splat(aside), high = max(ahead, f32x4{}) + splat(aside);
+  /// Adds `low` to the minima of a box, and `high` to its maxima. In 3D, writes one number past the region.
+  static void widen(const f32* box, f32x4 low, f32x4 high, f32* out) {
     if constexpr (D == 2) store(out, load<f32x4>(box) + __builtin_shufflevector(low, high, 0, 1, 4, 5));
     else {
       store(out, load<f32x4>(box) + low);
@@ -359,17 +359,6 @@ template <int D> class CandidateList {
   /// The base of a box: the region that it had first.
   const f32* base(u32 slot) const { return tags_[slot] & moved ? places_.base(slot) : region(slot); }
 
-  template <class Stays> NOINLINE static void filter(Pairs& pairs, Stays stays) {
-    u64 left = 0;
-    u64* list = pairs.list.data();
-    for (u64 k = 0; k < pairs.count; k++) {
-      u64 pair = list[k];
-      list[left] = pair;
-      left += stays(u32(pair), u32(pair >> 32));
-    }
-    pairs.count = left;
-  }
-
   /// Gives new regions to the late boxes; those from slot `had` on had none. Returns false if that means testing more
   /// regions than `enough`.
   SMALL bool serve(const Scene<D>& scene, u32* list, u32 had, u64 enough, f32 margin) {
@@ -394,14 +383,14 @@ template <int D> class CandidateList {
     auto filter_listed = [&](u32 a, u32 b) { return b < count_ && !((tags_[a] | tags_[b]) & fresh); };
     if (had > count_ || (were & fresh)) {
       head_ = 0;
-      filter(candidates_, filter_listed);
-      filter(settled_, filter_listed);
+      candidates_.filter(filter_listed);
+      settled_.filter(filter_listed);
     }
     if (were & rests) {
       met_ += settled_.count;  // each is gone through here, and copied by `report`
       unsettle();
     }
-    filter(extra_, [&](u32 a, u32 b) { return b < count_ && !(places_.is_marked(a) | places_.is_marked(b)); });
+    extra_.filter([&](u32 a, u32 b) { return b < count_ && !(places_.is_marked(a) | places_.is_marked(b)); });
     for (u32 k = 0; k < many && met_ <= enough; k++) enlarge(scene, list[k], larger(margin_, margin), list + many);
     for (u32 k = 0; k < many; k++) tags_[list[k]] &= ~fresh;
     late_count_ = many + had - smaller(had, count_);
@@ -428,15 +417,30 @@ template <int D> class CandidateList {
     settled_.count = left;
   }
 
-  /// Gives a late box a new region, with a margin of `aside`, or of the list if it jumped. `near`: room for all slots.
+  /// Finds a new region for a late box: with a margin of `aside`, or of the list if it has moved on by more than its size.
+  /// If it is late again, its region reaches back to the one before, and as far ahead as it got from that.
+  void find_region(const f32* its, const f32* before, u32 tag, f32 aside, f32* out) const {
+    f32 box[width + padding];
+    shifted(its, box);
+    f32x4 low = load<f32x4>(before) - load<f32x4>(box), high = load<f32x4>(before + D) - load<f32x4>(box + D);
+    i32x4 far = (low > splat(2 * aside)) | (high < splat(-2 * aside));
+    if (!(tag & fresh) && (bitmask(far) & ((1 << D) - 1))) aside = margin_;
+    f32x4 least = splat(-aside), most = splat(aside);
+    if (tag & again) {
+      f32x4 ahead = (low + high) * splat(aside > margin_ ? -0.5f : 0);
+      least += min(ahead, f32x4{});
+      most += max(ahead, f32x4{});
+      least = min(max(low, least - splat(aside)), least);
+      most = max(min(high, most + splat(aside)), most);
+    }
+    widen(box, least, most, out);
+  }
+
+  /// Gives a late box a new region. `near`: room for all slots.
   NOINLINE void enlarge(const Scene<D>& scene, u32 slot, f32 aside, u32* near) {
-    f32 box[width + padding], larger_one[width + padding];
+    f32 larger_one[width + padding];
     u32 tag = tags_[slot];
-    shifted(scene.box(slot), box);
-    widen(region(slot), 2 * aside, f32x4{}, larger_one);  // a box that has left this has jumped
-    if (!(tag & fresh) && !is_expected<false>(scene.box(slot), larger_one, tag, shift_)) aside = margin_;
-    widen(box, aside, f32x4{}, larger_one);
-    if (tag & again) reach(larger_one, region(slot), aside);
+    find_region(scene.box(slot), region(slot), tag, aside, larger_one);
     const f32* its_base = base(slot);
     u32 found = 0;
     for (u32 k = 0, all = anew_.near(larger_one, near, met_); k < all; k++) {
@@ -457,18 +461,10 @@ template <int D> class CandidateList {
     places_.put(larger_one, slot);
   }
 
-  /// Enlarges a region by up to `most` on each side, as far as another one extends beyond it.
-  static void reach(f32* its, const f32* other, f32 most) {
-    for (u32 k = 0; k < width; k++) {
-      f32 by = other[k] - its[k];
-      if (k < D ? by < 0 : by > 0) its[k] += k < D ? larger(by, -most) : smaller(by, most);
-    }
-  }
-
-  /// Writes a box without the common motion since the list was made.
+  /// Writes a box without the common motion since the list was made, and what follows the box.
   void shifted(const f32* box, f32* out) const {
     store(out, shift_(load<f32x4>(box)));
-    if constexpr (D == 3) store(out + D, shift_(load<f32x4>(box + D)));
+    store(out + D, shift_(load<f32x4>(box + D)));
   }
 
   static void test(const Scene<D>& scene, const Pairs& candidates, Pairs& pairs) {

@@ -35,6 +35,18 @@ struct Pairs {
     return out;
   }
 
+  /// Removes the pairs for whose slots `stays` is false.
+  template <class Stays> NOINLINE void filter(Stays stays) {
+    u64 left = 0;
+    u64* pairs = list.data();
+    for (u64 k = 0; k < count; k++) {
+      u64 pair = pairs[k];
+      pairs[left] = pair;
+      left += stays(u32(pair), u32(pair >> 32));
+    }
+    count = left;
+  }
+
   /// Some of the pairs between two places are in doubt.
   NOINLINE void doubt(const u64* from, const u64* until) {
     u64 begin = between(list.data(), from), end = between(list.data(), until);
