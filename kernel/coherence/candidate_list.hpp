@@ -427,6 +427,7 @@ template <int D> class CandidateList {
     if (!(tag & fresh) && (bitmask(far) & ((1 << D) - 1))) aside = margin_;
     f32x4 least = splat(-aside), most = splat(aside);
     if (tag & again) {
+      // A list with a margin as wide as this holds boxes that move on; those that leave it jitter or have jumped.
       f32x4 ahead = (low + high) * splat(aside > margin_ ? -0.5f : 0);
       least += min(ahead, f32x4{});
       most += max(ahead, f32x4{});

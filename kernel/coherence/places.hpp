@@ -12,6 +12,7 @@
 
 template <int D> class Places {
   static constexpr u32 most_grids = 13, width = 2 * D, padding = 4;
+  static constexpr u32 finest = D == 2 ? 2 : 4;  // cells per box, at most; with fewer, distant boxes share them
   static constexpr f32 whole = 8388608;  // 2^23: added to a number, it leaves the nearest integer in the low bits
 
   struct Range {
@@ -130,7 +131,7 @@ template <int D> class Places {
   /// Makes empty grids for this many boxes, the finest with cells of this width; returns how many cells they have.
   SMALL u32 divide(u32 boxes, f32 cell) {
     u32 side = 1, all = 0;
-    while (in_all(2 * side) <= (D == 2 ? 2 : 4) * boxes && side < 1u << (most_grids - 1)) side *= 2;
+    while (in_all(2 * side) <= finest * boxes && side < 1u << (most_grids - 1)) side *= 2;
     for (grid_count_ = 0; side > 0; side /= 2, cell *= 2) {
       grids_[grid_count_++] = {1 / cell, side, all, false};
       all += in_all(side);

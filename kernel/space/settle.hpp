@@ -67,16 +67,10 @@ SMALL void settle_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles
 }
 
 /// Removes pairs within a group.
-NOINLINE inline void part_groups(Pairs& pairs, const u32* groups) {
-  u64* list = pairs.list.data();
-  u64 kept = 0;
-  for (u64 p = 0; p < pairs.count; p++) {
-    u64 pair = list[p];
-    list[kept] = pair;
-    kept += !one_group(groups[u32(pair)], groups[pair >> 32]);
-  }
-  if (kept < pairs.count) pairs.stable = 0;
-  pairs.count = kept;
+inline void part_groups(Pairs& pairs, const u32* groups) {
+  u64 had = pairs.count;
+  pairs.filter([&](u32 a, u32 b) { return !one_group(groups[a], groups[b]); });
+  if (pairs.count < had) pairs.stable = 0;
 }
 
 /// Replaces slots by ids, the smaller first. What is kept has been named before.

@@ -39,9 +39,8 @@ export interface WorldOptions<E extends Entity = Entity> {
   update?(this: World<E>, dt: number): void;
 }
 
-const optionNames = ['coltech', 'debug', 'scale', 'timeStep', 'init', 'draw', 'handleCollisions', 'update'];
-/** From this place on, they are functions. */
-const firstCallback = 4;
+const callbackNames = ['init', 'draw', 'handleCollisions', 'update'];
+const optionNames = ['coltech', 'debug', 'scale', 'timeStep', ...callbackNames];
 
 /**
  * Holds the entities, moves them on step by step, and ties technique, screen and input together. One step: clear the
@@ -93,12 +92,11 @@ export class World<E extends Entity = Entity> {
    */
   constructor(canvas: HTMLCanvasElement | string | null, options: WorldOptions<E> = {}) {
     for (const name in options) {
-      const place = optionNames.indexOf(name);
-      if (place < 0) {
+      if (!optionNames.includes(name)) {
         throw new TypeError(`ro.World: there is no option "${name}", expected one of ${optionNames.join(', ')}`);
       }
       const value = options[name as keyof typeof options];
-      if (place >= firstCallback && value !== undefined && typeof value !== 'function') {
+      if (callbackNames.includes(name) && value !== undefined && typeof value !== 'function') {
         refuse(name, value, 'a function');
       }
     }
