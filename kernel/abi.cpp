@@ -203,30 +203,24 @@ EXPORT(techniques)() -> u32 {
 EXPORT(set_technique)(u32 technique) -> void {
   with_space([&](auto& space) { space.technique = Technique(technique); });
 }
-EXPORT(update)() -> i32 {
-  return with_space([](auto& space) { return space.update(); });
-}
-EXPORT(pairs_address)() -> u64* {
-  return with_space([](auto& space) { return space.pairs.list.data(); });
-}
-EXPORT(pair_count)() -> u32 {
-  return with_space([](auto& space) { return u32(space.pairs.count); });
+/// Adds or moves the boxes that wait in the ring, and brings the pairs up to date. Where these are is in the counters.
+EXPORT(update)(u32 waiting) -> i32 {
+  return with_ring([&](auto& space, auto& ring) {
+    if (waiting) space.store.take_for_update(ring, waiting);
+    return space.update();
+  });
 }
 /// Turns events on: each update records the pairs that began and ended.
 EXPORT(set_events)() -> void {
   with_space([](auto& space) { space.store.keeps_events = true; });
 }
-EXPORT(began_address)() -> u64* {
-  return with_space([](auto& space) { return space.store.events.began.list.data(); });
-}
-EXPORT(began_count)() -> u32 {
-  return with_space([](auto& space) { return u32(space.store.events.began.count); });
-}
-EXPORT(ended_address)() -> u64* {
-  return with_space([](auto& space) { return space.store.events.ended.list.data(); });
-}
-EXPORT(ended_count)() -> u32 {
-  return with_space([](auto& space) { return u32(space.store.events.ended.count); });
+/// The pairs that began with the last update, or those that ended. In io: how many.
+EXPORT(events)(u32 ended) -> u64* {
+  return with_space([&](auto& space) {
+    const Pairs& pairs = ended ? space.store.events.ended : space.store.events.began;
+    io[0] = f64(pairs.count);
+    return pairs.list.data();
+  });
 }
 EXPORT(is_pair)(u32 a, u32 b) -> u32 {
   return with_space([&](auto& space) { return space.is_pair(a, b); });

@@ -22,7 +22,7 @@ import type { Technique as LeanTechnique } from './generated/kernel-lean.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import type { Ring } from './kernel/ring.ts';
 import { type BroadPhaseOptions, type ConstructorOptions, open } from './options.ts';
-import { beganIn, eachPair, endedIn, pairsIn, update } from './pairs.ts';
+import { began, eachPair, ended, eventsIn, pairCount, pairsIn, update } from './pairs.ts';
 import { type Kept, pairsWith } from './pairs-between.ts';
 import * as places from './place-queries.ts';
 import { queryPlanes } from './plane-queries.ts';
@@ -49,7 +49,7 @@ import type {
 } from './query-options.ts';
 import * as rules from './rules.ts';
 import { restore, snapshot } from './snapshot.ts';
-import { noStats, type Stats } from './stats.ts';
+import { newStats, type Stats } from './stats.ts';
 import { builtNames, checkTechnique, type TechniqueName, techniques } from './techniques.ts';
 import { structure, validate } from './validate.ts';
 import { show, type Watcher, type World, watch } from './watch.ts';
@@ -94,7 +94,8 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   readonly #instance: KernelInstance;
   /** The ring of the instance: boxes that wait to be taken by the kernel. */
   readonly #ring: Ring;
-  readonly #stats = noStats();
+  /** The counters, once somebody has asked for them. */
+  #stats: Stats | undefined;
   /** Spare hit objects, from answers that were shorter than the one before, to reuse in a longer one. */
   readonly #spareHits: RayHit[] = [];
   /** Pairs with other spaces. */
@@ -324,13 +325,13 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     return eachPair(this.pairs.slice());
   }
   get pairCount(): number {
-    return this.#instance.kernel.pair_count();
+    return pairCount(this.#instance);
   }
   get began(): Uint32Array {
-    return beganIn(this.#instance);
+    return eventsIn(this.#instance, began);
   }
   get ended(): Uint32Array {
-    return endedIn(this.#instance);
+    return eventsIn(this.#instance, ended);
   }
   /** The instance, for a call: it is refused if it has too many arguments, undefined ones too, as `set` is. */
   #with(where: string, got: number, most: number): KernelInstance {
@@ -423,6 +424,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
 
   get stats(): Readonly<Stats> {
+    this.#stats ??= newStats(this.#instance);
     return this.#stats;
   }
   get technique(): TechniqueName {

@@ -9,7 +9,6 @@ import type { KernelInstance } from './kernel/instance.ts';
 import { builtDimensions } from './kernel/load.ts';
 import { type BroadPhaseOptions, checkNames, open } from './options.ts';
 import { pairsIn, update } from './pairs.ts';
-import { noStats } from './stats.ts';
 import { isFloat32Array } from './values.ts';
 
 /** Spare spaces by dimensions. A space in use is not in here, since a getter in the caller's array may call again. */
@@ -17,9 +16,6 @@ const spares: (KernelInstance | undefined)[] = [];
 
 /** A space that has used more bytes of memory than this is not kept, since touched memory is not returned. */
 const mostBytes = 64 * 2 ** 20;
-
-/** The counters of the last search, which are not used. */
-const stats = noStats();
 
 /** The space for a call with these options. */
 function borrow(where: string, options?: BroadPhaseOptions<Dimensions>): KernelInstance {
@@ -97,7 +93,7 @@ export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOp
 
 /** The pairs of the boxes in a space, as an independent array. */
 function search(space: KernelInstance, where: string): Uint32Array {
-  update(space, stats, where);
+  update(space, undefined, where);
   return pairsIn(space).slice();
 }
 

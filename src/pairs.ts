@@ -1,14 +1,15 @@
 // Updates, and views of the pairs that they find, in the kernel's memory.
 import { badInPlace, checkExposed } from './boxes.ts';
+import { addressStat, pairsStat } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { readStats, type Stats } from './stats.ts';
 
-/** Finds the pairs of the present boxes, and updates the counters. */
-export function update(instance: KernelInstance, stats: Stats, where = 'update'): void {
+/** Finds the pairs of the present boxes, and updates the counters if there are any. */
+export function update(instance: KernelInstance, stats: Stats | undefined, where = 'update'): void {
   checkExposed(instance, where);
   let bad = -1;
   try {
-    bad = instance.kernel.update();
+    bad = instance.ring.update();
   } catch (error) {
     try {
       instance.recover(error, where);
@@ -22,25 +23,21 @@ export function update(instance: KernelInstance, stats: Stats, where = 'update')
 }
 
 // The three lists of pairs.
-const all = 0;
-const began = 1;
-const ended = 2;
+export const began = 0;
+export const ended = 1;
+const all = 2;
 
 export function pairsIn(instance: KernelInstance): Uint32Array {
-  const { kernel } = instance;
-  return instance.pairView(all, kernel.pairs_address(), kernel.pair_count());
+  const stats = instance.statsView();
+  return instance.pairView(all, stats[addressStat]!, stats[pairsStat]!);
 }
 
-export function beganIn(instance: KernelInstance): Uint32Array {
-  if (!instance.events) noEvents('began');
-  const { kernel } = instance;
-  return instance.pairView(began, kernel.began_address(), kernel.began_count());
-}
+export const pairCount = (instance: KernelInstance): number => instance.statsView()[pairsStat]!;
 
-export function endedIn(instance: KernelInstance): Uint32Array {
-  if (!instance.events) noEvents('ended');
-  const { kernel } = instance;
-  return instance.pairView(ended, kernel.ended_address(), kernel.ended_count());
+/** The pairs that began with the last update, or those that ended. */
+export function eventsIn(instance: KernelInstance, list: typeof began | typeof ended): Uint32Array {
+  if (!instance.events) noEvents(list === began ? 'began' : 'ended');
+  return instance.pairView(list, instance.kernel.events(list), instance.io()[0]!);
 }
 
 export function* eachPair(pairs: Uint32Array): IterableIterator<[a: number, b: number]> {

@@ -25,7 +25,7 @@ export function snapshot(instance: KernelInstance): Uint8Array<ArrayBuffer> {
   badInPlace(instance, 'snapshot', bad);
 }
 
-export function restore(instance: KernelInstance, bytes: Uint8Array | ArrayBuffer, stats: Stats): void {
+export function restore(instance: KernelInstance, bytes: Uint8Array | ArrayBuffer, stats: Stats | undefined): void {
   const source = snapshotBytes(bytes);
   const place = placeOf(instance);
   const io = instance.io();
@@ -53,7 +53,7 @@ export function restore(instance: KernelInstance, bytes: Uint8Array | ArrayBuffe
   restored(instance, source, stats);
 }
 
-function restored(instance: KernelInstance, source: Uint8Array, stats: Stats): void {
+function restored(instance: KernelInstance, source: Uint8Array, stats: Stats | undefined): void {
   instance.technique = Math.min(source[7]!, techniques.length - 1); // 255 stands for `auto`, the last one
   instance.exposed = undefined;
   readStats(instance, stats);

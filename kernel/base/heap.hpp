@@ -71,7 +71,7 @@ inline bool reach(u64 bytes);
 inline bool can_spare(u64 bytes) { return reach(bytes + kept); }
 
 /// The size class of a request: class c holds blocks of (4 + c % 4) << (c / 4) times `least` / 4 bytes.
-inline u32 size_class(size_t bytes) {
+SMALL inline u32 size_class(size_t bytes) {
   size_t quarters = (bytes + least / 4 - 1) / (least / 4);
   if (quarters <= 4) return 0;
   u32 octave = 61 - u32(__builtin_clzll(u64(quarters - 1)));
@@ -94,7 +94,7 @@ inline u8* waiting[112] = {};  // per size class, the free list: each block begi
 
 /// Makes the memory extend `bytes` beyond `top`; false if it cannot. Growing detaches every view that JavaScript holds,
 /// so it takes a quarter more than needed, and 1 MiB: untouched pages cost nothing.
-inline bool reach(u64 bytes) {
+SMALL inline bool reach(u64 bytes) {
   if (!top) top = reinterpret_cast<u8*>((reinterpret_cast<size_t>(&__heap_base) + least - 1) / least * least);
   u64 end = u64(reinterpret_cast<size_t>(top)) + bytes;
   u64 have = u64(__builtin_wasm_memory_size(0)) << 16;
@@ -170,17 +170,21 @@ inline u64 copied = 0;  // bytes copied because arrays outgrew their blocks: tes
 class Block {
  protected:
   void* at_ = nullptr;
-  u32 class_ = 0;
+  u32 quarters_ = 0;  // its size, in quarters of the smallest block
 
-  u64 bytes() const { return at_ ? heap::class_bytes(class_) : 0; }
+  u64 bytes() const { return u64(quarters_) * (heap::least / 4); }
+  u32 size_class() const { return heap::size_class(size_t(bytes())); }
+  void* hold(void* block, u32 c) {
+    quarters_ = u32(heap::class_bytes(c) / (heap::least / 4));
+    return at_ = block;
+  }
 
   /// Makes room for `wanted` bytes; the contents are lost if the block has to grow.
   NOINLINE void* reserve_bytes(u64 wanted) {
     if (wanted <= bytes() && at_) return at_;
     u32 to = heap::checked_class(wanted);
     release();
-    class_ = to;
-    return at_ = heap::take(to);
+    return hold(heap::take(to), to);
   }
 
   SMALL u64 missing_bytes(u64 wanted) const {
@@ -191,18 +195,14 @@ class Block {
   NOINLINE void* grow_bytes(u64 wanted, u64 keep) {
     if (wanted <= bytes() && at_) return at_;
     u32 to = heap::checked_class(larger(wanted, bytes() + bytes() / 2));
-    if (at_ && heap::extend(at_, class_, to)) {
-      class_ = to;
-      return at_;
-    }
+    if (at_ && heap::extend(at_, size_class(), to)) return hold(at_, to);
     void* moved = heap::take(to);
     if (keep) __builtin_memcpy(moved, at_, keep);
 #if !defined(__wasm__)
     heap::copied += keep;
 #endif
     release();
-    class_ = to;
-    return at_ = moved;
+    return hold(moved, to);
   }
 
  public:
@@ -214,17 +214,18 @@ class Block {
 #endif
 
   SMALL void release() {
-    if (at_) heap::give(at_, class_);
+    if (at_) heap::give(at_, size_class());
     at_ = nullptr;
+    quarters_ = 0;
   }
 
   void swap(Block& other) {
     void* at = at_;
-    u32 c = class_;
+    u32 quarters = quarters_;
     at_ = other.at_;
-    class_ = other.class_;
+    quarters_ = other.quarters_;
     other.at_ = at;
-    other.class_ = c;
+    other.quarters_ = quarters;
   }
 };
 

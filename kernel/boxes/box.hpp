@@ -224,28 +224,14 @@ template <int D> class Lanes {
     stride_ = 0;
   }
 
-  /// Transposes n items, four at a time.
+  /// Transposes n items, four at a time. Instead of items past the end, the last one: then NaN boxes are put there.
   template <class Source> NOINLINE void fill(const Source& items, u32 n) const {
-    u32 k = 0;
-    for (; k + 4 <= n; k += 4) {
-      Item<D> four[4] = {items[k], items[k + 1], items[k + 2], items[k + 3]};
-      put4(k, four);
-    }
-    if (k < n) {
-      Item<D> four[4];
-      ROLLED  // runs once per list
-          for (u32 lane = 0; lane < 4; lane++) four[lane] = k + lane < n ? items[k + lane] : nothing();
-      put4(k, four);
-      k += 4;
-    }
-    f32x4 none = splat(__builtin_nanf(""));
-    for (; k < n + spare_lanes; k += 4) {
-      for (int axis = 0; axis < D; axis++) {
-        store(lo(axis) + k, none);
-        store(hi(axis) + k, none);
-      }
-      store(tag() + k, u32x4{});
-    }
+    const u32 step = u32(stride_);
+    f32* to = values_.data();
+    for (u32 k = 0, last = n - 1; k < n; k += 4)
+      put4(to + k, step,
+           {items[k], items[smaller(k + 1, last)], items[smaller(k + 2, last)], items[smaller(k + 3, last)]});
+    for (u32 k = n; k < n + spare_lanes; k += 4) put4(to + k, step, {nothing(), nothing(), nothing(), nothing()});
   }
 
  private:
@@ -255,27 +241,21 @@ template <int D> class Lanes {
     else return {nan, nan};
   }
 
-  void put4(u32 k, const Item<D> (&item)[4]) const {
+  /// Writes four items in a row, each number `step` from the one before.
+  static void put4(f32* to, u32 step, const Item<D> (&item)[4]) {
     if constexpr (D == 2) {
       f32x4 row[4] = {item[0].box, item[1].box, item[2].box, item[3].box};
       transpose(row);
-      store(lo(0) + k, row[0]);
-      store(lo(1) + k, row[1]);
-      store(hi(0) + k, row[2]);
-      store(hi(1) + k, row[3]);
-      store(tag() + k, u32x4{item[0].tag, item[1].tag, item[2].tag, item[3].tag});
+      for (u32 k = 0; k < 4; k++) store(to + k * step, row[k]);
+      store(to + 4 * step, u32x4{item[0].tag, item[1].tag, item[2].tag, item[3].tag});
     } else {
       f32x4 row[4] = {item[0].low, item[1].low, item[2].low, item[3].low};
       transpose(row);
-      store(lo(0) + k, row[0]);
-      store(lo(1) + k, row[1]);
-      store(lo(2) + k, row[2]);
-      store(tag() + k, row[3]);
+      for (u32 k = 0; k < 3; k++) store(to + k * step, row[k]);
+      store(to + 6 * step, row[3]);
       f32x4 top[4] = {item[0].high, item[1].high, item[2].high, item[3].high};
       transpose(top);
-      store(hi(0) + k, top[0]);
-      store(hi(1) + k, top[1]);
-      store(hi(2) + k, top[2]);
+      for (u32 k = 0; k < 3; k++) store(to + (3 + k) * step, top[k]);
     }
   }
 };

@@ -116,23 +116,23 @@ template <int D> class GapMap {
   /// Writes many boxes as float32: unchanged if all their numbers are exact in float32, otherwise as `round` does.
   NOINLINE Rounded round_all(const f64* from, u32 count, f32* to) const {
     const Less less = this->less();
-    bool mapped = !plain_, inexact = false;
+    bool inexact = false;
     u32 collapsed = 0;
-    for (u32 s = 0; s < count; s++, from += width, to += width) {
+    Sizes sizes;
+    for (u32 s = 0; s < count; s++) {
       f32x4 first, last;
-      narrowed(less, from, first, last);
-      inexact = inexact || any(rounded(from));
-      // A finite box with a size in float32 is good, and needs no further test.
-      if (less.alone && is_sized(first, last)) {
-        store_box<D>(to, first, last);
-        continue;
-      }
-      if (!is_box(from)) return {i32(s), inexact, collapsed};
-      collapsed += round(from, to);
-      mapped = true;
+      narrowed(less, from + u64(s) * width, first, last);
+      inexact = inexact || any(rounded(from + u64(s) * width));
+      sizes.see(first, last);
+      store_box<D>(to + u64(s) * width, first, last);
+    }
+    bool quick = less.alone && sizes.all_are_sized();
+    for (u32 s = 0; !quick && s < count; s++) {
+      if (!is_box(from + u64(s) * width)) return {i32(s), inexact, collapsed};
+      collapsed += round(less, from + u64(s) * width, to + u64(s) * width);
     }
     if (inexact) return {-1, true, collapsed};
-    for (u64 k = u64(count) * width; mapped && k > 0; k--) *--to = f32(*--from);
+    for (u64 k = 0; !(quick && plain_) && k < u64(count) * width; k++) to[k] = f32(from[k]);
     return {};
   }
 

@@ -126,6 +126,9 @@ template <int D> class Index {
     seen_.see(boxes, exact, ids, rules, reaches, world);
   }
 
+  /// After `see` without boxes: takes the memory that they are in.
+  template <class Numbers> void take(Numbers& numbers) { numbers.give(seen_.boxes, seen_.exact); }
+
   /// Copies the slots that have changed, new ones included; false if everything has to be copied again.
   SMALL bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
                     const u32* slots, u32 many, const f64* world) {

@@ -33,7 +33,9 @@ template <int D> struct SeenBoxes {
     u32 n = names.count();
     world = around;
     rounded = doubles || world;
-    if (world && !doubles) {
+    if (!floats) {
+      // The numbers are swapped in.
+    } else if (world && !doubles) {
       exact.reserve(u64(n) * width);
       for (u64 k = 0; k < u64(n) * width; k++) exact[k] = floats[k];
     } else if (doubles) copy(exact, doubles, u64(n) * width, 0);

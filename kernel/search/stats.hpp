@@ -20,4 +20,5 @@ struct Stats {
   f64 bytes = 0;       // of memory in use by the whole space
   f64 technique = 0;   // index of the technique that ran: tells what `auto` chose
   f64 reason = 0;      // and why: a Reason
+  f64 address = 0;     // of the list of pairs
 };

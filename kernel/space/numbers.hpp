@@ -92,6 +92,12 @@ template <int D> class Numbers {
     return doubles ? round_staged(count, rounded) : first_bad(staged_.data(), count);
   }
 
+  /// Before all boxes are replaced: exchanges their memory for that of others.
+  void give(Buffer<f32>& boxes, Buffer<f64>& exact) {
+    if (rounding_) exact_.swap(exact);
+    else boxes_.swap(boxes);
+  }
+
   /// Replaces all boxes by the staged ones. `rounded`: some of these are not exact in float32.
   void take_staged(bool rounded) {
     boxes_.swap(staged_);

@@ -48,6 +48,12 @@ template <int D> class Seen {
     else lost_ = holds_ = true;  // holds_: so that this is not called again
   }
 
+  /// An update is about to take changes, and will see them: nobody can ask for what the last one saw, unless an index is
+  /// in use, which follows.
+  void pass() {
+    if (!asked_ && !holds_) lost_ = holds_ = true;
+  }
+
   /// An update begins: it sees the present boxes, so an earlier loss no longer matters.
   void begin() {
     if (lost_) holds_ = lost_ = false;

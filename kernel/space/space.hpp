@@ -213,14 +213,19 @@ template <int D> class Space {
     return !store.numbers.written.renamed || !(mapped_ || were_mapped);
   }
 
-  SMALL void search(const Scene<D>& scene, Technique chosen) {
+  void search(const Scene<D>& scene, Technique chosen) {
     pairs.count = pairs.doubt_count = 0;
     pairs.watch = builder_.doubles || !options_.touching;
     stats = Stats{};
+    bool is_bounded = options_.bounds[0] < options_.bounds[D];
+    if (is_bounded) finder.run(chosen, scene, mapped_options(), pairs, stats);
+    else finder.run(chosen, scene, options_, pairs, stats);
+  }
+
+  SMALL Settings mapped_options() const {
     Settings mapped = options_;
-    for (u32 n = 0; options_.bounds[0] < options_.bounds[D] && n < 2 * D; n++)
-      mapped.bounds[n] = store.numbers.map().map(options_.bounds[n], n % D);
-    finder.run(chosen, scene, mapped, pairs, stats);
+    for (u32 n = 0; n < 2 * D; n++) mapped.bounds[n] = store.numbers.map().map(options_.bounds[n], n % D);
+    return mapped;
   }
 
   /// Passes the changes on to those who follow them, and empties the list.
@@ -251,22 +256,25 @@ template <int D> class Space {
   SMALL void publish() {
     searching_ = false;
     lookups_.forget();
-    updates++;
     stats.pairs = f64(pairs.count);
     // Growing memory later would detach the views of the pairs in the middle of a loop over them.
     RoomAhead<D>::take(store.ids.count(), pairs.count * RoomAhead<D>::lookup + RoomAhead<D>::spare);
-    stats.bytes = f64(heap::used);
-    say_choice(technique, finder.ran(), stats);
+    end();
   }
 
   /// An update in which nothing has changed.
   i32 rest() {
     store.events.began.count = store.events.ended.count = 0;
-    updates++;
     stats.tests = 0;
-    stats.bytes = f64(heap::used);
     stats.reason = f64(u32(Reason::kept));
-    say_choice(technique, finder.ran(), stats);
+    end();
     return -1;
+  }
+
+  SMALL void end() {
+    updates++;
+    stats.address = f64(reinterpret_cast<size_t>(pairs.list.data()));
+    stats.bytes = f64(heap::used);
+    say_choice(technique, finder.ran(), stats);
   }
 };

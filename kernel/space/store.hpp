@@ -66,6 +66,12 @@ template <int D> class Store {
     tell(ring);
   }
 
+  /// The same, right before an update.
+  void take_for_update(Ring<D>& ring, u32 count) {
+    seen.pass();
+    take(ring, count);
+  }
+
   /// Tells JavaScript which boxes may wait in the ring.
   NOINLINE void tell(Ring<D>& ring) {
     ring.dense = ring.room = ring.pages = 0;
@@ -140,7 +146,8 @@ template <int D> class Store {
     bool rounded;
     i32 bad = numbers.check_staged(count, doubles, rounded);
     if (bad >= 0) return bad;
-    before_change();
+    // The numbers that are replaced need not be copied, unless JavaScript may still write to where they are.
+    if (!seen.holds()) hold(Seen<D>::spared, !world() && !numbers.written.in_place());
     if (ids.same() && ids.count() == count) changes().note_all();
     else renumber(count);
     numbers.take_staged(rounded);
@@ -223,7 +230,13 @@ template <int D> class Store {
     if (!seen.holds()) hold(most);
   }
 
-  NOINLINE void hold(u32 most) { seen.hold(standing(), most); }
+  /// Keeps what the last update saw. `gives`: the memory of its numbers, which will be written to no more.
+  SMALL void hold(u32 most, bool gives = false) {
+    Standing<D> last = standing();
+    if (gives) last.boxes = nullptr;
+    seen.hold(last, most);
+    if (gives && !seen.lost()) seen.index.take(numbers);
+  }
 
   /// Room for `count` boxes in every array with one entry per box.
   SMALL void make_room(u64 count, u32 keep) {
@@ -236,7 +249,7 @@ template <int D> class Store {
   }
 
   /// The number of boxes there is room for in all of these arrays.
-  u32 room() const {
+  SMALL u32 room() const {
     u64 all = smaller(smaller(u64(max_slots), numbers.room()), u64(numbers.written.changes.room()));
     return u32(larger(own.room(smaller(all, ids.room())), u64(ids.count())));
   }

@@ -135,7 +135,7 @@ export class KernelInstance {
     return this.#stats;
   }
 
-  /** A view of staged boxes. Two arrays take turns in the kernel, so the last two views are kept. */
+  /** A view of staged boxes. Three arrays take turns in the kernel, so the last three views are kept. */
   stagedView(at: number, length: number, single: boolean): Float32Array | Float64Array {
     const views = this.#stagedViews;
     const kind = single ? Float32Array : Float64Array;
@@ -144,7 +144,7 @@ export class KernelInstance {
       if (view.byteOffset === at && view.length === length && view instanceof kind) return view;
     }
     const view = new kind(this.kernel.memory.buffer, at, length);
-    if (views.push(view) > 2) views.shift();
+    if (views.push(view) > 3) views.shift();
     return view;
   }
 

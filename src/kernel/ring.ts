@@ -142,13 +142,30 @@ export class Ring {
     } catch (error) {
       instance.recover(error, 'set');
     }
+    this.#reopen();
+  }
+
+  /** Lets an update of the kernel take the boxes that wait. Returns what it returns. */
+  update(): number {
+    const { exports } = this.#instance;
+    const end = this.next;
+    this.#shut();
+    if (end <= ringHead) return exports.update(0);
+    this.forget();
+    const bad = exports.update((end - ringHead) / this.step);
+    this.#reopen();
+    return bad;
+  }
+
+  /** Hears from the kernel, which has emptied the ring, which boxes may wait in it. */
+  #reopen(): void {
     const told = this.#view();
     // As integers: doubles would be garbage.
     this.dense = told[0]! | 0;
     this.#room = told[1]! | 0;
     if (told[2]! > 0) {
       this.#pages = (told[2]! / 4) | 0;
-      instance.wordView();
+      this.#instance.wordView();
     }
     this.numbers = told;
     this.next = ringHead;

@@ -318,3 +318,38 @@ test('the first query sees what the last update saw, whatever was written in pla
   expect([space.queryPoint(0, 0), space.queryPoint(5, 5)]).toEqual([[0], []]);
   expect([space.update().queryPoint(0, 0), space.queryPoint(5, 5)]).toEqual([[], [0]]);
 });
+
+describe.each([2, 3] as const)('the first query, in %d dimensions', (dimensions) => {
+  test.each([1, 2, 3, 4, 5, 6, 7, 8])('sees the last update, whatever was given before and since, seed %i', (seed) => {
+    for (let space = 0; space < 12; space++) {
+      const model = new Modelled({ dimensions }, 100 * seed + space);
+      const calls = (most: number) => {
+        for (let call = model.integer(most); call > 0; call--) model.step();
+        if (model.random() < 0.5) model.replace(model.entries.size, model.random() < 0.5);
+      };
+      for (let update = 0; update <= space % 4; update++) {
+        calls(30);
+        model.space.update();
+      }
+      const seen = copyOf(model.entries);
+      calls(8);
+      new Asker(model.space, model.random, 60).everything(seen);
+    }
+  });
+
+  test.each(['float32', 'doubles'])('does not see what is written to an array of boxes() after setAll, %s', (kind) => {
+    const space = new BroadPhase({ dimensions });
+    const many = 5000; // of fewer, each update makes a copy
+    const box = (at: number) => Array.from({ length: 2 * dimensions }, (_, k) => at + Math.floor(k / dimensions));
+    const boxes = (at: number) => {
+      const numbers = Array.from({ length: many }, (_, id) => box(at + 0.1 + 9 * id)).flat();
+      return kind === 'doubles' ? Float64Array.from(numbers) : Float32Array.from(numbers);
+    };
+    const inPlace = space.setAll(boxes(0)).update().boxes(many);
+    inPlace.set(boxes(0));
+    space.update().setAll(boxes(5));
+    inPlace.fill(Number.NaN);
+    expect(space.queryBox(...(box(0) as never))).toEqual([0]);
+    expect(space.update().queryBox(...(box(5) as never))).toEqual([0]);
+  });
+});
