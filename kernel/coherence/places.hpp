@@ -91,30 +91,32 @@ template <int D> class Places {
   /// Writes the slots of the boxes in the grids whose regions touch this one; returns how many. `regions`: by slot; `met`
   /// counts the ones tested.
   NOINLINE u32 near(const f32* region, const f32* regions, u32* out, u64& met) const {
-    u32 found = 0;
+    const u32* next = next_.data();
+    u32 found = 0, tested = 0;
     for (u32 g = 0; g < grid_count_; g++) {
       const Grid& grid = grids_[g];
       if (!grid.used) continue;
       Range range = range_of(grid, region);
       range.low -= bits<u32x4>(range.low > u32x4{}) & splat(1u);
-      u32 end[D];
+      u32 end[D], mask = grid.side - 1;
       for (int a = 0; a < D; a++) end[a] = smaller(range.high[a] + 1, range.low[a] + grid.side);  // each cell once
-      u32x4 at = {};
-      auto row = [&] {
-        for (at[D - 1] = range.low[D - 1]; at[D - 1] < end[D - 1]; at[D - 1]++) {
-          for (u32 k = heads_[cell_of(grid, at)]; k > 0; k = next_[k - 1]) {
+      auto row = [&](u32 before) {
+        const u32* heads = heads_.data() + grid.first + before * grid.side;
+        for (u32 z = range.low[D - 1]; z < end[D - 1]; z++) {
+          for (u32 k = heads[z & mask]; k > 0; k = next[k - 1]) {
             out[found] = k - 1;
             found += boxes_touch<D>(region, regions + u64(k - 1) * width);
-            met++;
+            tested++;
           }
         }
       };
-      for (at[0] = range.low[0]; at[0] < end[0]; at[0]++) {
-        if constexpr (D == 2) row();
+      for (u32 x = range.low[0]; x < end[0]; x++) {
+        if constexpr (D == 2) row(x & mask);
         else
-          for (at[1] = range.low[1]; at[1] < end[1]; at[1]++) row();
+          for (u32 y = range.low[1]; y < end[1]; y++) row((x & mask) * grid.side + (y & mask));
       }
     }
+    met += tested;
     return found;
   }
 
