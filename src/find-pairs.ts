@@ -31,7 +31,7 @@ function borrow(where: string, options?: BroadPhaseOptions<Dimensions>): KernelI
 function giveBack(space: KernelInstance, options?: BroadPhaseOptions<Dimensions>): void {
   const dimensions = plain(options);
   if (dimensions === 0) return;
-  space.clear();
+  space.ring.forget();
   if (space.kernel.begin_anew() >>> 0 <= mostBytes) spares[dimensions] = space;
 }
 
