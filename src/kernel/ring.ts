@@ -134,31 +134,42 @@ export class Ring {
 
   /** Lets the kernel take the boxes up to this index. */
   flush(end: number): void {
-    const instance = this.#instance;
-    this.#shut();
-    this.forget();
     try {
-      instance.exports.take((end - ringHead) / this.step);
+      this.#instance.exports.take((end - ringHead) / this.step);
     } catch (error) {
-      instance.recover(error, 'set');
+      this.#fail(error);
+      this.#instance.recover(error, 'set');
     }
     this.#reopen();
   }
 
   /** Lets an update of the kernel take the boxes that wait. Returns what it returns. */
   update(): number {
-    const { exports } = this.#instance;
-    const end = this.next;
+    const waiting = this.next - ringHead;
+    if (waiting <= 0) this.#shut();
+    try {
+      const bad = this.#instance.exports.update(waiting > 0 ? waiting / this.step : 0);
+      if (waiting > 0) this.#reopen();
+      return bad;
+    } catch (error) {
+      this.#fail(error);
+      throw error;
+    }
+  }
+
+  /** After an exception. At the end of the stack, the boxes that were set go on waiting: taking them twice is harmless. */
+  #fail(error: unknown): void {
+    if ((error as Error | undefined)?.name !== 'RuntimeError') {
+      if (this.next > 0) this.numbers = this.#view(); // memory may have grown before
+      return;
+    }
     this.#shut();
-    if (end <= ringHead) return exports.update(0);
     this.forget();
-    const bad = exports.update((end - ringHead) / this.step);
-    this.#reopen();
-    return bad;
   }
 
   /** Hears from the kernel, which has emptied the ring, which boxes may wait in it. */
   #reopen(): void {
+    this.forget();
     const told = this.#view();
     // As integers: doubles would be garbage.
     this.dense = told[0]! | 0;

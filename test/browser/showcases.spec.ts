@@ -157,11 +157,12 @@ test.describe('by touch', () => {
         await touch.send('Input.dispatchTouchEvent', { type: step === 0 ? 'touchStart' : 'touchMove', touchPoints });
       }
       await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
-      // A page that still scrolls from a swipe would take the next finger too.
-      let [before, now] = [-1, 0];
-      while (before !== now) {
+      // A page that still scrolls from a swipe would take the next finger too. On a busy machine a frame may be late.
+      for (let [still, at] = [0, -1]; still < 3; ) {
         await page.waitForTimeout(400);
-        [before, now] = [now, await page.evaluate(() => scrollY)];
+        const now = await page.evaluate(() => scrollY);
+        still = now === at ? still + 1 : 0;
+        at = now;
       }
     };
     const look = async () => ({
