@@ -53,7 +53,7 @@ export function newStats(instance: KernelInstance): Stats {
   return stats;
 }
 
-/** Reads the counters of the last update; not if nobody has asked for them yet, which takes a tenth of a small update. */
+/** Reads the counters of the last update, if somebody has asked for them: it takes a tenth of a small update. */
 export function readStats(instance: KernelInstance, stats: Stats | undefined): void {
   if (stats === undefined) return;
   const from = instance.statsView();

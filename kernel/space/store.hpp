@@ -146,9 +146,11 @@ template <int D> class Store {
     bool rounded;
     i32 bad = numbers.check_staged(count, doubles, rounded);
     if (bad >= 0) return bad;
+    bool keeps_ids = ids.same() && ids.count() == count;
+    if (!keeps_ids) prepare_ids(count);  // may fail, so before the numbers are given away
     // The numbers that are replaced need not be copied, unless JavaScript may still write to where they are.
     if (!seen.holds()) hold(Seen<D>::spared, !world() && !numbers.written.in_place());
-    if (ids.same() && ids.count() == count) changes().note_all();
+    if (keeps_ids) changes().note_all();
     else renumber(count);
     numbers.take_staged(rounded);
     return -1;
