@@ -44,8 +44,8 @@ template <int D> struct Scene {
   u32 excluded_of(u32 slot) const { return rule_of(slot) & ~slot_mask; }
   u32 group_of(u32 slot) const { return groups ? groups[slot] : 0; }
   bool is_at_home(u32 slot) const { return !homes || (homes[slot] & at_home); }
-  /// Whether it is known which boxes may have changed.
-  bool listed() const { return changes && !changes->all(); }
+  /// Whether it is known which boxes may have changed, and these are not most.
+  bool listed() const { return changes && !changes->most(count); }
 };
 
 /// The order of the axes in an item: axis[0] is swept, the others are binned.

@@ -171,7 +171,7 @@ template <int D> class CandidateList {
     shift_ = shift;
     if (!shift.is_sound()) return false;
     u32 enough = u32(smaller(most * n / tuning.late_among(n), n / 2.0));
-    if (!shifts && scene.listed() && !scene.changes->most(n)) late_count_ = look_at(scene, both, list);
+    if (!shifts && scene.listed()) late_count_ = look_at(scene, both, list);
     else late_count_ = resting_ ? look<true>(scene, both, list, enough) : look<false>(scene, both, list, enough);
     bool other = known_.rules != (scene.rules != nullptr) || known_.groups != (scene.groups != nullptr);
     if (scene.filtered || other) refilter(scene, both, list);

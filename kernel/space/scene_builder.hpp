@@ -75,7 +75,7 @@ template <int D> class SceneBuilder {
   SMALL void find_moved(const Scene<D>& scene, const Filters& filters) {
     u32 n = filters.some() ? filters.searched() : scene.count;
     moved_.clear(n);
-    if (!scene.listed() || scene.changes->most(scene.count)) return moved_.note_all();
+    if (!scene.listed()) return moved_.note_all();
     for (u32 k = 0; k < scene.changes->count(); k++) {
       u32 slot = scene.changes->list()[k];
       if (slot >= scene.count) continue;
