@@ -387,7 +387,7 @@ template <int D> class CandidateList {
       settled_.filter(filter_listed);
     }
     if (were & rests) {
-      met_ += settled_.count;  // each is gone through here, and copied by `report`
+      met_ += 2 * settled_.count;  // each is gone through here, and copied by `report`
       unsettle();
     }
     extra_.filter([&](u32 a, u32 b) { return b < count_ && !(places_.is_marked(a) | places_.is_marked(b)); });
@@ -398,18 +398,15 @@ template <int D> class CandidateList {
   }
 
   /// Makes the settled pairs of boxes that are no longer at rest candidates.
-  SMALL void unsettle() {
+  NOINLINE void unsettle() {
     u64* list = settled_.list.data();
     u64 left = 0, many = settled_.count;
     u64* out = candidates_.list.data() + candidates_.count;
     for (u64 k = 0; k < many; k++) {
       u64 pair = list[k];
-      list[left] = pair;
-      if (!(places_.is_marked(u32(pair)) | places_.is_marked(u32(pair >> 32)))) {
-        left++;
-        continue;
-      }
-      head_ = smaller(head_, left);
+      list[left++] = pair;
+      if (!(places_.is_marked(u32(pair)) | places_.is_marked(u32(pair >> 32)))) continue;  // as nearly always
+      head_ = smaller(head_, --left);
       out = candidates_.room(out, 1);
       *out++ = pair;
       candidates_.count++;

@@ -35,7 +35,7 @@ template <int D> class Places {
   Buffer<u32> base_of_;  // per slot: the number of its base
   Buffer<f32> bases_;  // the first touches nothing
   u32 base_count_ = 0;  // 0: there is no room for late boxes
-  Buffer<u32> marks_;  // a bit per slot: few enough bytes to stay in the cache
+  Buffer<u8> marks_;  // per slot
 
  public:
   /// Forgets all late boxes.
@@ -56,10 +56,10 @@ template <int D> class Places {
   }
 
   /// Removes the marks of so many slots.
-  SMALL void unmark(u32 slots) { __builtin_memset(marks_.reserve(slots / 32 + 1), 0, (slots / 32 + 1) * sizeof(u32)); }
+  SMALL void unmark(u32 slots) { __builtin_memset(marks_.reserve(slots), 0, slots); }
   /// Marks a box that is late in this update.
-  void mark(u32 slot) { marks_[slot / 32] |= 1u << slot % 32; }
-  u32 is_marked(u32 slot) const { return marks_[slot / 32] >> slot % 32 & 1; }
+  void mark(u32 slot) { marks_[slot] = 1; }
+  u32 is_marked(u32 slot) const { return marks_[slot]; }
 
   /// The base of a late box.
   const f32* base(u32 slot) const { return bases_.data() + u64(base_of_[slot]) * width; }

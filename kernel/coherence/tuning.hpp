@@ -6,7 +6,7 @@
 /// Work is counted in tests of strip sweep: one box against another in its inner loop. Checking whether a box is in its
 /// region counts as one too.
 template <int D> struct Tuning {
-  f64 candidate = D == 2 ? 2 : 3;  // tests: to test a candidate
+  f64 candidate = 2;  // tests: to test a candidate
   f64 planning = 3000;  // tests: to choose a margin
   f64 late = D == 2 ? 300 : 400;  // tests: to give a box that has left its region a new one
   f64 far = 5e4;  // boxes: among so many, that takes twice as long, since caches do not hold them all

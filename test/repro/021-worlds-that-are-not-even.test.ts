@@ -54,8 +54,11 @@ test('a thousand boxes spread evenly in 3D are one column if few overlap, else s
   expect(cells[1]).toBeGreaterThan(1);
 });
 
-test('a crowd at rest that some boxes leave in each update is not retained', () => {
-  const [count, leaving, updates] = [1000, 16, 30];
+test.each([
+  [1000, 16, 30],
+  [2000, 8, 40],
+  [500, 4, 100],
+])('a crowd at rest of %d boxes, of which %d leave it in each update, is not retained', (count, leaving, updates) => {
   const random = createRandom(13);
   const directions = Array.from({ length: count }, () => [random() - 0.5, random() - 0.5] as const);
   const space = new BroadPhase();
