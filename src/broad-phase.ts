@@ -150,7 +150,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
       badSet(arguments.length, id, a, b, c, d, e, f, this.dimensions);
     }
     const { numbers } = ring;
-    const next = ring.next & 4095; // no other number, but engines know that its sums cannot overflow
+    const next = ring.next & 16383; // no other number, but engines know that its sums cannot overflow
     numbers[next] = id;
     numbers[next + 1] = a;
     numbers[next + 2] = b;

@@ -8,13 +8,17 @@
 #include "base/simd.hpp"
 
 template <int D> struct Ring {
-  static constexpr u32 most_entries = 512, batch = 64;  // entries
+  static constexpr u32 most_entries = 2048, batch = 64;  // entries
+  // As many are still in the first cache when the kernel takes them. More are used if all boxes then fit: if a frame's
+  // boxes wait together until its update, what the last update saw need not be copied (see Seen::pass).
+  static constexpr u32 usual_entries = 512;
   static constexpr u32 step = 2 * D + 1;  // numbers per entry: the id, then the box
-  static constexpr u32 head = 3;          // numbers before the entries
+  static constexpr u32 head = 4;  // numbers before the entries
 
   f64 dense;  // the ids 0 … dense - 1 are in the space
-  f64 room;   // how many more may be added after them
+  f64 room;  // how many more may be added after them
   f64 pages;  // if ids have gaps: the table of ids that may be set, see Ids::pages; else 0
+  f64 usable;  // entries that may be used
   f64 entries[most_entries * step];
 
   /// The id of an entry. Adding 2^52 leaves the integer in the low bits: cheaper than a conversion, which would check
@@ -22,4 +26,4 @@ template <int D> struct Ring {
   static u32 id(const f64* entry) { return u32(bits<u64>(*entry + 0x1p52)); }
 };
 static_assert(offsetof(Ring<2>, entries) == Ring<2>::head * sizeof(f64));
-static_assert(sizeof(Ring<3>) <= 4096 * sizeof(f64), "src/broad-phase.ts masks indices with 4095");
+static_assert(sizeof(Ring<3>) <= 16384 * sizeof(f64), "src/broad-phase.ts masks indices with 16383");

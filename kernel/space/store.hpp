@@ -75,20 +75,23 @@ template <int D> class Store {
 
   /// Tells JavaScript which boxes may wait in the ring.
   NOINLINE void tell(Ring<D>& ring) {
+    const u32 n = ids.count(), usual = Ring<D>::usual_entries, most = Ring<D>::most_entries;
+    const u32 usable = n >= usual && n < most ? most : usual;
+    ring.usable = usable;
     ring.dense = ring.room = ring.pages = 0;
     heap::kept = 0;
     if (numbers.written.in_place()) return;
-    if (!ids.same() && room() < ids.count() + Ring<D>::most_entries) {
-      u64 more = u64(ids.count()) + Ring<D>::most_entries;
+    if (!ids.same() && room() < n + usable) {
+      u64 more = u64(n) + usable;
       tight_ = !heap::reach(more * RoomAhead<D>::most);
-      if (!tight_ && more <= max_slots) make_room(more, ids.count());
+      if (!tight_ && more <= max_slots) make_room(more, n);
     }
     if (tight_) return;
     heap::kept = numbers.bytes_to_round();  // any of them may be the first double
     if (ids.same()) {
-      ring.dense = ids.count();
-      ring.room = room() - ids.count();
-    } else if (room() >= ids.count() + Ring<D>::most_entries) {
+      ring.dense = n;
+      ring.room = room() - n;
+    } else if (room() >= n + usable) {
       ring.pages = f64(reinterpret_cast<size_t>(ids.pages()));
     }
   }

@@ -31,8 +31,8 @@ export class Ring {
   next = 0;
   /** Boxes of ids below this may wait. */
   limit = 0;
-  /** The index of the last box that there is room for. */
-  readonly last: number;
+  /** The index of the last box that may wait. */
+  last: number;
   /** All ids below this are in the space, once waiting boxes are taken; 0 if that is not known. */
   dense = 0;
   #room = 0;
@@ -178,6 +178,7 @@ export class Ring {
       this.#pages = (told[2]! / 4) | 0;
       this.#instance.wordView();
     }
+    this.last = ringHead + ((told[3]! | 0) - 1) * this.step;
     this.numbers = told;
     this.next = ringHead;
     this.limit = this.dense;
@@ -220,7 +221,11 @@ export class Ring {
   #view(): Float64Array {
     if (this.#entries.length === 0) {
       const { exports } = this.#instance;
-      this.#entries = new Float64Array(exports.memory.buffer, exports.ring_address(), this.last + this.step);
+      this.#entries = new Float64Array(
+        exports.memory.buffer,
+        exports.ring_address(),
+        ringHead + ringCapacity * this.step,
+      );
     }
     return this.#entries;
   }
