@@ -169,6 +169,7 @@ template <int D> class Store {
     bool ids_were_same = ids.same();
     if (!ids_were_same) {
       stage_by_id(count);
+      prepare_ids(count);
       renumber(count);
       numbers.swap_staged();
     } else if (count != had || !numbers.boxes()) {
@@ -323,9 +324,8 @@ template <int D> class Store {
     own.stage(count);
   }
 
-  /// The ids become 0 … count - 1; boxes that were there keep their filters.
+  /// The ids become 0 … count - 1, once they are prepared; boxes that were there keep their filters.
   SMALL void renumber(u32 count) {
-    prepare_ids(count);
     changes().note_all();
     numbers.written.renamed = true;
     own.renumber(ids, count);
