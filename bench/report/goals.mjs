@@ -28,6 +28,7 @@ const limits = {
   gravity: 1.03,
   hail: 1.03,
   blasts: 1.03,
+  ticks: 1.03,
 };
 /** In 3D a limit below 1 may be exceeded by this much. */
 const moreIn3d = 1.5;

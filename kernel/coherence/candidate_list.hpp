@@ -8,8 +8,8 @@
 //     the strips that were swept to make the list, and among the new regions of other late boxes. Its base, which is
 //     its first region, still determines which candidates are listed. If it is late again, its region also reaches back
 //     to the one before, so that boxes that jitter are soon held, and ahead, for those that move on.
-//   - At rest: a box that has not moved since the previous list was made is its own region. Pairs of two such boxes are
-//     settled: they are at the head of the list of pairs and are not tested again. In a world that wraps around, boxes at
+//   - At rest: a box that has not moved since the previous list was made is its own region, unless too many begin to
+//     move. Pairs of two such boxes are settled: they are at the head of the list of pairs and are not tested again. In a world that wraps around, boxes at
 //     its border are never at rest, since their pairs have to be folded in each update.
 // Cost: about 1 ns per box and 2 ns per candidate; 0.3 (2D) to 2 µs per late box; 1.5 to two strip sweeps to make the
 // list. Memory, in addition to that of strip sweep: about 55 (2D) or 70 (3D) bytes per box, and 8 per candidate.
@@ -60,7 +60,7 @@ template <int D> class CandidateList {
   u32 count() const { return count_; }
   u32 resting() const { return resting_; }
   u32 late_count() const { return late_count_; }
-  bool rests_at(u32 slot) const { return slot < count_ && (tags_[slot] & rests); }
+  bool rests_at(u32 slot) const { return tags_[slot] & rests; }
   /// Whether the box of this slot, one of the list, will stay in its region if it moves by this much.
   bool stays(const Scene<D>& scene, u32 slot, f32x4 move) const {
     f32 box[width + padding];
@@ -131,7 +131,8 @@ template <int D> class CandidateList {
     make_room(n, smaller(count_, n));
     shift_ = common_.after(common.back());
     u32 known = origin_age_ > 0 ? smaller(n, origin_count_) : 0;
-    if (resting_ > 0 || some_rest) find_resting(scene, known);
+    if (some_rest) find_resting(scene, known);
+    else __builtin_memset(tags_.data(), 0, n * sizeof(u32));
     resting_ = 0;
     enclose(scene, plan.margin, plan.lead > 0 ? known : 0, f32(plan.lead) / larger(1u, origin_age_), far);
     remember(scene, common);

@@ -21,7 +21,6 @@ template <int D> class Incremental {
   CandidateList<D> list_;
   Watch<D> watch_;
   Prospect<D> prospect_ = {};
-  u32 rested_ = 0;  // boxes at rest when a list last ended since more of them rest
   u32 age_ = 0;  // of the list, in updates
   bool ended_ = false;  // a new list is due
   f64 made_ = 0;  // work per box: of making the list
@@ -141,8 +140,8 @@ template <int D> class Incremental {
       pause_ = plan.lead;
       return false;
     }
-    if (margin > 0) plan = {margin, watch_.growth(margin, prospect_), 0, 0};
-    list_.begin(scene, plan, watch_.common(), watch_.resting() > 0, Watch<D>::farthest * size());
+    if (margin > 0) plan = {margin, watch_.growth(margin, prospect_), 0, 0, plan.settles};
+    list_.begin(scene, plan, watch_.common(), watch_.resting() > 0 && plan.settles, Watch<D>::farthest * size());
     growth_ = plan.growth;
     planned_ = plan.work;
     age_ = 0;
@@ -208,15 +207,11 @@ template <int D> class Incremental {
     if (least > prospect_.fresh || smooth_ * age_ > made_ + lateness_) return true;
     if (can_divide() && foretell(scene) * tuning.late_among(n) > most_lateness() && is_divided()) return true;
     if (age_ < tuning.watched) return false;
+    // If all boxes have come to rest, a new list will test no pairs.
+    auto known = [&](u32 slot, f32x4) { return list_.rests_at(slot) || !scene.is_at_home(slot); };
+    if (list_.tested() > 0 && watch_.is_quiet() && watch_.leaving(known) > 0) return true;
     // What this list has cost beyond its plan, such as for boxes that come and go, another one will cost as well.
-    if (watch_.is_new() && choose(scene).work + larger(0.0, life_ / age_ - planned_) < smooth_ + least) return true;
-    if (list_.tested() == 0) return false;
-    // A new list will not test the pairs of boxes that have come to rest.
-    f64 more = watch_.newly_resting([&](u32 slot) { return list_.rests_at(slot) || !scene.is_at_home(slot); });
-    bool pays = 2 * more * tuning.candidate * list_.tested() / n * age_ > made_;
-    if (!pays && (more < 1 || list_.resting() == rested_)) return false;
-    rested_ = list_.resting();
-    return true;
+    return watch_.is_new() && choose(scene).work + larger(0.0, life_ / age_ - planned_) < smooth_ + least;
   }
 
   /// The share of boxes expected to be late in the next update, less the largest error so far: boxes that jitter turn

@@ -43,6 +43,8 @@ template <int D> struct Prospect {
 
   /// Candidates that an update tests: all but the pairs of two boxes at rest.
   f64 candidates(f64 growth) const { return pairs * growth * (1 - rest * rest); }
+  /// Pairs of two boxes at rest.
+  f64 settled() const { return pairs * rest * rest; }
   /// How many times as many candidates a list has as without a margin. Boxes at rest have none.
   f64 widening(f64 growth) const { return 1 + (growth - 1) * (1 - rest * rest); }
   /// How many times as many tests its sweep takes as a rebuild: the growth along all axes but one.
@@ -59,6 +61,7 @@ struct Plan {
   f64 growth = 1;  // how many times as many candidates as without a margin
   u32 lead = 0;  // updates that regions reach ahead
   f64 work = __builtin_inf();  // per box and update
+  bool settles = true;  // boxes at rest have no margin
 };
 
 /// How far regions reach ahead: not at all if `lead` is longer than `most`, which is unlikely to come true.
@@ -108,6 +111,7 @@ template <int D> class Watch {
   Buffer<Horizon> horizons_;
   u32 many_ = 0, age_ = 0, known_ = 0;
   bool common_ = false;
+  bool quiet_ = false;  // no sample has moved in these updates, at least eight
   Shift total_, begun_;  // common motion so far, and until these samples were taken
 
  public:
@@ -130,6 +134,8 @@ template <int D> class Watch {
   bool is_new() const { return many_ > 0 && age_ == 0; }
   /// Whether it was measured in this update how far boxes got.
   bool is_judged() const { return (age_ & (age_ - 1)) == 0; }
+  /// Whether it was found in this update that no box moves any more.
+  bool is_quiet() const { return quiet_ && is_judged(); }
   /// Forgets all measurements; the next `look` takes new samples.
   void forget() { many_ = known_ = 0; }
   SMALL void release() {
@@ -143,19 +149,6 @@ template <int D> class Watch {
     if (known_ == 0 || common_) return 0;
     const Horizon& last = horizons_[known_ - 1];
     return f64(last.still) / last.many;
-  }
-
-  /// The share of boxes that have come to rest without being `known` to rest; 1 if no box moves. 0 in most updates: it is
-  /// looked for 8, 16 and 32 updates after samples were taken.
-  template <class Known> SMALL f64 newly_resting(Known known) const {
-    if (age_ < 8 || (age_ & (age_ - 1)) != 0 || common_) return 0;
-    u32 still = 0, found = 0;
-    for (u32 k = 0; k < many_; k++) {
-      const Sample& sample = samples_[k];
-      still += sample.rests();
-      found += sample.rests() && !known(sample.slot);
-    }
-    return still == many_ ? 1 : f64(found) / many_;
   }
 
   /// The share of boxes that will not stay where they are if they move on as in the last update. `stays`: whether the
@@ -183,15 +176,16 @@ template <int D> class Watch {
     if (age_ == longest) begin(scene);
   }
 
-  /// The plan with the least work, if that is less than `most`.
-  SMALL Plan plan(const Prospect<D>& prospect, const Tuning<D>& tuning, f64 most) const {
-    Plan best;
-    Growth<D> plain = space(prospect, nullptr);
-    for (u32 led = 0; led < 2; led++) {
-      f64 late[buckets] = {}, bursts[buckets] = {};
-      for (u32 h = 0; h + led < known_; h++) weigh(h, led, plain, late, bursts, prospect, tuning, most, best);
-    }
-    return best;
+  /// The plan with the least work, if that is less than `most`. Boxes at rest get a margin like all others if so many of
+  /// them begin to move that this is clearly less work.
+  SMALL Plan plan(Prospect<D> prospect, const Tuning<D>& tuning, f64 most) const {
+    Plan best = cheapest(prospect, tuning, most);
+    if (prospect.rest == 0) return best;
+    prospect.rest = 0;
+    Plan restless = cheapest(prospect, tuning, smaller(most, best.work * tuning.ahead));
+    if (restless.work == __builtin_inf()) return best;
+    restless.settles = false;
+    return restless;
   }
 
   /// How many times as many candidates a margin makes, for boxes at random places: estimated from pairs of samples.
@@ -203,6 +197,16 @@ template <int D> class Watch {
  private:
   u32 smallest_ = 0;  // with fewer boxes, some samples are gone
   f64 apart_ = 0;  // the median distance from a sample to the nearest other one, along the axis where it is largest
+
+  SMALL Plan cheapest(const Prospect<D>& prospect, const Tuning<D>& tuning, f64 most) const {
+    Plan best;
+    Growth<D> plain = space(prospect, nullptr);
+    for (u32 led = 0; led < 2; led++) {
+      f64 late[buckets] = {}, bursts[buckets] = {};
+      for (u32 h = 0; h + led < known_; h++) weigh(h, led, plain, late, bursts, prospect, tuning, most, best);
+    }
+    return best;
+  }
 
   /// The growth of some pairs of samples, with regions that reach ahead by `lead` unless that is null.
   SMALL Growth<D> space(const Prospect<D>& prospect, const f32x4* lead) const {
@@ -243,7 +247,8 @@ template <int D> class Watch {
       sample.led = f32x4{};
       if (k < 2 * voters) now.lead[k] = sample.lead;
     }
-    known_ = larger(known_, h + 1);
+    quiet_ = now.still == many_ && age_ >= 8 && !common_;
+    known_ = quiet_ ? h + 1 : larger(known_, h + 1);  // what was measured before all came to rest is out of date
   }
 
   /// Sets the lanes that are not an axis to 0.
@@ -388,8 +393,13 @@ template <int D> class Watch {
       sum += here * edge(m);
     }
     f64 jumps = horizon.jumps * share;
-    f64 least = prospect.looked + tuning.candidate * prospect.candidates(1) +
-                (prospect.planning + prospect.build(1)) / updates;
+    f64 looked = prospect.looked;
+    if (h > 0 && prospect.rest > 0 && horizon.still < horizons_[h - 1].still) {
+      // As many boxes at rest begin to move as in the second half of these updates, and all settled pairs are gone through.
+      jumps += 2 * share * (horizons_[h - 1].still - horizon.still);
+      looked += tuning.candidate * prospect.settled();
+    }
+    f64 least = looked + tuning.candidate * prospect.candidates(1) + (prospect.planning + prospect.build(1)) / updates;
     Growth<D> all = led ? Growth<D>{} : plain;
     for (u32 m = 0; m < buckets - 2; m++) {
       f64 limit = smaller(most, best.work * (led && !best.lead ? tuning.ahead : 1));
@@ -398,7 +408,7 @@ template <int D> class Watch {
       if (all.of[0] == 0) all = space(prospect, horizon.lead);
       f64 margin = horizon.size * edge(m), growth = all(margin) / plain(0), build = prospect.build(growth);
       if (build > tuning.build * prospect.fresh) return;  // as for all larger ones
-      f64 work = prospect.looked + tuning.candidate * prospect.candidates(growth) + lateness;
+      f64 work = looked + tuning.candidate * prospect.candidates(growth) + lateness;
       work += (prospect.planning + build) / updates;
       if (work < limit) best = {f32(margin), growth, led << h, work};
       if (events[m] == 0) return;  // larger ones only cost more

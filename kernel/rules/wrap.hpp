@@ -337,8 +337,8 @@ class Wrap {
   }
 
   /// Takes away the ghosts that boxes no longer have. They stay where they are until another box needs one: a technique
-  /// that retains candidates then has no fewer boxes. If most are unused, these are removed; the last one takes the place of
-  /// each.
+  /// that retains candidates then has no fewer boxes. If more than a quarter are unused, these are removed; the last one
+  /// takes the place of each.
   SMALL void keep_ghosts(Changes& moved) {
     for (u32 at = count_; at < count_ + ghosts_; at++) {
       u32 owner = owners_[at] & slot_mask, axes = owners_[at] >> 24;
@@ -346,7 +346,7 @@ class Wrap {
       owners_[at] = unowned;
       unused_++;
     }
-    if (2 * unused_ <= ghosts_) return;
+    if (4 * unused_ <= ghosts_) return;
     for (u32 at = count_ + ghosts_; at-- > count_;) {
       if (owners_[at] != unowned) continue;
       owners_[at] = owners_[count_ + --ghosts_];

@@ -62,31 +62,40 @@ template <int D> void check_planning() {
   CHECK(world.plan().work == __builtin_inf());
 }
 
-/// Boxes that were at rest for as long as is known, but move now, have not come to rest.
+/// Boxes rest if they have not moved for as long as is known.
 template <int D> void check_rest() {
   World<D> world;
-  auto nobody = [](u32) { return false; };
-  auto everybody = [](u32) { return true; };
   world.run(65, 0);
   CHECK(world.watch.resting() == 1);
   world.run(8, 0.5);
   CHECK(world.watch.resting() == 1);
-  CHECK(world.watch.newly_resting(nobody) == 0);
   world.run(56, 0.5);
   CHECK(world.watch.resting() == 0);
-  world.run(7, 0);
-  CHECK(world.watch.newly_resting(nobody) == 0);  // too early to tell
-  world.update(0);
-  CHECK(world.watch.newly_resting(nobody) == 1);
-  CHECK(world.watch.newly_resting(everybody) == 1);
-  world.velocities.assign(world.velocities.size(), 0);
-  u32 first = detail::Sampling(world.count, Watch<D>::least_watched).next();  // in every sample
-  for (u32 a = 0; a < D; a++) world.velocities[first * D + a] = 1;
-  world.run(64, 0.5);
-  f64 others = world.watch.newly_resting(nobody);
-  CHECK(others > 0.5);
-  CHECK(others < 1);
-  CHECK(world.watch.newly_resting(everybody) == 0);
+}
+
+/// Some boxes move in each update, by little: always the same ones, or others each time.
+template <int D> Plan plan_of_nudges(bool others) {
+  World<D> world;
+  std::vector<f64> velocities = world.velocities;
+  for (u32 update = 0; update < 129; update++) {
+    for (u32 k = 0; k < world.count * D; k++) {
+      u32 turn = others ? update / 2 % 40 : 0;
+      world.velocities[k] = k / D == turn || k / D == turn + 20 ? velocities[k] * (update % 2 ? 1 : -1) : 0;
+    }
+    world.update(0.5);
+  }
+  world.prospect.rest = world.watch.resting();
+  CHECK(world.prospect.rest > 0);
+  CHECK(world.prospect.rest < 1);
+  return world.plan();
+}
+
+/// Boxes at rest get a margin if others of them begin to move all the time.
+template <int D> void check_waking() {
+  CHECK(plan_of_nudges<D>(false).settles);
+  Plan plan = plan_of_nudges<D>(true);
+  CHECK(!plan.settles);
+  CHECK(plan.margin > 0);
 }
 
 /// A box is expected to move on as in the last update, unless it has jumped.
@@ -110,8 +119,10 @@ template <int D> void check_leaving() {
 
 TEST("the choice of a margin is counted, 2D") { check_planning<2>(); }
 TEST("the choice of a margin is counted, 3D") { check_planning<3>(); }
-TEST("boxes come to rest only if they move no longer, 2D") { check_rest<2>(); }
-TEST("boxes come to rest only if they move no longer, 3D") { check_rest<3>(); }
+TEST("boxes rest if they have not moved for as long as is known, 2D") { check_rest<2>(); }
+TEST("boxes rest if they have not moved for as long as is known, 3D") { check_rest<3>(); }
+TEST("boxes at rest get a margin if others of them begin to move all the time, 2D") { check_waking<2>(); }
+TEST("boxes at rest get a margin if others of them begin to move all the time, 3D") { check_waking<3>(); }
 TEST("boxes are expected to move on as they have, 2D") { check_leaving<2>(); }
 TEST("boxes are expected to move on as they have, 3D") { check_leaving<3>(); }
 

@@ -4,6 +4,7 @@ import { BroadPhase } from 'broadphase';
 import { expect, test } from 'vitest';
 import { createMotion } from '../../bench/motions/index.ts';
 import { createScene } from '../../src/scenes/index.ts';
+import { createRandom } from '../../src/scenes/random.ts';
 import { keysOf } from '../support/reference.ts';
 
 const isKept = ({ stats }: { stats: { reason: string } }) => stats.reason.includes('are retained');
@@ -58,4 +59,31 @@ test.each([1, 2, 3, 4])('sand that falls and comes to rest is kept, seed %i', (s
     answered += Number(isKept(space));
   }
   expect(answered, 'updates of 500 answered from what is kept').toBeGreaterThan(390);
+});
+
+test.each([
+  [2, 1 / 100],
+  [3, 1 / 100],
+  [3, 1 / 33],
+] as const)('in %iD, a list lives long where a share of %d of the boxes moves in turn', (dimensions, share) => {
+  // If boxes at rest had no margin, they would leave their regions one after another, and lists would end soon.
+  const count = 1000;
+  const random = createRandom(7);
+  const world = 10 * (4 * count) ** (1 / dimensions);
+  const at = Float64Array.from({ length: count * dimensions }, () => random() * world);
+  const space = new BroadPhase<2 | 3>({ dimensions });
+  let [lists, before] = [0, 0];
+  for (let frame = 0, next = 0; frame < 400; frame++) {
+    for (let moved = frame ? count * share : count; moved > 0; moved--, next++) {
+      const from = (next % count) * dimensions;
+      for (let k = from; frame && k < from + dimensions; k++) at[k]! += random() - 0.5;
+      const low = [...at.subarray(from, from + dimensions)];
+      space.set(next % count, ...([...low, ...low.map((x) => x + 10)] as [number, number, number, number]));
+    }
+    const { tests } = space.update().stats;
+    // While a list lives, candidates are added to it.
+    if (frame > 100) lists += Number(tests < 0.9 * before);
+    before = tests;
+  }
+  expect(lists, 'lists made in 300 updates').toBeLessThan(5);
 });
