@@ -48,11 +48,10 @@ inline f32x4 round_down(f64x2 x, f64x2 sign) {
 }
 
 /// A box rounded outward.
-template <int D> NOINLINE void round_outward(const f64* box, f32* to) {
+template <int D> void round_outward(const f64* box, f32* to) {
   for (u32 a = 0; a < D; a++) {
     f64x2 numbers = load<f64x2>(box + 2 * a);
     f32x4 pair = round_down(numbers, f64x2{2 * a < D ? 0.0 : -0.0, 2 * a + 1 < D ? 0.0 : -0.0});
-    to[2 * a] = pair[0];
-    to[2 * a + 1] = pair[1];
+    __builtin_memcpy(to + 2 * a, &pair, 2 * sizeof(f32));
   }
 }

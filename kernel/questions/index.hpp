@@ -147,7 +147,7 @@ template <int D> class Index {
       u32 s = slots[k];
       if (s >= n) continue;
       seen_.take(s, boxes, exact, ids, rules, reaches);
-      if (built_ && seen_.rounded) seen_.round(s);
+      if (built_ && seen_.rounded) seen_.round(s, s + 1);
       if (!built_) continue;
       if (!seen_.is_off(s)) {
         move(s);

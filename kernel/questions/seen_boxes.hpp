@@ -92,17 +92,19 @@ template <int D> struct SeenBoxes {
     return most_reach_;
   }
 
-  /// Rounds a box outward; if the world wraps around, moves it into the world first.
-  NOINLINE void round(u32 slot) {
-    const f64* box = &exact[u64(slot) * width];
-    f32* to = &boxes[u64(slot) * width];
-    if (world) Copies::place(world, D, box, to);
-    else round_outward<D>(box, to);
+  /// Rounds boxes outward; if the world wraps around, moves them into the world first.
+  NOINLINE void round(u32 from, u32 end) {
+    for (u32 s = from; s < end; s++) {
+      const f64* box = &exact[u64(s) * width];
+      f32* to = &boxes[u64(s) * width];
+      if (world) Copies::place(world, D, box, to);
+      else round_outward<D>(box, to);
+    }
   }
   SMALL void round_all() {
     if (!rounded) return;
     boxes.reserve(u64(count) * width + 4);
-    for (u32 s = 0; s < count; s++) round(s);
+    round(0, count);
   }
 
   bool is_off(u32 slot) const { return filtered && rules[slot].is_off(); }
