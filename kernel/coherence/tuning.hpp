@@ -13,8 +13,7 @@ template <int D> struct Tuning {
   f64 late_margin = 0.5;  // of a box's size: the margin of that new region, or the list's if larger
   f64 burst = 0.5;  // of a rebuild: the most work for late boxes that a plan may expect in one update
   f64 spike = 2;  // of an update's mean work, making the list included: if late boxes take more in one, the list ends
-  f64 ahead =
-      0.85;  // of a plan: one that reaches ahead, or that gives boxes at rest a margin, must promise to cost less
+  f64 ahead = 0.85;  // of a plan: what one that reaches ahead, or gives boxes at rest a margin, may cost at most
   f64 build = 2;  // of a rebuild: a list that would cost more is not made
   u32 divided = 5;  // updates: a list of this age is followed by one made in two; late work is averaged over as many
   u32 watched = 8;  // updates, after which it is known whether a list pays; the first pause is as long

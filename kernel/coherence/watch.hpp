@@ -3,8 +3,8 @@
 // extrapolated. Regions may also reach ahead by as far as a box moved in the same number of updates before. How far
 // boxes then were from that path is measured too. Of all displacements only a histogram is retained. For a list with
 // margin m that lives for that many updates, the cost per update is: testing its candidates, its share of choosing the
-// margin and of making the list, and serving the boxes that moved further than m. The cheapest plan is chosen. Motion
-// common to most boxes (a world that scrolls or zooms) is subtracted first.
+// margin and of making the list, and serving the boxes that moved further than m, or that were at rest and begin to
+// move. The cheapest plan is chosen. Motion common to most boxes (a world that scrolls or zooms) is subtracted first.
 // Cost: about 10 ns per sampled box in an update; 2 to 6 µs to choose a margin; up to 8,000 distances between sampled
 // boxes when samples are taken.
 #pragma once
