@@ -8,10 +8,10 @@
 //     the strips that were swept to make the list, and among the new regions of other late boxes. Its base, which is
 //     its first region, still determines which candidates are listed. If it is late again, its region also reaches back
 //     to the one before, so that boxes that jitter are soon held, and ahead, for those that move on.
-//   - At rest: a box that has not moved since the previous list was made is its own region, unless too many of them
-//     begin to move. Pairs of two such boxes are settled: they are at the head of the list of pairs and are not tested
-//     again. In a world that wraps around, boxes at its border are never at rest, since their pairs have to be folded
-//     in each update.
+//   - At rest: a box that has not moved since the previous list was made is its own region. Pairs of two such boxes are
+//     settled: they are at the head of the list of pairs and are not tested again. In a world that wraps around, boxes at
+//     its border are never at rest, since their pairs have to be folded in each update. A list can also be made without
+//     any boxes at rest: then all regions have the margin.
 // Cost: about 1 ns per box and 2 ns per candidate; 0.3 (2D) to 2 µs per late box; 1.5 to two strip sweeps to make the
 // list. Memory, in addition to that of strip sweep: about 55 (2D) or 70 (3D) bytes per box, and 8 per candidate.
 // From: L. Verlet, "Computer Experiments on Classical Fluids", 1967.

@@ -198,6 +198,7 @@ template <int D> class Watch {
   u32 smallest_ = 0;  // with fewer boxes, some samples are gone
   f64 apart_ = 0;  // the median distance from a sample to the nearest other one, along the axis where it is largest
 
+  /// The plan with the least work for this share of boxes at rest.
   SMALL Plan cheapest(const Prospect<D>& prospect, const Tuning<D>& tuning, f64 most) const {
     Plan best;
     Growth<D> plain = space(prospect, nullptr);

@@ -69,8 +69,21 @@ template <int D> void check_rest() {
   CHECK(world.watch.resting() == 1);
   world.run(8, 0.5);
   CHECK(world.watch.resting() == 1);
+  CHECK(!world.watch.is_quiet());
   world.run(56, 0.5);
   CHECK(world.watch.resting() == 0);
+  world.run(7, 0);
+  CHECK(!world.watch.is_quiet());  // too early to tell
+  world.update(0);
+  CHECK(world.watch.is_quiet());
+  CHECK(world.watch.resting() == 1);
+  world.velocities.assign(world.velocities.size(), 0);
+  u32 first = detail::Sampling(world.count, Watch<D>::least_watched).next();  // in every sample
+  for (u32 a = 0; a < D; a++) world.velocities[first * D + a] = 1;
+  for (u32 update = 0; update < 64; update++) {
+    world.update(0.5);
+    CHECK(!world.watch.is_quiet());
+  }
 }
 
 /// Some boxes move in each update, by little: always the same ones, or others each time.
