@@ -37,21 +37,25 @@ SMALL inline void round_inward(f64 lo, f64 hi, bool closed, f32& to_lo, f32& to_
   to_hi = closed ? round_down(hi) : next_below(hi);
 }
 
-/// Two doubles as float32, in the lower lanes: down, or up where `sign` is -0.
-inline f32x4 round_down(f64x2 x, f64x2 sign) {
-  f64x2 at = bits<f64x2>(bits<u64x2>(x) ^ bits<u64x2>(sign));
-  f32x4 near = narrow(at);
-  i32x4 above = bits<i32x4>(widen(near) > at), b = bits<i32x4>(near);
-  above = __builtin_shufflevector(above, above, 0, 2, 0, 2);
-  b -= (b >> 31 | 1) & above;
-  return bits<f32x4>(bits<u32x4>(b) ^ bits<u32x4>(narrow(sign)));
+/// Numbers below these, which were rounded to float32; above them where `sign` is -0. A bound that is too loose by a
+/// last place or two costs less than asking which way each was rounded.
+inline f32x4 loosened(f32x4 x, f32x4 sign) {
+  auto turned = [&](f32x4 v) { return bits<f32x4>(bits<u32x4>(v) ^ bits<u32x4>(sign)); };
+  f32x4 low = min(turned(x), splat(3.40282347e38f));
+  f32x4 most = bits<f32x4>(bits<u32x4>(low) & splat(0x7fffffffu));
+  return turned(low - (most * splat(0x1p-23f) + splat(0x1p-149f)));
+}
+
+/// Loosens boxes that were rounded to the nearest float32, so that they contain what was rounded.
+template <int D> void loosen(f32x4 first, f32x4 last, f32* to) {
+  store(to, loosened(first, f32x4{0.0f, 0.0f, D == 2 ? -0.0f : 0.0f, -0.0f}));
+  if constexpr (D == 3) store(to + 2, loosened(last, f32x4{0.0f, -0.0f, -0.0f, -0.0f}));
 }
 
 /// A box rounded outward.
 template <int D> void round_outward(const f64* box, f32* to) {
-  for (u32 a = 0; a < D; a++) {
-    f64x2 numbers = load<f64x2>(box + 2 * a);
-    f32x4 pair = round_down(numbers, f64x2{2 * a < D ? 0.0 : -0.0, 2 * a + 1 < D ? 0.0 : -0.0});
-    __builtin_memcpy(to + 2 * a, &pair, 2 * sizeof(f32));
-  }
+  f32x4 pairs[D];
+  for (u32 k = 0; k < D; k++) pairs[k] = narrow(load<f64x2>(box + 2 * k));
+  loosen<D>(__builtin_shufflevector(pairs[0], pairs[1], 0, 1, 4, 5),
+            __builtin_shufflevector(pairs[D - 2], pairs[D - 1], 0, 1, 4, 5), to);
 }

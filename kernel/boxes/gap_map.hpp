@@ -35,6 +35,8 @@ template <int D> class GapMap {
     plain_ = true;
   }
 
+  bool is_plain() const { return plain_; }
+
   /// What the first piece subtracts from the numbers of a box, for use in a loop; `alone`: there is no other piece.
   struct Less {
     f64x2 of[D];

@@ -163,9 +163,10 @@ template <int D> class Index {
   void looked_at(u64 blocks) { looks_ += blocks; }
 
   /// Builds the index, if necessary. It stays the same until the next update, since answers may be read in parts.
-  NOINLINE void build() {
+  /// `nearest`: for SeenBoxes::round_all.
+  NOINLINE void build(const f32* nearest) {
     if (built_) return;
-    seen_.round_all();
+    seen_.round_all(nearest);
     room_ = seen_.count + seen_.count / 32 + 64;
     if (known_ == 0 || looks_ >= seen_.count || !keep_order()) put_in_order();
     used_ = sorted_;

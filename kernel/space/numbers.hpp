@@ -24,6 +24,8 @@ template <int D> class Numbers {
   /// Null if all numbers are exact in float32.
   const f64* exact() const { return rounding_ ? exact_.data() : nullptr; }
   const GapMap<D>& map() const { return choice_.map(); }
+  /// The boxes that are searched, if these are the numbers given, rounded to the nearest; else null.
+  const f32* nearest() const { return map().is_plain() && !written.in_place() ? boxes_.data() : nullptr; }
 
   // Room.
   u64 capacity() const { return boxes_.capacity() / width; }

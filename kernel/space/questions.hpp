@@ -125,15 +125,19 @@ template <int D> class Questions {
   }
 
  private:
-  SMALL void look() {
-    if (!store_.seen.ask()) store_.seen.see(store_.standing());
+  /// Copies the boxes of the last update, if necessary. Returns these if they are still in the space, rounded to the
+  /// nearest; else null.
+  SMALL const f32* look() {
+    if (store_.seen.ask()) return nullptr;
+    store_.seen.see(store_.standing());
+    return store_.numbers.nearest();
   }
 
   /// Whether there are any boxes that are not off; if there are any at all, builds the index.
   SMALL bool can_answer() {
-    look();
+    const f32* nearest = look();
     if (index().count() == 0) return false;
-    index().build();
+    index().build(nearest);
     return index().places() > 0;
   }
 
