@@ -178,10 +178,14 @@ template <int D> class GapMap {
       for (u32 k = 0; k < smaller(count, regular); k++) look_at(sampling.next());
       for (u32 k = 0; k < smaller(more_count, most_others); k++) look_at(more[k]);
       sort(low, n);
-      sort(size, n);
       f64 now = n ? larger(__builtin_fabs(map(low[0], a)), __builtin_fabs(map(low[n - 1], a))) : 0;
-      if (n && now > worth * other.cut(low, n, size[n / 2], a)) better = true;
-      else other.take(*this, a);
+      bool is_better = n && now > worth * least_left(low, n);
+      if (is_better) {
+        sort(size, n);
+        is_better = now > worth * other.cut(low, n, size[n / 2], a);
+      }
+      better |= is_better;
+      if (!is_better) other.take(*this, a);
     }
     if (better) *this = other;
     return better;
@@ -249,6 +253,13 @@ template <int D> class GapMap {
     }
     pieces_ = larger(pieces_, other.pieces_);
     plain_ = false;
+  }
+
+  /// A lower bound for what `cut` returns, in less time.
+  static f64 least_left(const f64* low, u32 n) {
+    f64 widest = 0;
+    for (u32 k = 1; k < n; k++) widest = larger(widest, low[k] - low[k - 1]);
+    return (low[n - 1] - low[0] - most_cuts * widest) / 2;
   }
 
   /// Removes the wide gaps between these ascending numbers from an axis; returns how far from 0 the rest extends.

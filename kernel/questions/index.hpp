@@ -221,7 +221,7 @@ template <int D> class Index {
   }
 
   /// Writes the bounds of block k of the level below into its lane of its parent. Empty blocks have NaN bounds.
-  void bound(u32 level, u32 k) {
+  NOINLINE void bound(u32 level, u32 k) {
     const Block& from = block(level - 1, k);
     Block& to = blocks_[first_[level] + k / 8];
     for (int a = 0; a < D; a++) {
@@ -230,8 +230,7 @@ template <int D> class Index {
         lo = min(load<f32x4>(from.lo[a] + half), lo);  // NaN is ignored
         hi = max(load<f32x4>(from.hi[a] + half), hi);
       }
-      f32 least = smaller(smaller(lo[0], lo[1]), smaller(lo[2], lo[3]));
-      f32 most = larger(larger(hi[0], hi[1]), larger(hi[2], hi[3]));
+      f32 least = -largest(-lo), most = largest(hi);
       bool some = least <= most;
       to.lo[a][k % 8] = some ? least : nothing;
       to.hi[a][k % 8] = some ? most : nothing;
@@ -373,15 +372,14 @@ template <int D> class Index {
     u32 groups = sorted_ / 8, step = groups / sampled + 1, seen = 0;
     f32 sum = 0;
     for (u32 g = 0; g < groups; g += step, seen++) {
-      for (u32 a = 0; a < D; a++) {
-        f32 lo = __builtin_inff(), hi = -lo;
-        for (u32 k = 8 * g; k < 8 * g + 8; k++) {
-          const f32* box = &seen_.boxes[u64(slots_[k]) * width + a];
-          lo = smaller(lo, box[0]);
-          hi = larger(hi, box[D]);
-        }
-        if (hi - lo < 1e30f) sum += hi - lo;
+      f32x4 low = splat(__builtin_inff()), high = -low;
+      for (u32 k = 8 * g; k < 8 * g + 8; k++) {
+        const f32* box = &seen_.boxes[u64(slots_[k]) * width];
+        low = min(load<f32x4>(box), low);
+        high = max(load<f32x4>(box + width - 4), high);
       }
+      f32x4 size = maxima<D>(high, high) - low;
+      for (u32 a = 0; a < D; a++) sum += size[a] < 1e30f ? size[a] : 0;
     }
     return seen ? sum / f32(seen) : 0;
   }

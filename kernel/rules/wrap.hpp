@@ -255,7 +255,7 @@ class Wrap {
   NOINLINE void place_boxes(const Changes& moved) {
     const u32 width = 2 * dimensions_;
     f32x4 above_first, above_last, below_first, below_last;
-    for (u32 n = 0; n < 4; n++) {
+    ROLLED for (u32 n = 0; n < 4; n++) {
       u32 one = n % dimensions_, other = (width - 4 + n) % dimensions_;
       above_first[n] = round_up(from_[one]);
       above_last[n] = round_up(from_[other]);

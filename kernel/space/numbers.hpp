@@ -152,7 +152,8 @@ template <int D> class Numbers {
   SMALL void look_for_map(u32 n, bool ordered) {
     if (!rounding_ || written.in_place()) return;
     // A snapshot does not tell that boxes which are all exact in float32 were not before.
-    bool plain = ordered && are_floats(exact_.data(), n, width);
+    // Nearly always the first few tell.
+    bool plain = ordered && are_floats(exact_.data(), smaller(n, 16u), width) && are_floats(exact_.data(), n, width);
     if (choice_.look(boxes_.data(), exact_.data(), n, ordered, plain)) round_all(n);
   }
 
