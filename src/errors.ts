@@ -93,12 +93,19 @@ function checkCount(
   );
 }
 
+/** The space whose method got bad arguments: see `BroadPhase.set` for why these are passed on by `apply`. */
+interface OfDimensions {
+  dimensions: 2 | 3;
+}
+
 /** A bad box by centre and half size: says which of its numbers is wrong. */
-export function badCentred(got: number, id: unknown, given: readonly unknown[], dimensions: 2 | 3): never {
+export function badCentred(this: OfDimensions, ...all: unknown[]): never {
+  const { dimensions } = this;
+  const [id, ...given] = all;
   const where = 'setCentred';
   const names = centred[dimensions];
   const of = ` of box ${id}`;
-  checkCount(where, id, got, dimensions, names);
+  checkCount(where, id, all.length, dimensions, names);
   for (let k: number = dimensions; k < names.length; k++) checkDistance(`${where}: ${names[k]}${of}`, given[k]);
   badQuery(where, given, names.slice(0, dimensions), 'a finite number', of);
 }
@@ -268,24 +275,16 @@ export function checkDistance(where: string, distance: unknown): number {
 }
 
 /** Finds what is wrong with the arguments of `set`. */
-export function badSet(
-  given: number,
-  id: unknown,
-  a: unknown,
-  b: unknown,
-  c: unknown,
-  d: unknown,
-  e: unknown,
-  f: unknown,
-  dimensions: 2 | 3,
-): never {
-  checkCount('set', id, given, dimensions);
-  badBox('set', id, [a, b, c, d, e, f], dimensions);
+export function badSet(this: OfDimensions, ...all: unknown[]): never {
+  const [id, ...box] = all;
+  checkCount('set', id, all.length, this.dimensions);
+  badBox('set', id, box, this.dimensions);
 }
 
 /** Finds what is wrong with the arguments of `setSwept`. */
-export function badSwept(got: number, id: unknown, given: readonly unknown[], dimensions: 2 | 3): never {
-  const names = dimensions === 2 ? sweep2 : sweep3;
-  checkCount('setSwept', id, got, dimensions, names);
+export function badSwept(this: OfDimensions, ...all: unknown[]): never {
+  const [id, ...given] = all;
+  const names = this.dimensions === 2 ? sweep2 : sweep3;
+  checkCount('setSwept', id, all.length, this.dimensions, names);
   badQuery('setSwept', given, names, 'a number', ` of box ${id}`);
 }

@@ -4,11 +4,14 @@
 // `BroadPhase.set` writes a box first and asks afterwards, so that it has nothing left to keep across a call. Since any
 // call of the kernel may grow its memory, which detaches the ring, the ring is closed before each: the next box is
 // written aside and opens it again.
+import { badId, maxId } from '../errors.ts';
 import { ringCapacity, ringHead } from '../generated/abi.ts';
 import type { KernelInstance } from './instance.ts';
 
 /** An index beyond the last word of any memory. */
 const nowhere = 2 ** 30;
+/** No id. */
+const none = -1;
 
 /** Relative to the numbers involved: more than the roundings of `sweep`, for which see kernel/questions/meeting.hpp. */
 const roundings = 2 ** -49;
@@ -43,7 +46,7 @@ export class Ring {
     this.#instance = instance;
     this.step = instance.width + 1;
     this.last = ringHead + (ringCapacity - 1) * this.step;
-    this.numbers = this.#aside = new Float64Array(this.step);
+    this.numbers = this.#aside = new Float64Array(7);
   }
 
   /** Whether there is a box of this id; also false if only the kernel knows. */
@@ -94,28 +97,69 @@ export class Ring {
 
   /**
    * Called after the box of this id was written, if it may not wait without asking, or fills the ring. It counts only at
-   * the end of all that can fail, the end of the stack included.
+   * the end of all that can fail, the end of the stack included. With `none`, no box was written: all that wait are
+   * flushed.
+   * This is one function, too long for V8 to inline it. Otherwise `set` with it would exceed what V8 inlines into a
+   * caller that calls other functions too, and each call of `set` would allocate its numbers.
    */
   settle(id: number): void {
-    if (this.numbers === this.#aside) this.#open();
-    const isNext = id === this.dense && this.#room > 0;
-    if (!isNext && id >= this.dense && !(this.#page(id) > 0)) {
-      this.#takeAlone();
-    } else if (this.next >= this.last) {
-      this.flush(this.next + this.step);
-    } else {
-      this.next += this.step;
-      if (isNext) {
-        this.dense++;
-        this.#room--;
+    const { step } = this;
+    const instance = this.#instance;
+    const aside = this.#aside;
+    let end = this.next;
+    if (id !== none) {
+      if (id > maxId) badId('set', id);
+      const isNext = id === this.dense && this.#room > 0;
+      const mayWait = isNext || id < this.dense || this.#page(id) > 0;
+      if (!mayWait && end > ringHead) {
+        // Adding it may fail, or an open view of the boxes has to show it: it is flushed after all others.
+        const { numbers } = this;
+        aside[0] = numbers[end]!;
+        aside[1] = numbers[end + 1]!;
+        aside[2] = numbers[end + 2]!;
+        aside[3] = numbers[end + 3]!;
+        aside[4] = numbers[end + 4]!;
+        aside[5] = numbers[end + 5]!;
+        aside[6] = numbers[end + 6]!;
+        this.settle(none);
+        this.numbers = aside;
       }
-      this.limit = this.dense;
+      if (this.numbers === aside) {
+        const ring = this.#view();
+        ring[ringHead] = aside[0]!;
+        ring[ringHead + 1] = aside[1]!;
+        ring[ringHead + 2] = aside[2]!;
+        ring[ringHead + 3] = aside[3]!;
+        ring[ringHead + 4] = aside[4]!;
+        ring[ringHead + 5] = aside[5]!; // in 2D there are two numbers fewer, and these are of the next box
+        ring[ringHead + 6] = aside[6]!;
+        this.numbers = ring;
+        this.next = ringHead;
+      }
+      end = this.next + step;
+      if (mayWait && this.next < this.last) {
+        this.next = end;
+        if (isNext) {
+          this.dense++;
+          this.#room--;
+        }
+        this.limit = this.dense;
+        return;
+      }
+      if (!mayWait && !instance.exposedIsOpen) instance.exposed = undefined;
     }
+    try {
+      instance.exports.take((end - ringHead) / step);
+    } catch (error) {
+      this.#fail(error);
+      instance.recover(error, 'set');
+    }
+    this.#reopen();
   }
 
   /** Flushes the ring and closes it, as the kernel is about to be called. */
   close(): void {
-    if (this.next > ringHead) this.flush(this.next);
+    if (this.next > ringHead) this.settle(none);
     this.#shut();
   }
 
@@ -130,17 +174,6 @@ export class Ring {
   forget(): void {
     this.limit = this.dense = this.#room = 0;
     this.#pages = nowhere;
-  }
-
-  /** Lets the kernel take the boxes up to this index. */
-  flush(end: number): void {
-    try {
-      this.#instance.exports.take((end - ringHead) / this.step);
-    } catch (error) {
-      this.#fail(error);
-      this.#instance.recover(error, 'set');
-    }
-    this.#reopen();
   }
 
   /** Lets an update of the kernel take the boxes that wait. Returns what it returns. */
@@ -187,28 +220,6 @@ export class Ring {
   /** The page of an id. If growing memory has detached the view, nothing is found. */
   #page(id: number): number {
     return this.#instance.words[this.#pages + 2 * (id >>> 12)]!;
-  }
-
-  /**
-   * Flushes the box that was written last, after all others: adding it may fail, or an open view of the boxes has to
-   * show it.
-   */
-  #takeAlone(): void {
-    if (this.next > ringHead) {
-      for (let k = 0; k < this.step; k++) this.#aside[k] = this.numbers[this.next + k]!;
-      this.flush(this.next);
-      this.#open();
-    }
-    if (!this.#instance.exposedIsOpen) this.#instance.exposed = undefined;
-    this.flush(ringHead + this.step);
-  }
-
-  /** Moves the box that was written aside into the ring. */
-  #open(): void {
-    const ring = this.#view();
-    for (let k = 0; k < this.step; k++) ring[ringHead + k] = this.#aside[k]!;
-    this.numbers = ring;
-    this.next = ringHead;
   }
 
   /** Closes the ring. */
