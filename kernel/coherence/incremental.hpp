@@ -132,7 +132,7 @@ template <int D> class Incremental {
       return false;  // nothing new is known
     Plan plan = choose(scene);
     if (plan.work == __builtin_inf()) {
-      if (!list_.is_empty() || watch_.known() >= tuning.watched) give_up();
+      if (!list_.is_empty() || watch_.known() >= tuning.watched || watch_.wavers()) give_up();
       return false;
     }
     if (list_.is_empty() && list_.origin_age() > 2 * plan.lead && plan.lead > 0) {  // velocities are out of date

@@ -85,7 +85,7 @@ template <int D> class Watch {
   // One box in `watched_share` is watched, within these limits.
   static constexpr u32 watched_share = 16, most_watched = 256;
   static constexpr f64 common_share = 0.75;  // common motion is subtracted if it leaves less than this share
-  static constexpr u32 width = 2 * D, horizons = 7, buckets = 24, voters = 31;
+  static constexpr u32 width = 2 * D, most_turns = 3, horizons = 7, buckets = 24, voters = 31;
 
   struct Sample {
     // The minima and the maxima of the box: where it began, and in the last update. Spare lanes have what follows them.
@@ -109,7 +109,7 @@ template <int D> class Watch {
 
   Buffer<Sample> samples_;
   Buffer<Horizon> horizons_;
-  u32 many_ = 0, age_ = 0, known_ = 0;
+  u32 many_ = 0, age_ = 0, known_ = 0, turns_ = 0;
   bool common_ = false;
   bool quiet_ = false;  // no sample has moved in these updates, at least eight
   Shift total_, begun_;  // common motion so far, and until these samples were taken
@@ -136,8 +136,10 @@ template <int D> class Watch {
   bool is_judged() const { return (age_ & (age_ - 1)) == 0; }
   /// Whether it was found in this update that no box moves any more.
   bool is_quiet() const { return quiet_ && is_judged(); }
+  /// Whether measurements were begun again several times, since it changed whether common motion is subtracted.
+  bool wavers() const { return turns_ > most_turns; }
   /// Forgets all measurements; the next `look` takes new samples.
-  void forget() { many_ = known_ = 0; }
+  void forget() { many_ = known_ = turns_ = 0; }
   SMALL void release() {
     forget();
     samples_.release();
@@ -361,6 +363,7 @@ template <int D> class Watch {
     if (wish == common_) return false;
     common_ = wish;
     known_ = 0;
+    turns_++;
     return true;
   }
 

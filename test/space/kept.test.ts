@@ -87,3 +87,32 @@ test.each([
   }
   expect(lists, 'lists made in 300 updates').toBeLessThan(5);
 });
+
+test.each([
+  [2, 10, 8],
+  [2, 5, 5],
+  [3, 10, 8],
+  [3, 4, 2],
+] as const)(
+  'in %iD, boxes that sway together by steps of %d, and jitter by %d, are not measured all the time',
+  (dimensions, step, jitter) => {
+    // They are back where they were every 12 updates. So at one measurement their motion is common, at the next it is not,
+    // and all that is known is out of date each time.
+    const count = 2000;
+    const random = createRandom(3);
+    const world = 10 * (4 * count) ** (1 / dimensions);
+    const home = Float64Array.from({ length: count * dimensions }, () => random() * world);
+    const space = new BroadPhase<2 | 3>({ dimensions });
+    let observed = 0;
+    for (let frame = 0; frame < 300; frame++) {
+      const sway = step * Math.abs(((frame + 6) % 12) - 6);
+      for (let id = 0; id < count; id++) {
+        const from = id * dimensions;
+        const low = [...home.subarray(from, from + dimensions)].map((x) => x + sway + (2 * random() - 1) * jitter);
+        space.set(id, ...([...low, ...low.map((x) => x + 10)] as [number, number, number, number]));
+      }
+      observed += Number(space.update().stats.reason.includes('observed'));
+    }
+    expect(observed, 'updates of 300 in which motion was measured, without a list').toBeLessThan(60);
+  },
+);
