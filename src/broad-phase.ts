@@ -133,7 +133,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   set(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
     // Short enough for engines to inline, three times into one function. Otherwise each call would allocate its doubles on
     // the heap, which is garbage. V8 inlines up to 460 bytes of bytecode, and into one function 920, of which the last to
-    // be inlined counts 1.2 times; this has 277, with `settle` left out. `arguments` may be passed on by `apply` alone, or
+    // be inlined counts 1.2 times; this has 278, with `settle` left out. `arguments` may be passed on by `apply` alone, or
     // each call would allocate it.
     const ring = this.#ring;
     const { length } = arguments;

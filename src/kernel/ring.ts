@@ -99,8 +99,9 @@ export class Ring {
    * Called after the box of this id was written, if it may not wait without asking, or fills the ring. It counts only at
    * the end of all that can fail, the end of the stack included. With `none`, no box was written: all that wait are
    * flushed.
-   * This is one function, too long for V8 to inline it. Otherwise `set` with it would exceed what V8 inlines into a
-   * caller that calls other functions too, and each call of `set` would allocate its numbers.
+   * This is one function, too long for V8 to inline it; the copies of a box are written out for that. Otherwise `set`
+   * with it would exceed what V8 inlines into a caller that calls other functions too, and then each call of `set`
+   * would allocate its numbers.
    */
   settle(id: number): void {
     const { step } = this;
