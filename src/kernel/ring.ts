@@ -12,6 +12,8 @@ import type { KernelInstance } from './instance.ts';
 const nowhere = 2 ** 30;
 /** No id. */
 const none = -1;
+/** The ids of a page. */
+const pageLength = 4096;
 
 /** Relative to the numbers involved: more than the roundings of `sweep`, for which see kernel/questions/meeting.hpp. */
 const roundings = 2 ** -49;
@@ -41,6 +43,8 @@ export class Ring {
   #room = 0;
   /** The index of the kernel's table of id pages in its memory: see kernel/boxes/ids.hpp. */
   #pages = nowhere;
+  /** If ids have gaps: all pages of ids below this exist, so these ids may wait. */
+  #paged = 0;
 
   constructor(instance: KernelInstance) {
     this.#instance = instance;
@@ -144,7 +148,7 @@ export class Ring {
           this.dense++;
           this.#room--;
         }
-        this.limit = this.dense;
+        this.limit = Math.max(this.dense, this.#paged);
         return;
       }
       if (!mayWait && !instance.exposedIsOpen) instance.exposed = undefined;
@@ -173,7 +177,7 @@ export class Ring {
 
   /** Forgets which boxes may wait: called after anything that adds or removes boxes. */
   forget(): void {
-    this.limit = this.dense = this.#room = 0;
+    this.limit = this.dense = this.#room = this.#paged = 0;
     this.#pages = nowhere;
   }
 
@@ -211,11 +215,12 @@ export class Ring {
     if (told[2]! > 0) {
       this.#pages = (told[2]! / 4) | 0;
       this.#instance.wordView();
+      while (this.#paged <= maxId && this.#page(this.#paged) > 0) this.#paged += pageLength;
     }
     this.last = ringHead + ((told[3]! | 0) - 1) * this.step;
     this.numbers = told;
     this.next = ringHead;
-    this.limit = this.dense;
+    this.limit = Math.max(this.dense, this.#paged);
   }
 
   /** The page of an id. If growing memory has detached the view, nothing is found. */
