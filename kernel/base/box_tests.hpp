@@ -34,6 +34,12 @@ template <int D> void store_box(f32* to, f32x4 first, f32x4 last) {
   if constexpr (D == 3) store(to + 2, last);
 }
 
+/// From its numbers two at a time to such vectors.
+template <int D> void join(const f32x4 (&pairs)[D], f32x4& first, f32x4& last) {
+  first = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 4, 5);
+  last = __builtin_shufflevector(pairs[D - 2], pairs[D - 1], 0, 1, 4, 5);
+}
+
 /// The maxima of a box in the lanes of its minima.
 template <int D> f32x4 maxima(f32x4 first, f32x4 last) {
   if constexpr (D == 2) return __builtin_shufflevector(first, first, 2, 3, 2, 3);

@@ -1,6 +1,7 @@
 // Rounds doubles outward to float32, for bounds that must contain them: rounded down is never above, rounded up never
 // below.
 #pragma once
+#include "base/box_tests.hpp"
 #include "base/heap.hpp"
 
 inline f32 next_toward(f32 x, bool up) {
@@ -41,21 +42,21 @@ SMALL inline void round_inward(f64 lo, f64 hi, bool closed, f32& to_lo, f32& to_
 /// last place or two costs less than asking which way each was rounded.
 inline f32x4 loosened(f32x4 x, f32x4 sign) {
   auto turned = [&](f32x4 v) { return bits<f32x4>(bits<u32x4>(v) ^ bits<u32x4>(sign)); };
-  f32x4 low = min(turned(x), splat(3.40282347e38f));
+  f32x4 low = min(turned(x), splat(__FLT_MAX__));
   f32x4 most = bits<f32x4>(bits<u32x4>(low) & splat(0x7fffffffu));
   return turned(low - (most * splat(0x1p-23f) + splat(0x1p-149f)));
 }
 
 /// Loosens boxes that were rounded to the nearest float32, so that they contain what was rounded.
 template <int D> void loosen(f32x4 first, f32x4 last, f32* to) {
-  store(to, loosened(first, f32x4{0.0f, 0.0f, D == 2 ? -0.0f : 0.0f, -0.0f}));
-  if constexpr (D == 3) store(to + 2, loosened(last, f32x4{0.0f, -0.0f, -0.0f, -0.0f}));
+  store_box<D>(to, loosened(first, f32x4{0.0f, 0.0f, D == 2 ? -0.0f : 0.0f, -0.0f}),
+               loosened(last, f32x4{0.0f, -0.0f, -0.0f, -0.0f}));
 }
 
 /// A box rounded outward.
 template <int D> void round_outward(const f64* box, f32* to) {
-  f32x4 pairs[D];
+  f32x4 pairs[D], first, last;
   for (u32 k = 0; k < D; k++) pairs[k] = narrow(load<f64x2>(box + 2 * k));
-  loosen<D>(__builtin_shufflevector(pairs[0], pairs[1], 0, 1, 4, 5),
-            __builtin_shufflevector(pairs[D - 2], pairs[D - 1], 0, 1, 4, 5), to);
+  join(pairs, first, last);
+  loosen<D>(first, last, to);
 }

@@ -197,11 +197,6 @@ template <int D> class GapMap {
   }
 
  private:
-  static void join(const f32x4 (&pairs)[D], f32x4& first, f32x4& last) {
-    first = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 4, 5);
-    last = __builtin_shufflevector(pairs[D - 2], pairs[D - 1], 0, 1, 4, 5);
-  }
-
   /// Whether the box has a size along each axis that is neither 0 nor infinite.
   static bool is_sized(f32x4 first, f32x4 last) {
     constexpr u32 axes = (1 << D) - 1;

@@ -109,7 +109,8 @@ template <int D> class Watch {
 
   Buffer<Sample> samples_;
   Buffer<Horizon> horizons_;
-  u32 many_ = 0, age_ = 0, known_ = 0, turns_ = 0;
+  u32 many_ = 0, age_ = 0, known_ = 0;
+  u32 turns_ = 0;  // how many times it has changed whether common motion is subtracted
   bool common_ = false;
   bool quiet_ = false;  // no sample has moved in these updates, at least eight
   Shift total_, begun_;  // common motion so far, and until these samples were taken

@@ -57,7 +57,7 @@ export class Ring {
   knows(id: number): boolean {
     if (id < this.dense) return true;
     const page = this.#page(id);
-    return page > 0 && this.#instance.words[(page >>> 2) + (id & 4095)]! > 0;
+    return page > 0 && this.#instance.words[(page >>> 2) + (id & (pageLength - 1))]! > 0;
   }
 
   /**
@@ -136,7 +136,7 @@ export class Ring {
         ring[ringHead + 2] = aside[2]!;
         ring[ringHead + 3] = aside[3]!;
         ring[ringHead + 4] = aside[4]!;
-        ring[ringHead + 5] = aside[5]!; // in 2D there are two numbers fewer, and these are of the next box
+        ring[ringHead + 5] = aside[5]!; // a box in 2D has two numbers fewer: the next one replaces these
         ring[ringHead + 6] = aside[6]!;
         this.numbers = ring;
         this.next = ringHead;
