@@ -85,11 +85,18 @@ async function writeReference(folder: string): Promise<void> {
   await app.generateDocs(project, `${folder}/api`);
 }
 
-export const api: Plugin = {
+/** Two plugins, since Vite calls `closeBundle` in development too, whenever a server closes or restarts. */
+const built: Plugin = {
   name: 'api',
+  apply: 'build',
   async closeBundle() {
     await writeReference(path('../dist'));
   },
+};
+
+const served: Plugin = {
+  name: 'api-in-development',
+  apply: 'serve',
   configureServer(server) {
     const folder = path('../../build/reference');
     let written: Promise<void> | undefined;
@@ -109,3 +116,5 @@ export const api: Plugin = {
     });
   },
 };
+
+export const api = [built, served];

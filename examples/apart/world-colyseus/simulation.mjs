@@ -1,7 +1,7 @@
 // The entities of one zone, and the shard that finds who sees whom among them and the ghosts of other zones.
 import { BroadPhase } from 'broadphase';
 import { Shard } from 'broadphase/shard';
-import { boxOf, isAvatar, move, sight } from './world.mjs';
+import { boxOf, isAvatar, move, sight, xInZone } from './world.mjs';
 
 /**
  * Ticks for which handed-over entities are remembered, in case the other zone is lost. When it is back, they are
@@ -43,6 +43,9 @@ export class Simulation {
       return zone !== this.zone && !isOpen(zone);
     };
     for (const entity of this.entities.values()) {
+      // After an interruption it may own some that it had handed over. They come back, since the shard would hand them
+      // over again, to nobody.
+      if (shut(entity.x)) entity.x = xInZone(this.#zones, this.zone, entity.x);
       move(entity, shut);
       this.shard.set(entity.id, ...boxOf(entity));
     }

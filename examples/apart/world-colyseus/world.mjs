@@ -32,6 +32,12 @@ export const boxOf = ({ x, y }) => [x - sight / 2, y - sight / 2, x + sight / 2,
 /** The zone of an entity at this place: the one that owns its box. */
 export const zoneOf = (zones, place) => zones.ownerOf(boxOf(place));
 
+/** The nearest x at which a place is of this zone. */
+export function xInZone({ count }, zone, x) {
+  const [from, to] = [zone, zone + 1].map((k) => (world.width * k) / count + sight / 2);
+  return Math.min(to - 1, Math.max(from, x));
+}
+
 /** All entities at the beginning of the world, the same in every process. */
 export function* beginnings(count) {
   let state = 20260101;
