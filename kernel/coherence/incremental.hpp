@@ -106,7 +106,7 @@ template <int D> class Incremental {
     prospect_.rest = watch_.resting();
     prospect_.planning = tuning.planning / scene.count;
     prospect_.late = tuning.late_among(scene.count);
-    return watch_.plan(prospect_, tuning, prospect_.fresh);
+    return watch_.plan(prospect_, tuning, tuning.ahead * prospect_.fresh);
   }
 
   SMALL void rebuild(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
@@ -199,7 +199,7 @@ template <int D> class Incremental {
     f64 n = scene.count;
     f64 late = list_.late_work() / n;
     f64 looked = scene.listed() ? scene.changes->count() : scene.count;
-    smooth_ += (late - smooth_) * 2 / tuning.divided;
+    smooth_ += (late - smooth_) * 2 / tuning.watched;
     lateness_ += late;
     f64 least = list_.least_work(looked) / n;
     life_ += late + least;
@@ -223,7 +223,7 @@ template <int D> class Incremental {
   }
 
   /// Whether the next list will be made in two updates.
-  bool is_divided() const { return age_ >= tuning.divided && can_divide(); }
+  bool is_divided() const { return age_ >= tuning.watched && can_divide(); }
   /// Whether that can pay: among few boxes, most of the time goes into choosing a margin.
   bool can_divide() const { return 2 * prospect_.planning < prospect_.fresh; }
 
