@@ -85,7 +85,8 @@ template <int D> class Watch {
   // One box in `watched_share` is watched, within these limits.
   static constexpr u32 watched_share = 16, most_watched = 256;
   static constexpr f64 common_share = 0.75;  // common motion is subtracted if it leaves less than this share
-  static constexpr u32 width = 2 * D, most_turns = 3, horizons = 7, buckets = 24, voters = 31;
+  static constexpr u32 width = 2 * D, most_turns = 3, horizons = 7, voters = 31;
+  static constexpr u32 buckets = 30, margins = 22;  // of distances; those whose upper end may be a margin
 
   struct Sample {
     // The minima and the maxima of the box: where it began, and in the last update. Spare lanes have what follows them.
@@ -206,7 +207,7 @@ template <int D> class Watch {
     Plan best;
     Growth<D> plain = space(prospect, nullptr);
     for (u32 led = 0; led < 2; led++) {
-      f64 late[buckets] = {}, bursts[buckets] = {};
+      f64 late[margins] = {}, bursts[margins] = {};
       for (u32 h = 0; h + led < known_; h++) weigh(h, led, plain, late, bursts, prospect, tuning, most, best);
     }
     return best;
@@ -388,7 +389,7 @@ template <int D> class Watch {
     // A box is late once, and once more for each `late_margin` that it moves further.
     f64 events[buckets + 1] = {}, beyond = 0, sum = 0;
     for (u32 m = buckets + 1; m-- > 0;) {
-      if (m < buckets) {
+      if (m < margins) {
         bursts[m] = larger(bursts[m], (beyond - lates[m]) * (h ? 2 / updates : 1));
         lates[m] = beyond;
       }
@@ -406,7 +407,7 @@ template <int D> class Watch {
     }
     f64 least = looked + tuning.candidate * prospect.candidates(1) + (prospect.planning + prospect.build(1)) / updates;
     Growth<D> all = led ? Growth<D>{} : plain;
-    for (u32 m = 0; m < buckets - 2; m++) {
+    for (u32 m = 0; m < margins; m++) {
       f64 limit = smaller(most, best.work * (led && !best.lead ? tuning.ahead : 1));
       f64 lateness = (jumps + events[m]) * prospect.late / updates;
       if (bursts[m] * prospect.late > tuning.burst * prospect.fresh || least + lateness >= limit) continue;

@@ -116,3 +116,36 @@ test.each([
     expect(observed, 'updates of 300 in which motion was measured, without a list').toBeLessThan(60);
   },
 );
+
+test.each([
+  [2, 0.06, 2, 0, 30, 22],
+  [3, 0.07, 2, 0, 12, 21],
+  [2, 0.12, 1, 0.01, 4, 21],
+] as const)(
+  'in %iD, lists pay where a share of %d of the boxes moves by up to %d sizes, and the others by up to %d',
+  (dimensions, share, fast, slow, room, seed) => {
+    // Late boxes must not count as more than they cost; nor may a long time count as cheap because distances beyond a few
+    // sizes were not told apart.
+    const count = 3000;
+    const random = createRandom(seed);
+    const world = 10 * (room * count) ** (1 / dimensions);
+    const at = Float64Array.from({ length: count * dimensions }, () => random() * world);
+    const speeds = Float64Array.from({ length: count }, () => 10 * (random() < share ? fast : slow));
+    const by = Float64Array.from(at, (_, k) => (2 * random() - 1) * speeds[Math.floor(k / dimensions)]!);
+    const space = new BroadPhase<2 | 3>({ dimensions });
+    let kept = 0;
+    for (let frame = 0; frame < 300; frame++) {
+      for (let id = 0; id < count; id++) {
+        if (frame > 0 && speeds[id] === 0) continue;
+        for (let k = id * dimensions; k < (id + 1) * dimensions; k++) {
+          at[k]! += by[k]!;
+          if (at[k]! < 0 || at[k]! > world) by[k]! *= -1;
+        }
+        const low = [...at.subarray(id * dimensions, (id + 1) * dimensions)];
+        space.set(id, ...([...low, ...low.map((x) => x + 10)] as [number, number, number, number]));
+      }
+      kept += Number(isKept(space.update()) && frame >= 50);
+    }
+    expect(kept, 'updates of 250 answered from what is kept').toBeGreaterThan(220);
+  },
+);
