@@ -46,7 +46,7 @@ template <int D> class CandidateList {
   Places<D> places_;  // of late boxes
   bool finished_ = false;  // whether the candidates were found
   u32 late_count_ = 0, resting_ = 0;
-  u64 met_ = 0;  // regions that the searches for late boxes have tested in this update
+  u64 met_ = 0;  // work of the searches for late boxes in this update, in tests of strip sweep
   Pairs candidates_, extra_, settled_;  // extra: those added by late boxes
   u64 head_ = 0;  // length of the prefix of `settled_` that the last report has
   Stats built_ = {};  // of the sweep that made the list; its candidates include settled pairs
@@ -361,8 +361,8 @@ template <int D> class CandidateList {
   /// The base of a box: the region that it had first.
   const f32* base(u32 slot) const { return tags_[slot] & moved ? places_.base(slot) : region(slot); }
 
-  /// Gives new regions to the late boxes; those from slot `had` on had none. Returns false if that means testing more
-  /// regions than `enough`.
+  /// Gives new regions to the late boxes; those from slot `had` on had none. Returns false if the searches take more work
+  /// than `enough`.
   SMALL bool serve(const Scene<D>& scene, u32* list, u32 had, u64 enough, f32 margin) {
     u32 many = 0, were = 0;
     places_.unmark(larger(had, count_));

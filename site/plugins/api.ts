@@ -85,7 +85,7 @@ async function writeReference(folder: string): Promise<void> {
   await app.generateDocs(project, `${folder}/api`);
 }
 
-/** Two plugins, since Vite calls `closeBundle` in development too, whenever a server closes or restarts. */
+/** Two plugins, since Vite calls `closeBundle` in development too, when the server closes. */
 const built: Plugin = {
   name: 'api',
   apply: 'build',

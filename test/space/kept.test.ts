@@ -7,6 +7,10 @@ import { createScene } from '../../src/scenes/index.ts';
 import { createRandom } from '../../src/scenes/random.ts';
 import { keysOf } from '../support/reference.ts';
 
+/** Sets a box of side 10 by its minima, in 2D or 3D. */
+const setCube = (space: BroadPhase<2 | 3>, id: number, low: readonly number[]) =>
+  space.set(id, ...([...low, ...low.map((x) => x + 10)] as [number, number, number, number]));
+
 const isKept = ({ stats }: { stats: { reason: string } }) => stats.reason.includes('are retained');
 
 test('where boxes are long along different axes, no list has many times as many candidates as pairs', () => {
@@ -78,7 +82,7 @@ test.each([
       const from = (next % count) * dimensions;
       for (let k = from; frame && k < from + dimensions; k++) at[k]! += random() - 0.5;
       const low = [...at.subarray(from, from + dimensions)];
-      space.set(next % count, ...([...low, ...low.map((x) => x + 10)] as [number, number, number, number]));
+      setCube(space, next % count, low);
     }
     const { tests } = space.update().stats;
     // While a list lives, candidates are added to it.
@@ -109,7 +113,7 @@ test.each([
       for (let id = 0; id < count; id++) {
         const from = id * dimensions;
         const low = [...home.subarray(from, from + dimensions)].map((x) => x + sway + (2 * random() - 1) * jitter);
-        space.set(id, ...([...low, ...low.map((x) => x + 10)] as [number, number, number, number]));
+        setCube(space, id, low);
       }
       observed += Number(space.update().stats.reason.includes('observed'));
     }
@@ -142,7 +146,7 @@ test.each([
           if (at[k]! < 0 || at[k]! > world) by[k]! *= -1;
         }
         const low = [...at.subarray(id * dimensions, (id + 1) * dimensions)];
-        space.set(id, ...([...low, ...low.map((x) => x + 10)] as [number, number, number, number]));
+        setCube(space, id, low);
       }
       kept += Number(isKept(space.update()) && frame >= 50);
     }
