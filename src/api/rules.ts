@@ -69,7 +69,7 @@ export interface Rules {
   /**
    * Switches box `id` off, or on again. A box that is off keeps its numbers and its filter, and can be set, moved and
    * deleted. From the next update on it is in no pair and in no answer, and its pairs have ended. The setting belongs
-   * to the id, as filters do. While any box is off, an update visits all boxes and pairs, even if little changes.
+   * to the id, as filters do.
    *
    * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param enabled whether it takes part
@@ -124,7 +124,8 @@ export interface Rules {
   /**
    * Sets how far box `id` reaches: it is in a pair while the two boxes overlap with each one enlarged by its reach on
    * all sides. For contacts that a physics engine needs ahead of time. `get` and queries see the box itself. The
-   * setting belongs to the id, as filters do. While any box has a reach, an update visits all boxes.
+   * setting belongs to the id, as filters do. While any box has a reach, the space keeps an enlarged copy of all
+   * boxes.
    *
    * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param distance in units of the world: finite, at least 0. The sides of the enlarged box are sums, each rounded
