@@ -56,6 +56,7 @@ const hotInside = 0.5;
  *
  * @throws RangeError for a 3D space, or a ray out of range, TypeError for any other wrong argument or option; nothing is
  * drawn then
+ * @throws as `rayCast` does, such as for a ray too long for a world that wraps around: what comes before it is drawn
  *
  * @example
  * const space = new BroadPhase().set(7, 0, 0, 10, 10).set(9, 5, 5, 15, 15).update();

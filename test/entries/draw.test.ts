@@ -238,6 +238,11 @@ describe('drawSpace', () => {
     const bad = { rays: [[0, 0, Number.NaN, 0]] };
     expect(() => drawSpace(ctx, space(), bad)).toThrow(RangeError);
     expect(context).toMatchObject({ strokeStyle: 'before', globalAlpha: 1, lineWidth: 3 });
+    const wrapped = new BroadPhase({ wrap: [9, 9] }).update();
+    expect(() => drawSpace(ctx, wrapped, { rays: [[0, 0, 1, 0, 1e9]] })).toThrow(
+      'rayCast: maxDistance: got 1000000000',
+    );
+    expect(context).toMatchObject({ strokeStyle: 'before', globalAlpha: 1, lineWidth: 3 });
   });
 
   test('says what is wrong before it draws', () => {
