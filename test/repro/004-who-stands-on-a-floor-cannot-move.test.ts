@@ -90,6 +90,15 @@ describe.each([2, 3] as const)('a box of zero size hits edges too, as a ray does
   });
 });
 
+test('a wall without thickness stops a point that comes to it, but not one that has stopped there', () => {
+  const space = new BroadPhase().set(0, 10, 0, 10, 10).update();
+  expect(space.sweep(0, 5, 0, 5, 20, 0)).toEqual({ id: 0, time: 0.5, normal: [-1, 0] });
+  expect(space.rayCast(0, 5, 1, 0)).toEqual({ id: 0, distance: 10, normal: [-1, 0] });
+  expect(space.sweep(10, 5, 10, 5, 20, 0)).toBeUndefined();
+  expect(space.rayCast(10, 5, 1, 0)).toBeUndefined();
+  expect(space.sweep(9, 5, 10, 5, 20, 0)).toEqual({ id: 0, time: 0, normal: [-1, 0] });
+});
+
 test('who walks over a seam of tiles under gravity does not run into the next, whichever has the smaller id', () => {
   for (const [here, next] of [
     [0, 1],
