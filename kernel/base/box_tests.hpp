@@ -45,9 +45,3 @@ template <int D> f32x4 maxima(f32x4 first, f32x4 last) {
   if constexpr (D == 2) return __builtin_shufflevector(first, first, 2, 3, 2, 3);
   else return __builtin_shufflevector(last, last, 1, 2, 3, 3);
 }
-
-/// The numbers in which two boxes agree: all lanes are set if the boxes are equal.
-template <int D> i32x4 alike(const f32* one, const f32* other) {
-  i32x4 same = load<f32x4>(one) == load<f32x4>(other);
-  return D == 2 ? same : same & (load<f32x4>(one + 2) == load<f32x4>(other + 2));
-}

@@ -19,6 +19,8 @@
 // Never inlined, but optimized for speed: one copy for several callers, which keeps the module small, or a hot loop that
 // is better compiled apart from its caller.
 #define NOINLINE __attribute__((noinline))
+// Always inlined: for hot loops in which the compiler decides otherwise.
+#define INLINE __attribute__((always_inline)) inline
 
 enum class Fault : u32 { none = 0, out_of_memory = 1 };
 
@@ -38,25 +40,15 @@ struct Failure {
 };
 [[noreturn]] inline void fail(Fault what, f64 bytes) { throw Failure{what, bytes}; }
 #endif
-// Always inlined: for hot loops in which the compiler decides otherwise.
-#define INLINE __attribute__((always_inline)) inline
 
 /// A sink for values that are read only to prefetch them: it keeps the compiler from removing the reads.
 inline volatile u32 unneeded;
 
-/// Prefetches `bytes` bytes: reads one value from each cache line of 64 bytes, so that all lines are fetched at once.
-NOINLINE inline void read_lines(const void* from, u32 bytes) {
-  const u8* at = static_cast<const u8*>(from);
-  u32 read = 0;
-  for (u32 k = 0; k < bytes; k += 64) read ^= at[k];
-  unneeded = read;
-}
-
-/// Prefetches rows of `bytes` bytes each. The numbers of the rows are `step` apart.
-NOINLINE inline void read_rows(const void* rows, u32 bytes, const u32* numbers, u32 count, u32 step) {
+/// Prefetches the rows of these numbers, of `bytes` bytes each.
+NOINLINE inline void read_rows(const void* rows, u32 bytes, const u32* numbers, u32 count) {
   const u8* from = static_cast<const u8*>(rows);
   u32 read = 0;
-  for (u32 k = 0; k < count; k++, numbers += step) read ^= from[u64(*numbers) * bytes];
+  for (u32 k = 0; k < count; k++) read ^= from[u64(numbers[k]) * bytes];
   unneeded = read;
 }
 

@@ -13,7 +13,6 @@
 using f32 = float;
 using f64 = double;
 using u8 = uint8_t;
-using i16 = int16_t;
 using u16 = uint16_t;
 using u32 = uint32_t;
 using i32 = int32_t;
@@ -25,7 +24,6 @@ typedef u32 u32x4 __attribute__((vector_size(16)));
 typedef f64 f64x2 __attribute__((vector_size(16)));
 typedef u64 u64x2 __attribute__((vector_size(16)));
 typedef f32 f32x2 __attribute__((vector_size(8)));
-typedef i16 i16x8 __attribute__((vector_size(16)));
 typedef u8 u8x16 __attribute__((vector_size(16)));
 
 /// Reads any plain value from unaligned memory.

@@ -201,17 +201,6 @@ template <int D> class Index {
     built_ = false;
   }
 
-  SMALL void release() {
-    seen_.release();
-    slots_.release();
-    placed_ids_.release();
-    places_.release();
-    sort_.release();
-    blocks_.release();
-    known_ = 0;
-    built_ = false;
-  }
-
  private:
   /// There are n slots now: those from there on have no place any more.
   void know(u32 n) {

@@ -112,15 +112,6 @@ template <int D> struct SeenBoxes {
 
   bool is_off(u32 slot) const { return filtered && rules[slot].is_off(); }
 
-  SMALL void release() {
-    boxes.release();
-    exact.release();
-    ids.release();
-    rules.release();
-    reaches.release();
-    count = 0;
-  }
-
  private:
   static constexpr f64 unmeasured = -1;
 

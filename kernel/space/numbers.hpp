@@ -68,8 +68,8 @@ template <int D> class Numbers {
 
   /// Prefetches a batch of boxes.
   void read_ahead(const u32* slots, u32 many) const {
-    read_rows(boxes_.data(), width * sizeof(f32), slots, many, 1);
-    if (rounding_) read_rows(exact_.data(), width * sizeof(f64), slots, many, 1);
+    read_rows(boxes_.data(), width * sizeof(f32), slots, many);
+    if (rounding_) read_rows(exact_.data(), width * sizeof(f64), slots, many);
   }
 
   /// Writes boxes, `step` numbers apart, to their slots, and records which of them have changed.
@@ -86,7 +86,6 @@ template <int D> class Numbers {
     stage(count);
     return staged_exact_.reserve(u64(count) * width);
   }
-  f64 staged_number(u32 index, bool doubles) const { return doubles ? staged_exact_[index] : f64(staged_[index]); }
 
   /// The first bad one of the staged boxes, or -1. `rounded`: whether some are not exact in float32.
   SMALL i32 check_staged(u32 count, bool doubles, bool& rounded) {

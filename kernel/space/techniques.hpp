@@ -122,7 +122,8 @@ template <int D> class Techniques {
 };
 
 // Puts both dimensions of each class next to each other in the module, so that gzip finds what they share: it makes the
-// module an eighth smaller. A build may have only one dimension: DIMENSIONS is then 2 or 3.
+// module an eighth smaller. A build may have only one dimension: DIMENSIONS is then 2 or 3. With TWINS, builds without
+// some techniques have the others side by side too: scripts/technique-sizes.mjs compares such.
 #if defined(DIMENSIONS)
 #define BOTH(Kind) template class Kind<DIMENSIONS>;
 #else
