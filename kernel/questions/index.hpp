@@ -113,27 +113,23 @@ template <int D> class Index {
   }
 
   /// Whether there is memory for a copy of the boxes of a space.
-  bool fits(const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches, const f64* world) const {
-    return seen_.fits(exact, ids, rules, reaches, world);
-  }
+  bool fits(const PresentBoxes<D>& now) const { return seen_.fits(now); }
 
   /// Copies the boxes of a space.
-  SMALL void see(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
-                 const f64* world) {
+  SMALL void see(const PresentBoxes<D>& now) {
     seen_.count = 0;
-    know(ids.count());
+    know(now.ids.count());
     built_ = false;
-    seen_.see(boxes, exact, ids, rules, reaches, world);
+    seen_.see(now);
   }
 
   /// After `see` without boxes: takes the memory that they are in.
   template <class Numbers> void take(Numbers& numbers) { numbers.give(seen_.boxes, seen_.exact); }
 
   /// Copies the slots that have changed, new ones included; false if everything has to be copied again.
-  SMALL bool follow(const f32* boxes, const f64* exact, const Ids& ids, const Rule* rules, const f64* reaches,
-                    const u32* slots, u32 many, const f64* world) {
-    if (!seen_.is_like(exact, ids, rules, reaches, world)) return false;
-    u32 n = ids.count(), had = seen_.count;
+  SMALL bool follow(const PresentBoxes<D>& now, const Changes& changes) {
+    if (!seen_.is_like(now)) return false;
+    u32 n = now.ids.count(), had = seen_.count;
     seen_.grow(n, built_);
     if (built_) {
       places_.grow(larger(n, 1u), had);
@@ -143,12 +139,12 @@ template <int D> class Index {
     }
     know(n);
     seen_.count = n;
-    for (u32 k = 0; k < many; k++) {
-      u32 s = slots[k];
+    for (u32 k = 0; k < changes.count(); k++) {
+      u32 s = changes.list()[k];
       if (s >= n) continue;
-      seen_.take(s, boxes, exact, ids, rules, reaches);
-      if (built_ && seen_.rounded) seen_.round(s, s + 1);
+      seen_.take(s, now);
       if (!built_) continue;
+      if (seen_.rounded) seen_.round(s, s + 1);
       if (!seen_.is_off(s)) {
         move(s);
       } else {

@@ -6,6 +6,18 @@
 #include "rules/copies.hpp"
 #include "rules/filters.hpp"
 
+/// The present contents of a space.
+template <int D> struct PresentBoxes {
+  const f32* boxes;  // null: the copy gets their memory, see Index::take
+  const f64* exact;  // null: all numbers are exact in float32
+  const Ids& ids;
+  const Rule* rules;  // null: none
+  const f64* reaches;  // null: none
+  const f64* world;  // its size if it wraps around; else null
+
+  bool rounded() const { return exact || world; }
+};
+
 template <int D> struct SeenBoxes {
   static constexpr u32 width = 2 * D;
 
@@ -19,44 +31,40 @@ template <int D> struct SeenBoxes {
   bool rounded = false, named = false, filtered = false, reached = false;
 
   /// Whether there is memory for a copy.
-  SMALL bool fits(const f64* doubles, const Ids& names, const Rule* given, const f64* far, const f64* around) const {
-    u64 n = names.count(), more = doubles || around ? exact.missing(n * width) : boxes.missing(n * width + 4);
-    if (given) more += rules.missing(n);
-    if (far) more += reaches.missing(n);
-    if (!names.same()) more += ids.missing(n);
+  SMALL bool fits(const PresentBoxes<D>& now) const {
+    u64 n = now.ids.count(), more = now.rounded() ? exact.missing(n * width) : boxes.missing(n * width + 4);
+    if (now.rules) more += rules.missing(n);
+    if (now.reaches) more += reaches.missing(n);
+    if (!now.ids.same()) more += ids.missing(n);
     return more == 0 || heap::can_spare(more);
   }
 
   /// Copies the boxes of a space.
-  SMALL void see(const f32* floats, const f64* doubles, const Ids& names, const Rule* given, const f64* far,
-                 const f64* around) {
-    u32 n = names.count();
-    world = around;
-    rounded = doubles || world;
-    if (!floats) {
+  SMALL void see(const PresentBoxes<D>& now) {
+    u32 n = now.ids.count();
+    world = now.world;
+    rounded = now.rounded();
+    if (!now.boxes) {
       // The numbers are swapped in.
-    } else if (world && !doubles) {
+    } else if (world && !now.exact) {
       exact.reserve(u64(n) * width);
-      for (u64 k = 0; k < u64(n) * width; k++) exact[k] = floats[k];
-    } else if (doubles) copy(exact, doubles, u64(n) * width, 0);
-    else copy(boxes, floats, u64(n) * width, 4);
-    filtered = given;
-    if (given) copy(rules, given, n, 0);
-    reached = far;
-    if (far) copy(reaches, far, n, 0);
+      for (u64 k = 0; k < u64(n) * width; k++) exact[k] = now.boxes[k];
+    } else if (rounded) copy(exact, now.exact, u64(n) * width, 0);
+    else copy(boxes, now.boxes, u64(n) * width, 4);
+    filtered = now.rules;
+    if (filtered) copy(rules, now.rules, n, 0);
+    reached = now.reaches;
+    if (reached) copy(reaches, now.reaches, n, 0);
     most_reach_ = unmeasured;
-    named = !names.same();
-    if (named) {
-      ids.reserve(n);
-      for (u32 s = 0; s < n; s++) ids[s] = names.id(s);
-    }
+    named = !now.ids.same();
+    if (named) copy(ids, now.ids.names(), n, 0);
     count = n;
   }
 
   /// Whether a space has the same kinds of data as this copy.
-  bool is_like(const f64* doubles, const Ids& names, const Rule* given, const f64* far, const f64* around) const {
-    return reached == (far != nullptr) && world == around && rounded == (doubles || world) && named == !names.same() &&
-           filtered == (given != nullptr);
+  bool is_like(const PresentBoxes<D>& now) const {
+    return reached == !!now.reaches && world == now.world && rounded == now.rounded() && named == !now.ids.same() &&
+           filtered == !!now.rules;
   }
 
   /// Room for n boxes. `both`: in float32 too if they are rounded.
@@ -69,17 +77,17 @@ template <int D> struct SeenBoxes {
   }
 
   /// Copies one slot.
-  SMALL void take(u32 s, const f32* floats, const f64* doubles, const Ids& names, const Rule* given, const f64* far) {
+  SMALL void take(u32 s, const PresentBoxes<D>& now) {
     u64 from = u64(s) * width;
     if (rounded) {
-      for (u64 k = from; k < from + width; k++) exact[k] = doubles ? doubles[k] : f64(floats[k]);
+      for (u64 k = from; k < from + width; k++) exact[k] = now.exact ? now.exact[k] : f64(now.boxes[k]);
     } else {
-      __builtin_memcpy(&boxes[from], floats + from, width * sizeof(f32));
+      __builtin_memcpy(&boxes[from], now.boxes + from, width * sizeof(f32));
     }
-    if (named) ids[s] = names.id(s);
-    if (filtered) rules[s] = given[s];
+    if (named) ids[s] = now.ids.id(s);
+    if (filtered) rules[s] = now.rules[s];
     if (!reached) return;
-    reaches[s] = far[s];
+    reaches[s] = now.reaches[s];
     if (most_reach_ != unmeasured) most_reach_ = larger(most_reach_, reach_of(s));
   }
 

@@ -129,7 +129,7 @@ template <int D> class Questions {
   /// nearest; else null.
   SMALL const f32* look() {
     if (store_.seen.ask()) return nullptr;
-    store_.seen.see(store_.standing());
+    store_.seen.see(store_.present());
     return store_.numbers.nearest();
   }
 

@@ -5,16 +5,6 @@
 #include "boxes/changes.hpp"
 #include "questions/index.hpp"
 
-/// The present contents of a space, for the index to copy.
-template <int D> struct Standing {
-  const f32* boxes;
-  const f64* exact;  // null: all numbers are exact in float32
-  const Ids& ids;
-  const Rule* rules;  // null: none
-  const f64* reaches;  // null: none
-  const f64* world;  // its size if it wraps around; else null
-};
-
 template <int D> class Seen {
   // The index is updated in place if at most one box in `follow_share` changed, or `follow_least` boxes; with more, a
   // new one costs less.
@@ -35,16 +25,15 @@ template <int D> class Seen {
   bool lost() const { return lost_; }
 
   /// Copies the present boxes into the index.
-  void see(const Standing<D>& now) {
-    index.see(now.boxes, now.exact, now.ids, now.rules, now.reaches, now.world);
+  void see(const PresentBoxes<D>& now) {
+    index.see(now);
     holds_ = true;
   }
 
   /// Before the first change since an update: keeps what that update saw. `most`: up to this many boxes are copied even
   /// before the first query. If there is no memory for a copy, there is none: the change itself may make room.
-  void hold(const Standing<D>& now, u32 most) {
-    if ((asked_ || now.ids.count() <= most) && index.fits(now.exact, now.ids, now.rules, now.reaches, now.world))
-      see(now);
+  void hold(const PresentBoxes<D>& now, u32 most) {
+    if ((asked_ || now.ids.count() <= most) && index.fits(now)) see(now);
     else lost_ = holds_ = true;  // holds_: so that this is not called again
   }
 
@@ -64,12 +53,9 @@ template <int D> class Seen {
     holds_ = holds_ && !changes.all() && changes.count() <= larger(boxes / follow_share, follow_least);
     return holds_;
   }
-  SMALL void follow(const Standing<D>& now, const Changes& changes) {
-    holds_ = index.follow(now.boxes, now.exact, now.ids, now.rules, now.reaches, changes.list(), changes.count(),
-                          now.world);
-  }
+  void follow(const PresentBoxes<D>& now, const Changes& changes) { holds_ = index.follow(now, changes); }
   /// After an update of boxes that are written in place: a later write is not announced, so they are copied now.
-  void see_in_place(const Standing<D>& now) {
+  void see_in_place(const PresentBoxes<D>& now) {
     if (!holds_ && (asked_ || now.ids.count() <= spared_in_place)) see(now);
   }
 

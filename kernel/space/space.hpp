@@ -233,8 +233,8 @@ template <int D> class Space {
     Changes& changes = store.changes();
     u32 n = store.ids.count();
     store.changed.note(changes.all(), changes.list(), changes.count(), n, [&](u32 slot) { return store.ids.id(slot); });
-    if (store.seen.can_follow(changes, n)) store.seen.follow(store.standing(), changes);
-    if (store.numbers.written.in_place()) store.seen.see_in_place(store.standing());
+    if (store.seen.can_follow(changes, n)) store.seen.follow(store.present(), changes);
+    if (store.numbers.written.in_place()) store.seen.see_in_place(store.present());
     if (finder.follows_changes(finder.ran())) changes.clear(n);
     else changes.note_all();
     seen_ = n;

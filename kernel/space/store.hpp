@@ -37,7 +37,7 @@ template <int D> class Store {
   /// The size of the world if it wraps around; else null.
   const f64* world() const { return options_.wrap[0] > 0 ? options_.wrap : nullptr; }
   /// For the index to copy.
-  Standing<D> standing() {
+  PresentBoxes<D> present() {
     see_written();
     return {numbers.boxes(), numbers.exact(), ids, own.rules(), own.reaches.data(), world()};
   }
@@ -239,7 +239,7 @@ template <int D> class Store {
 
   /// Keeps what the last update saw. `gives`: the memory of its numbers, which will be written to no more.
   SMALL void hold(u32 most, bool gives = false) {
-    Standing<D> last = standing();
+    PresentBoxes<D> last = present();
     if (gives) last.boxes = nullptr;
     seen.hold(last, most);
     if (gives && !seen.lost()) seen.index.take(numbers);
