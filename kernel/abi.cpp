@@ -50,6 +50,14 @@ template <class What> auto with_space(What what) {
   return with_ring([&](auto& space, auto&) { return what(space); });
 }
 
+/// Calls `what` with the store and the slot of a box; returns 0 if there is no such box, else 1.
+template <class What> u32 with_slot(u32 id, What what) {
+  u32 slot = ids.slot(id);
+  if (slot == Ids::none) return 0;
+  with_space([&](auto& space) { what(space.store, slot); });
+  return 1;
+}
+
 }  // namespace
 
 #define EXPORT(name) extern "C" __attribute__((export_name(#name))) auto name
@@ -97,53 +105,25 @@ EXPORT(clear)() -> void {
   with_space([](auto& space) { space.store.clear(); });
 }
 
-/// The setters of rules return 0 if there is no such box.
+/// The setters of rules, and get_rule, return 0 if there is no such box.
 EXPORT(set_filter)(u32 id, u32 layer, u32 mask) -> u32 {
-  u32 slot = ids.slot(id);
-  if (slot == Ids::none) return 0;
-  with_space([&](auto& space) { space.store.filter(slot, layer, mask); });
-  return 1;
+  return with_slot(id, [&](auto& store, u32 slot) { store.filter(slot, layer, mask); });
 }
 EXPORT(set_static)(u32 id, u32 on) -> u32 {
-  u32 slot = ids.slot(id);
-  if (slot == Ids::none) return 0;
-  with_space([&](auto& space) { space.store.exclude(slot, is_static, on != 0); });
-  return 1;
+  return with_slot(id, [&](auto& store, u32 slot) { store.exclude(slot, is_static, on != 0); });
 }
 EXPORT(set_enabled)(u32 id, u32 on) -> u32 {
-  u32 slot = ids.slot(id);
-  if (slot == Ids::none) return 0;
-  with_space([&](auto& space) { space.store.enable(slot, on != 0); });
-  return 1;
+  return with_slot(id, [&](auto& store, u32 slot) { store.enable(slot, on != 0); });
 }
 EXPORT(set_group)(u32 id, u32 group) -> u32 {
-  u32 slot = ids.slot(id);
-  if (slot == Ids::none) return 0;
-  with_space([&](auto& space) { space.store.put_in_group(slot, group); });
-  return 1;
+  return with_slot(id, [&](auto& store, u32 slot) { store.put_in_group(slot, group); });
 }
 EXPORT(set_reach)(u32 id, f64 distance) -> u32 {
-  u32 slot = ids.slot(id);
-  if (slot == Ids::none) return 0;
-  with_space([&](auto& space) { space.store.set_reach(slot, distance); });
-  return 1;
+  return with_slot(id, [&](auto& store, u32 slot) { store.set_reach(slot, distance); });
 }
-/// What get_rule writes to io, in this order.
-enum RulePlace : u32 { layer_at, mask_at, static_at, enabled_at, group_at, reach_at };
-/// Writes the rule of a box to io; returns 0 if there is no such box.
+/// Writes the settings of a box to io, in the order of RulePlace.
 EXPORT(get_rule)(u32 id) -> u32 {
-  u32 slot = ids.slot(id);
-  if (slot == Ids::none) return 0;
-  with_space([&](auto& space) {
-    Rule rule = space.store.own.rule(slot);
-    io[layer_at] = rule.layer;
-    io[mask_at] = rule.mask;
-    io[static_at] = (rule.excluded & is_static) != 0;
-    io[enabled_at] = !rule.is_off();
-    io[group_at] = space.store.own.groups.of(slot);
-    io[reach_at] = space.store.own.reaches.of(slot);
-  });
-  return 1;
+  return with_slot(id, [](auto& store, u32 slot) { store.own.write(slot, io); });
 }
 /// Writes the ids to answers, in the order in which they were added; returns how many.
 EXPORT(list_ids)() -> u32 {
@@ -240,7 +220,7 @@ inline constexpr u32 no_id = 0xffffffff;
 /// What hits are ordered by: distance, distance along a ray, or the time of a box that stops.
 enum class Order : u32 { near, ray, way };
 
-template <int D> static void read_question(Question<D>& to, u32 mask, u32 ignored) {
+template <int D> NOINLINE static void read_question(Question<D>& to, u32 mask, u32 ignored) {
   for (int a = 0; a < D; a++) {
     to.lo[a] = io[a];
     to.hi[a] = io[D + a];

@@ -70,7 +70,7 @@ export function abi() {
     ...places('abi.cpp', 'enum LogPlace : u32'),
     ...places('abi.cpp', 'enum MetPlace : u32'),
     '/** Places of what get_rule writes. */',
-    ...places('abi.cpp', 'enum RulePlace : u32'),
+    ...places('space/own.hpp', 'enum RulePlace : u32'),
     '/** Places of the addresses that contents writes. */',
     ...places('space/store.hpp', 'enum ContentsPlace : u32'),
     '/** Instead of a radius. */',

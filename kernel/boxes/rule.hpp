@@ -13,6 +13,9 @@ struct Rule {
   bool meets_some() const { return !is_off() && layer != 0 && mask != 0; }
 };
 
+/// The rule of a box that has none of its own.
+inline constexpr Rule everybody{0xffffffff, 0xffffffff, 0};
+
 inline bool meet(const Rule& a, const Rule& b) {
   return (a.layer & b.mask) && (b.layer & a.mask) && !(a.excluded & b.excluded);
 }

@@ -68,7 +68,7 @@ template <int D> class Index {
   /// Of all places.
   const u32* ids() const { return seen_.named ? placed_ids_.data() : slots_.data(); }
   /// By slot: the rule of a box.
-  Rule rule(u32 slot) const { return seen_.filtered ? seen_.rules[slot] : Rule{0xffffffff, 0xffffffff, 0}; }
+  Rule rule(u32 slot) const { return seen_.filtered ? seen_.rules[slot] : everybody; }
   /// Writes the box in a slot, enlarged by its reach and with its maxima negated, two numbers at a time.
   void turned_box(u32 slot, f64x2* to) const {
     f64 reach = seen_.reached ? seen_.reaches[slot] : 0;

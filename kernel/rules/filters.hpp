@@ -13,7 +13,6 @@
 #include "rules/classes.hpp"
 
 class Filters {
-  static constexpr Rule everybody{0xffffffff, 0xffffffff, 0};
   static constexpr u32 followed = 8;  // one of so many boxes may change before all are classified again
 
   bool active_ = false;  // some box has a rule of its own

@@ -4,6 +4,9 @@
 #include "boxes/per_box.hpp"
 #include "rules/filters.hpp"
 
+/// What `Own::write` tells of a box.
+enum RulePlace : u32 { layer_at, mask_at, static_at, enabled_at, group_at, reach_at };
+
 struct Own {
   Filters filters;
   PerBox<u32> groups;
@@ -11,7 +14,17 @@ struct Own {
 
   /// Null if no box has a rule.
   const Rule* rules() const { return filters.active() ? filters.rules() : nullptr; }
-  Rule rule(u32 slot) const { return filters.active() ? filters.rules()[slot] : Rule{0xffffffff, 0xffffffff, 0}; }
+  Rule rule(u32 slot) const { return filters.active() ? filters.rules()[slot] : everybody; }
+  /// Writes the settings of a box, in the order of RulePlace.
+  SMALL void write(u32 slot, f64* to) const {
+    Rule its = rule(slot);
+    to[layer_at] = its.layer;
+    to[mask_at] = its.mask;
+    to[static_at] = (its.excluded & is_static) != 0;
+    to[enabled_at] = !its.is_off();
+    to[group_at] = groups.of(slot);
+    to[reach_at] = reaches.of(slot);
+  }
 
   void make_room(u64 count, u32 keep) {
     if (filters.active()) filters.make_room(count, keep);
