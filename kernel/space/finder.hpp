@@ -14,9 +14,7 @@ template <int D> class Finder {
   u32 cell_count = 0;
 
   Technique ran() const { return ran_; }
-  bool follows_changes(Technique name) { return techniques_.follows_changes(name); }
-  bool varies_order(Technique name) { return techniques_.varies_order(name); }
-  bool notes_doubts() { return techniques_.notes_doubts(ran_); }
+  Traits traits(Technique name) { return techniques_.traits(name); }
 
   /// Lets a technique find the pairs of slots.
   NOINLINE void run(Technique chosen, const Scene<D>& scene, const Settings& settings, Pairs& pairs, Stats& stats) {

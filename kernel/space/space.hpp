@@ -183,23 +183,24 @@ template <int D> class Space {
   /// Whether nothing has changed since the technique found the pairs.
   bool is_at_rest(Technique chosen) {
     const Own& own = store.own;
-    return finder.follows_changes(chosen) && chosen == finder.ran() && store.changes().none() &&
+    return finder.traits(chosen).follows_changes && chosen == finder.ran() && store.changes().none() &&
            store.ids.count() == seen_ && !own.filters.changed() && !own.groups.changed();
   }
 
   /// Lets a technique find the pairs, and turns them into the ones to report; false if they are the same as before.
   SMALL bool find(Technique chosen) {
     searching_ = true;
-    Scene<D> scene = builder_.build(store, finder.follows_changes(chosen), !finder.varies_order(chosen));
+    Traits its = finder.traits(chosen);
+    Scene<D> scene = builder_.build(store, its.follows_changes, !its.varies_order);
     if (!keeps_head(scene)) pairs.stable = 0;
     search(scene, chosen);
     // With doubles, bounds may have changed by less than float32 shows.
     bool same = pairs.same && !store.numbers.written.renamed && !builder_.doubles;
-    note_seen();
+    note_seen(its.follows_changes);
     if (stats.candidates == 0) stats.candidates = f64(pairs.count);
     stats.pairs = f64(pairs.count);
     if (same) searching_ = false;
-    else settle(scene.groups);
+    else settle(its, scene.groups);
     return !same;
   }
 
@@ -228,28 +229,29 @@ template <int D> class Space {
     return mapped;
   }
 
-  /// Passes the changes on to those who follow them, and empties the list.
-  SMALL void note_seen() {
+  /// Passes the changes on to those who follow them, and empties the list. `followed`: the technique does.
+  SMALL void note_seen(bool followed) {
     Changes& changes = store.changes();
     u32 n = store.ids.count();
     store.changed.note(changes.all(), changes.list(), changes.count(), n, [&](u32 slot) { return store.ids.id(slot); });
     if (store.seen.can_follow(changes, n)) store.seen.follow(store.present(), changes);
     if (store.numbers.written.in_place()) store.seen.see_in_place(store.present());
-    if (finder.follows_changes(finder.ran())) changes.clear(n);
+    if (followed) changes.clear(n);
     else changes.note_all();
     seen_ = n;
     store.numbers.written.renamed = false;
   }
 
-  /// Turns pairs of slots found in float32 into the pairs to report. `grouped`: the technique knew of groups.
-  SMALL void settle(bool grouped) {
+  /// Turns pairs of slots found in float32 into the pairs to report. `its`: of the technique; `grouped`: it knew of
+  /// groups.
+  SMALL void settle(const Traits& its, bool grouped) {
     const Own& own = store.own;
-    if (store.world()) builder_.wrap.fold(pairs, options_.touching, finder.notes_doubts());
-    else if (pairs.watch) settle_doubts(pairs, store, builder_.doubles, finder.notes_doubts(), options_.touching);
+    if (store.world()) builder_.wrap.fold(pairs, options_.touching, its.notes_doubts);
+    else if (pairs.watch) settle_doubts(pairs, store, builder_.doubles, its.notes_doubts, options_.touching);
     if (own.filters.active()) own.filters.finish(pairs);
     if (own.groups.some() && !(grouped && pairs.checked)) part_groups(pairs, own.groups.data());
     bool sorts = ordered_ || (store.keeps_events && !pairs.checked && store.events.scattered);
-    if (sorts && finder.varies_order(finder.ran())) order_.sort(pairs.list.data(), pairs.count, store.ids.count());
+    if (sorts && its.varies_order) order_.sort(pairs.list.data(), pairs.count, store.ids.count());
     if (!store.ids.same()) name_pairs(pairs, store.ids);
   }
 

@@ -49,6 +49,13 @@ concept FindsPairs = requires(Kind kind, const Scene<D>& scene, const Settings& 
   kind.release();
 };
 
+/// What a technique declares of itself: a constant of that name says so.
+struct Traits {
+  bool follows_changes = false;  // it uses the list of changes, and may retain the pairs it found
+  bool varies_order = false;  // earlier updates affect the order of its pairs
+  bool notes_doubts = false;  // it records which of its pairs are in doubt (see Pairs::watch); otherwise all are
+};
+
 /// Replaces a technique that is not built in, and so is never called.
 struct LeftOut {
   template <class... Any> constexpr LeftOut(Any&...) {}
@@ -99,25 +106,12 @@ template <int D> class Techniques {
     }
   }
 
-  /// Whether the technique uses the list of changes, and may retain the pairs it found.
-  bool follows_changes(Technique name) {
-    bool follows = false;
-    with(name, [&]<class Kind>(Kind&) { follows = requires { Kind::follows_changes; }; });
-    return follows;
-  }
-
-  /// Whether earlier updates affect the order of its pairs.
-  bool varies_order(Technique name) {
-    bool varies = false;
-    with(name, [&]<class Kind>(Kind&) { varies = requires { Kind::varies_order; }; });
-    return varies;
-  }
-
-  /// Whether the technique records which of its pairs are in doubt (see Pairs::watch). Otherwise all are.
-  bool notes_doubts(Technique name) {
-    bool notes = false;
-    with(name, [&]<class Kind>(Kind&) { notes = requires { Kind::notes_doubts; }; });
-    return notes;
+  Traits traits(Technique name) {
+    Traits its;
+    with(name, [&]<class Kind>(Kind&) {
+      its = {requires { Kind::follows_changes; }, requires { Kind::varies_order; }, requires { Kind::notes_doubts; }};
+    });
+    return its;
   }
 };
 
