@@ -306,14 +306,7 @@ template <int D> class Index {
     make_room(0);
     if (n == 0) return;
     SceneItems<D> items{{seen_.boxes.data(), n, nullptr}, AxisOrder<D>::make(0)};
-    HilbertCurve<D> curve(measure<D>(items, n));
-    sort_.begin(n);
-    for (u32 s = 0; s < n; s += 4) {
-      u32 key[4], last = n - 1;
-      store(key, curve(items, {s, smaller(s + 1, last), smaller(s + 2, last), smaller(s + 3, last)}));
-      ROLLED for (u32 lane = 0; lane < smaller(n - s, 4u); lane++) sort_.put_bits(s + lane, key[lane]);
-    }
-    sort_.sort(n);
+    HilbertCurve<D>(measure<D>(items, n)).sort(items, n, sort_, [](u32, u32 place) { return place; });
     for (u32 k = 0; k < n; k++) {
       u32 slot = sort_.index(k);
       if (!seen_.is_off(slot)) slots_[some++] = slot;

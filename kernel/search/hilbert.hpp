@@ -55,10 +55,23 @@ template <int D> class HilbertCurve {
     return key;
   }
 
+  /// Sorts the first n items, at least one, by the keys that `key_of` makes of their places on the curve.
+  template <class KeyOf> void sort(const SceneItems<D>& items, u32 n, RadixSort& sort, KeyOf key_of) const {
+    sort.begin(n);
+    for (u32 k = 0; k < n; k += 4) {
+      u32 places[4], last = n - 1;
+      store(places, (*this)(items, {k, smaller(k + 1, last), smaller(k + 2, last), smaller(k + 3, last)}));
+      ROLLED for (u32 lane = 0; lane < smaller(n - k, 4u); lane++) {
+        sort.put_bits(k + lane, key_of(k + lane, places[lane]));
+      }
+    }
+    sort.sort(n);
+  }
+
   /// A place, truncated to its cell on a level.
-  static u32 at_level(u32 key, u32 level) {
+  static u32 at_level(u32 place, u32 level) {
     u32 finer = D * (levels - level);
-    return key >> finer << finer << level_bits | level;
+    return place >> finer << finer << level_bits | level;
   }
 
  private:
@@ -89,17 +102,9 @@ template <int D> class HilbertOrder {
     u32 n = scene.count;
     SceneItems<D> items{scene, AxisOrder<D>::make(0)};
     SceneSample<D> world = measure<D>(items, n);
-    Curve curve(world);
-    sort_.begin(n);
-    for (u32 k = 0; k < n; k += 4) {
-      u32 last = n - 1;
-      u32 key[4];
-      store(key, curve(items, {k, smaller(k + 1, last), smaller(k + 2, last), smaller(k + 3, last)}));
-      ROLLED for (u32 lane = 0; lane < smaller(n - k, 4u); lane++) {
-        sort_.put_bits(k + lane, by_size ? Curve::at_level(key[lane], level_of(items[k + lane], world)) : key[lane]);
-      }
-    }
-    sort_.sort(n);
+    Curve(world).sort(items, n, sort_, [&](u32 k, u32 place) {
+      return by_size ? Curve::at_level(place, level_of(items[k], world)) : place;
+    });
     ordered_.grow(n, 0);
     ItemsAt<D> ordered(ordered_, 0);
     for (u32 k = 0; k < n; k++) ordered.put(k, items[sort_.index(k)]);

@@ -150,6 +150,17 @@ inline Run* add(Run* out, u32 item, u32 from, u32 until) {
   return out + (from < until);
 }
 
+/// Tests the items of a run against its one and appends the pairs, for which there must be room; returns the end.
+template <int D> u64* sweep_run(const LaneView<D>& lanes, const Run& run, u64* out) {
+  Probe<D> probe(lanes, run.item);
+  for (u32 j = run.from; j < run.until; j += 4) {
+    u32x4 tags = load<u32x4>(lanes.tag + j);
+    i32x4 hits = probe.hits(lanes, j, tags) & bits<i32x4>(u32x4{0, 1, 2, 3} + splat(j) < splat(run.until));
+    out = append(out, probe.slot, tags & splat(slot_mask), bitmask(hits));
+  }
+  return out;
+}
+
 /// Tests all items of each run against its one and appends the pairs. Returns the number of tests.
 template <int D> NOINLINE f64 sweep_runs(const Lanes<D>& from, const Run* runs, const Run* end, Pairs& pairs) {
   const LaneView<D> lanes = from.view();
@@ -164,12 +175,7 @@ template <int D> NOINLINE f64 sweep_runs(const Lanes<D>& from, const Run* runs, 
       out = pairs.room(out, length);
       limit = pairs.list.data() + pairs.list.capacity();
     }
-    Probe<D> probe(lanes, run.item);
-    for (u32 j = run.from; j < run.until; j += 4) {
-      u32x4 tags = load<u32x4>(lanes.tag + j);
-      i32x4 hits = probe.hits(lanes, j, tags) & bits<i32x4>(u32x4{0, 1, 2, 3} + splat(j) < splat(run.until));
-      out = append(out, probe.slot, tags & splat(slot_mask), bitmask(hits));
-    }
+    out = sweep_run(lanes, run, out);
   }
   pairs.count = u64(out - pairs.list.data());
   return f64(tests);

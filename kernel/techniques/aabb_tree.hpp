@@ -137,7 +137,7 @@ template <int D> class AabbTree {
       tree_.clear(place_[slot]);
       free_[free_count_++] = place_[slot];
     }
-    drop_candidates_from(n);
+    candidates_.filter([n](u32, u32 b) { return b < n; });
   }
 
   /// Updates the tree for moved and new boxes. `order`: its order has to be rebuilt. Returns the cost.
@@ -222,17 +222,6 @@ template <int D> class AabbTree {
     for (u32 k = 0; k < n; k++) place_[tree_.slot(k)] = k;
     for (u32 k = 0; k < spare; k++) free_[k] = n + k;
     wear_ = 0;
-  }
-
-  /// Drops the candidates of deleted slots, whose boxes can no longer be tested.
-  SMALL void drop_candidates_from(u32 slot) {
-    u64* list = candidates_.list.data();
-    u64 left = 0;
-    for (u64 k = 0; k < candidates_.count; k++) {
-      list[left] = list[k];
-      left += u32(list[k] >> 32) < slot;  // the larger slot is in the upper half
-    }
-    candidates_.count = left;
   }
 
   /// Merges the first `kept` candidates, without those of boxes that moved, with the others, and reports all that

@@ -160,13 +160,7 @@ template <int D> class Quadtree {
       if (!bounds(i, i + 1).meets(other.own)) continue;
       u32 from = larger(other.first, i + 1);
       tests += until - from;
-      out = pairs.room(out, until - from);
-      Probe<D> probe(lanes, i);
-      for (u32 j = from; j < until; j += 4) {
-        u32x4 tags = load<u32x4>(lanes.tag + j);
-        i32x4 hits = probe.hits(lanes, j, tags) & bits<i32x4>(u32x4{0, 1, 2, 3} + splat(j) < splat(until));
-        out = append(out, probe.slot, tags & splat(slot_mask), bitmask(hits));
-      }
+      out = sweep_run(lanes, {i, from, until}, pairs.room(out, until - from));
     }
     pairs.count = u64(out - pairs.list.data());
     return tests;
