@@ -32,12 +32,6 @@ inline f32 next_below(f64 x) {
 }
 inline f32 next_above(f64 x) { return -next_below(-x); }
 
-/// The ends of a range in float32, inward, so that each float32 is within as it was; `closed`: the ends are.
-SMALL inline void round_inward(f64 lo, f64 hi, bool closed, f32& to_lo, f32& to_hi) {
-  to_lo = closed ? round_up(lo) : next_above(lo);
-  to_hi = closed ? round_down(hi) : next_below(hi);
-}
-
 /// Numbers below these, which were rounded to float32; above them where `sign` is -0. A bound that is too loose by a
 /// last place or two costs less than asking which way each was rounded.
 inline f32x4 loosened(f32x4 x, f32x4 sign) {

@@ -7,6 +7,7 @@
 // Cost: a visit takes about a third of that of a single query; 19 KB for the lists.
 #pragma once
 #include "pairs/pairs.hpp"
+#include "questions/area_aim.hpp"
 #include "questions/question.hpp"
 
 /// `Aim`: a query in float32, which tells the boxes of half a block that it reaches. `Self` has `finish`, which gets the
@@ -82,20 +83,6 @@ template <int D, class Self, class Aim> class Together {
   }
 };
 
-/// A box or a point in float32.
-template <int D> struct AreaAim {
-  f32 lo[D], hi[D];
-
-  i32x4 reaches(const typename Index<D>::Block& block, u32 half) const {
-    i32x4 all = bits<i32x4>(u32x4{} == u32x4{});
-    for (int a = 0; a < D; a++) {
-      all &= load<f32x4>(block.lo[a] + half) <= splat(hi[a]);
-      all &= load<f32x4>(block.hi[a] + half) >= splat(lo[a]);
-    }
-    return all;
-  }
-};
-
 /// Boxes and points: for each, the places of the boxes that it touches in float32.
 template <int D> class Areas : public Together<D, Areas<D>, AreaAim<D>> {
   using Base = Together<D, Areas<D>, AreaAim<D>>;
@@ -108,8 +95,7 @@ template <int D> class Areas : public Together<D, Areas<D>, AreaAim<D>> {
   u32 ends[Base::most] = {};  // per query, where the places it touches end; 0 if it touches none
 
   void aim(u32 question, const Question<D>& asked) {
-    AreaAim<D>& aim = this->aims_[question];
-    ROLLED for (int a = 0; a < D; a++) round_inward(asked.lo[a], asked.hi[a], asked.touching, aim.lo[a], aim.hi[a]);
+    ROLLED for (int a = 0; a < D; a++) this->aims_[question].set(a, asked.lo[a], asked.hi[a], asked.touching);
   }
 
   /// Appends the places that `count` queries touch, after the first `found`. Returns the number of blocks visited.
