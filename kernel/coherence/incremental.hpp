@@ -106,7 +106,7 @@ template <int D> class Incremental {
     prospect_.rest = watch_.resting();
     prospect_.planning = tuning.planning / scene.count;
     prospect_.late = tuning.late_among(scene.count);
-    return watch_.plan(prospect_, tuning, tuning.ahead * prospect_.fresh);
+    return watch_.plan(prospect_, tuning.ahead * prospect_.fresh);
   }
 
   SMALL void rebuild(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {

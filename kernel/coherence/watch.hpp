@@ -84,6 +84,7 @@ template <int D> struct Growth {
 template <int D> class Watch {
   // One box in `watched_share` is watched, within these limits.
   static constexpr u32 watched_share = 16, most_watched = 256;
+  static constexpr Tuning<D> tuning = {};
   static constexpr f64 common_share = 0.75;  // common motion is subtracted if it leaves less than this share
   static constexpr u32 width = 2 * D, most_turns = 3, horizons = 7, voters = 31;
   static constexpr u32 buckets = 30, margins = 22;  // of distances; those whose upper end may be a margin
@@ -117,7 +118,9 @@ template <int D> class Watch {
   Shift total_, begun_;  // common motion so far, and until these samples were taken
 
  public:
-  static constexpr f32 farthest = 4;  // of a box's size: longer motion counts as this, so that one jump does not decide
+  // Of a box's size: regions that would reach further ahead do not at all; and longer motion counts as this where it is
+  // decided whether motion is common, so that one jump does not decide.
+  static constexpr f32 farthest = 4;
   static constexpr u32 least_watched = 16;  // boxes: fewer are not watched
   static constexpr u32 longest = 1u << (horizons - 1);  // updates
 
@@ -182,11 +185,11 @@ template <int D> class Watch {
 
   /// The plan with the least work, if that is less than `most`. Boxes at rest get a margin like all others if so many of
   /// them begin to move that this is clearly less work.
-  SMALL Plan plan(Prospect<D> prospect, const Tuning<D>& tuning, f64 most) const {
-    Plan best = cheapest(prospect, tuning, most);
+  SMALL Plan plan(Prospect<D> prospect, f64 most) const {
+    Plan best = cheapest(prospect, most);
     if (prospect.rest == 0) return best;
     prospect.rest = 0;
-    Plan restless = cheapest(prospect, tuning, smaller(most, best.work * tuning.ahead));
+    Plan restless = cheapest(prospect, smaller(most, best.work * tuning.ahead));
     if (restless.work == __builtin_inf()) return best;
     restless.settles = false;
     return restless;
@@ -195,7 +198,8 @@ template <int D> class Watch {
   /// How many times as many candidates a margin makes, for boxes at random places: estimated from pairs of samples.
   /// Mean sizes would mislead: boxes that are long along different axes are thick on average.
   SMALL f64 growth(f64 margin, const Prospect<D>& prospect) const {
-    return space(prospect, nullptr)(margin) / space(prospect, nullptr)(0);
+    Growth<D> plain = space(prospect, nullptr);
+    return plain(margin) / plain(0);
   }
 
  private:
@@ -203,12 +207,12 @@ template <int D> class Watch {
   f64 apart_ = 0;  // the median distance from a sample to the nearest other one, along the axis where it is largest
 
   /// The plan with the least work for this share of boxes at rest.
-  SMALL Plan cheapest(const Prospect<D>& prospect, const Tuning<D>& tuning, f64 most) const {
+  SMALL Plan cheapest(const Prospect<D>& prospect, f64 most) const {
     Plan best;
     Growth<D> plain = space(prospect, nullptr);
     for (u32 led = 0; led < 2; led++) {
       f64 late[margins] = {}, bursts[margins] = {};
-      for (u32 h = 0; h + led < known_; h++) weigh(h, led, plain, late, bursts, prospect, tuning, most, best);
+      for (u32 h = 0; h + led < known_; h++) weigh(h, led, plain, late, bursts, prospect, most, best);
     }
     return best;
   }
@@ -383,7 +387,7 @@ template <int D> class Watch {
   /// growth of regions that do not reach ahead; `led`: these do. Per margin, `lates`: the share of samples that were late
   /// in half as many updates; `bursts`: the most per update so far.
   NOINLINE void weigh(u32 h, u32 led, const Growth<D>& plain, f64* lates, f64* bursts, const Prospect<D>& prospect,
-                      const Tuning<D>& tuning, f64 most, Plan& best) const {
+                      f64 most, Plan& best) const {
     const Horizon& horizon = horizons_[h];
     f64 updates = 1u << h, share = 1.0 / horizon.many;
     // A box is late once, and once more for each `late_margin` that it moves further.

@@ -46,7 +46,7 @@ template <int D> struct World {
   void run(u32 updates, f64 speed) {
     for (u32 k = 0; k < updates; k++) update(speed);
   }
-  Plan plan() const { return watch.plan(prospect, tuning, prospect.fresh); }
+  Plan plan() const { return watch.plan(prospect, prospect.fresh); }
 };
 
 /// Choosing a margin is part of what a list costs: then it must live longer, or is not worth it.
