@@ -103,6 +103,21 @@ describe('the house', () => {
     expect(dead).toEqual([]);
   });
 
+  test('has no function in a header of the kernel that the kernel names once', () => {
+    const headers = code.filter((file) => /^kernel\/(?!test).*\.(hpp|cpp)$/.test(file));
+    const bare = new Map(headers.map((file) => [file, texts.get(file)!.replace(/\/\/.*$/gm, '')]));
+    const counts = new Map<string, number>();
+    for (const [word] of [...bare.values()].join(' ').matchAll(/\w+/g)) counts.set(word, (counts.get(word) ?? 0) + 1);
+    const functions = /^(?: {2})?(?:\w[\w<>:,*& ]*[ *&])([a-z]\w*)\(/gm;
+    const found = [...bare]
+      .filter(([file]) => file.endsWith('.hpp'))
+      .flatMap(([file, text]) =>
+        [...text.matchAll(functions)].map(({ 1: name, index }) => ({ name, line: `${file}:${lineOf(text, index)}` })),
+      );
+    expect(found.length).toBeGreaterThan(500);
+    expect(found.filter(({ name }) => counts.get(name!) === 1)).toEqual([]);
+  });
+
   test.each(['package.json', 'site/package.json'])('has no package in %s that nothing uses', (manifest) => {
     const { scripts = {}, devDependencies } = JSON.parse(texts.get(manifest)!);
     const all = [...texts].filter(([file]) => !file.endsWith('package.json')).map(([, text]) => text);
