@@ -23,7 +23,7 @@ test.each([
   ['setStatic', [7, true]],
   ['setEnabled', [7, true]],
   ['setGroup', [7, 1]],
-])('%s refuses arguments too many', (name, given) => {
+])('%s refuses surplus arguments', (name, given) => {
   const call = (...all: unknown[]) => (new BroadPhase().set(7, 0, 0, 1, 1) as never as Any)[name]!(...all);
   call(...given);
   const got = given.length + 1;
