@@ -29,7 +29,7 @@ template <int D> class CandidateList {
   // In a tag, below exclusion bits and class. moved: it has a new region; again: for the second time or more
   enum : u32 { rests = 1, fresh = 2, moved = 4, again = 8, marks = 15 };
 
-  StripSweep<D>& anew_;
+  StripSweep<D>& strips_;
   u32 count_ = 0;  // boxes in the list; 0: there is no list
   bool watched_ = false;  // pairs in doubt are recorded
   struct {
@@ -55,7 +55,7 @@ template <int D> class CandidateList {
   Shift shift_;  // undoes the common motion since then
 
  public:
-  constexpr explicit CandidateList(StripSweep<D>& anew) : anew_(anew) {}
+  constexpr explicit CandidateList(StripSweep<D>& strips) : strips_(strips) {}
 
   bool is_empty() const { return count_ == 0; }
   u32 count() const { return count_; }
@@ -82,7 +82,7 @@ template <int D> class CandidateList {
   }
   f64 least_work(f64 looked) const { return candidates_.count * tuning.candidate + looked; }
   /// The work of making the list, while that is the last sweep.
-  f64 made_work() const { return anew_.work() + built_.candidates + 2.0 * count_; }
+  f64 made_work() const { return strips_.work() + built_.candidates + 2.0 * count_; }
 
   /// Drops the list if pairs in doubt are to be recorded that may be settled, or if classes have other numbers.
   void check(const Scene<D>& scene, bool watched) {
@@ -145,7 +145,7 @@ template <int D> class CandidateList {
     margin_ = plan.margin;
     candidates_.count = extra_.count = settled_.count = head_ = 0;
     built_ = Stats{};
-    anew_.fill(Scene<D>{regions_.data(), n, scene.rules}, built_, true);
+    strips_.fill(Scene<D>{regions_.data(), n, scene.rules}, built_, true);
     finished_ = false;
     places_.forget();
     shift_ = {};
@@ -155,7 +155,7 @@ template <int D> class CandidateList {
 
   /// Finds the candidates of a list that has begun. Gives up and returns false if that takes more than `most` tests.
   SMALL bool finish(f64 most) {
-    if (!anew_.sweep(candidates_, most)) return false;
+    if (!strips_.sweep(candidates_, most)) return false;
     if (known_.groups || known_.classes) candidates_.filter([&](u32 a, u32 b) { return !are_apart(a, b); });
     built_.candidates = f64(candidates_.count);
     if (resting_ > 0) settle();
@@ -167,7 +167,7 @@ template <int D> class CandidateList {
   /// then a new list is due. `size`, `spacing`: of boxes.
   SMALL bool follow(const Scene<D>& scene, const Shift& common, f64 most, f32 size, f64 spacing) {
     u32 n = scene.count, had = count_, both = smaller(n, had);
-    u32* list = late_.reserve(u64(n) + larger(n, anew_.count()) + 4);  // a search may find all boxes of the strips
+    u32* list = late_.reserve(u64(n) + larger(n, strips_.count()) + 4);  // a search may find all boxes of the strips
     Shift shift = common_.after(common.back());
     bool shifts = shift.differs(shift_);
     shift_ = shift;
@@ -443,7 +443,7 @@ template <int D> class CandidateList {
     find_region(scene.box(slot), region(slot), tag, aside, larger_one);
     const f32* its_base = base(slot);
     u32 found = 0;
-    for (u32 k = 0, all = anew_.near(larger_one, near, met_); k < all; k++) {
+    for (u32 k = 0, all = strips_.near(larger_one, near, met_); k < all; k++) {
       u32 other = near[k];
       near[found] = other;
       found += other < count_ && !(tags_[other] & moved);

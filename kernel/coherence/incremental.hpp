@@ -17,7 +17,7 @@
 template <int D> class Incremental {
   static constexpr Tuning<D> tuning = {};
 
-  StripSweep<D>& anew_;
+  StripSweep<D>& strips_;
   CandidateList<D> list_;
   Watch<D> watch_;
   Prospect<D> prospect_ = {};
@@ -34,7 +34,7 @@ template <int D> class Incremental {
   static constexpr bool follows_changes = true;
   static constexpr bool varies_order = true;
 
-  constexpr explicit Incremental(StripSweep<D>& anew) : anew_(anew), list_(anew) {}
+  constexpr explicit Incremental(StripSweep<D>& strips) : strips_(strips), list_(strips) {}
 #if !defined(__wasm__)
   ~Incremental() { release(); }
 #endif
@@ -52,7 +52,7 @@ template <int D> class Incremental {
 
   SMALL void structure(Buffer<f32>& boxes, u32& count, const Stats& stats) {
     if (!list_.is_empty() && !list_.is_finished()) finish(__builtin_inf());
-    anew_.structure(boxes, count, list_.is_empty() ? stats : list_.built());
+    strips_.structure(boxes, count, list_.is_empty() ? stats : list_.built());
   }
 
   SMALL void release() {
@@ -62,7 +62,7 @@ template <int D> class Incremental {
     prospect_.fresh = 0;
     pause_ = 0;
     pauses_ = tuning.watched;
-    anew_.release();
+    strips_.release();
   }
 
  private:
@@ -112,10 +112,10 @@ template <int D> class Incremental {
   SMALL void rebuild(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
     stats = Stats{};
     pairs.stable = 0;
-    anew_.update(scene, options, pairs, stats);
+    strips_.update(scene, options, pairs, stats);
     f64 n = larger(1u, scene.count);
-    prospect_.fresh = anew_.work() / n;
-    prospect_.tests = anew_.tested() / n;
+    prospect_.fresh = strips_.work() / n;
+    prospect_.tests = strips_.tested() / n;
     prospect_.pairs = pairs.count / n;
     if (scene.count >= Watch<D>::least_watched) learn_sizes(scene.count);
   }
@@ -163,8 +163,8 @@ template <int D> class Incremental {
     prospect_.rest = list_.resting() / n;
     // These two estimates may only go down. One that is too low is corrected by the rebuild after the list is given up.
     // One that is too high would keep the list alive, so it would never be corrected.
-    f64 entering = anew_.work() - anew_.tested(), settled = list_.built().candidates - list_.tested();
-    prospect_.tests = smaller(prospect_.tests, anew_.tested() / n / prospect_.more_tests(growth));
+    f64 entering = strips_.work() - strips_.tested(), settled = list_.built().candidates - list_.tested();
+    prospect_.tests = smaller(prospect_.tests, strips_.tested() / n / prospect_.more_tests(growth));
     prospect_.fresh = smaller(prospect_.fresh, entering / n + prospect_.tests);
     prospect_.pairs = (settled + list_.tested() / growth) / n;
     return true;
@@ -175,7 +175,7 @@ template <int D> class Incremental {
     prospect_.least = watch_.spacing(boxes) / tuning.apart;
     prospect_.size = 0;
     for (int a = 0; a < D; a++) {
-      f64 size = larger(anew_.size(a), prospect_.least);
+      f64 size = larger(strips_.size(a), prospect_.least);
       if (size > 0 && (prospect_.size == 0 || size < prospect_.size)) prospect_.size = size;
     }
   }

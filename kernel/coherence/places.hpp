@@ -43,7 +43,7 @@ template <int D> class Places {
   void forget() { base_count_ = 0; }
   bool has_room() const { return base_count_ > 0; }
 
-  /// Makes room for late boxes among so many, of this spacing.
+  /// Makes room for late boxes among this many boxes, of this spacing.
   SMALL void clear(u32 boxes, f64 spacing) {
     u32 cells = divide(boxes, f32(larger(1e-30, smaller(1e30, spacing))));
     __builtin_memset(heads_.reserve(cells), 0, cells * sizeof(u32));
@@ -56,7 +56,7 @@ template <int D> class Places {
     base_of_.grow(slots, had);
   }
 
-  /// Removes the marks of so many slots.
+  /// Removes the marks of the first slots.
   SMALL void unmark(u32 slots) { __builtin_memset(marks_.reserve(slots), 0, slots); }
   /// Marks a box that is late in this update.
   void mark(u32 slot) { marks_[slot] = 1; }

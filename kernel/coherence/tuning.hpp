@@ -9,13 +9,13 @@ template <int D> struct Tuning {
   f64 candidate = 2;  // tests: to test a candidate
   f64 planning = 3000;  // tests: to choose a margin
   f64 late = D == 2 ? 200 : 270;  // tests: to give a box that has left its region a new one
-  f64 far = 5e4;  // boxes: among so many, that takes twice as long, since caches do not hold them all
+  f64 far = 5e4;  // boxes: among this many, that takes twice as long, since caches do not hold them all
   f64 late_margin = 0.5;  // of a box's size: the margin of that new region, or the list's if larger
   f64 burst = 0.5;  // of a rebuild: the most work for late boxes that a plan may expect in one update
   f64 spike = 2;  // of an update's mean work, making the list included: if late boxes take more in one, the list ends
   f64 ahead = 0.85;  // of a rebuild, or of a plan that is safer: what a plan may cost at most
   f64 build = 2;  // of a rebuild: a list that would cost more is not made
-  // In updates: after so many it is known whether a list pays, and the next one is made in two; the first pause; and
+  // In updates: after this many it is known whether a list pays, and the next one is made in two; the first pause; and
   // the time over which late work is averaged.
   u32 watched = 8;
   f64 apart = 8;  // boxes count as no smaller than their spacing divided by this

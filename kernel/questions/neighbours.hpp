@@ -55,8 +55,9 @@ class NeighbourLists {
   static constexpr f64 least_growth = 0.25, most_growth = 1;
   static constexpr u32 query_work = 400;  // of a query, and of making a list, in tests of an entry
   static constexpr u32 least_age = 4;  // calls that a list has to serve: of faster boxes, larger regions would not help
-  static constexpr u32 least_loose = 32, loose_share = 16;  // boxes that may be loose, plus one in so many boxes here
-  static constexpr u32 tidy_share = 4;  // entries are tidied once one in so many lists has been made again
+  // Boxes that may be loose: `least_loose`, plus one in `loose_share` of the boxes here.
+  static constexpr u32 least_loose = 32, loose_share = 16;
+  static constexpr u32 tidy_share = 4;  // entries are tidied once one list in this many has been made again
 
  protected:
   static constexpr f64 growth = 0.5;  // at first

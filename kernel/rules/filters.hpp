@@ -13,7 +13,7 @@
 #include "rules/classes.hpp"
 
 class Filters {
-  static constexpr u32 followed = 8;  // one of so many boxes may change before all are classified again
+  static constexpr u32 followed = 8;  // if more than one box in this many has changed, all are classified again
 
   bool active_ = false;  // some box has a rule of its own
   bool some_ = false;  // some boxes are not searched, or were not
@@ -85,11 +85,10 @@ class Filters {
 
   /// Follows the changes of rules. `in_order`: places have to be in the order of slots.
   SMALL void update(u32 count, bool in_order) {
-    bool none = changed_.none();
-    bool anew = changed_.count() > count / followed || (!none && in_order);
+    bool none = changed_.none(), many = changed_.count() > count / followed;
     bool untidy = mixed_ && (in_order || (none && searched_ == count));
     moved_.clear(larger(count, count_));
-    if (changed_.all() || anew || untidy || (!none && !follow(count))) classify(count);
+    if (changed_.all() || many || untidy || (!none && (in_order || !follow(count)))) classify(count);
     changed_.clear(count);
     count_ = count;
   }

@@ -61,7 +61,7 @@ template <int D> class Store {
       if (!numbers.exact() && !numbers.are_floats(entries + 1, many, Ring<D>::step)) numbers.keep_doubles(ids.count());
       find_slots(entries, many, slots);
       if (ids.count() > near_boxes) numbers.read_ahead(slots, many);
-      if (changes().most(ids.count())) changes().note_all();  // a list of so many is not used
+      if (changes().most(ids.count())) changes().note_all();  // a list of most boxes is not used
       numbers.template put<Ring<D>::step>(entries + 1, slots, many);
     }
     tell(ring);
