@@ -293,10 +293,12 @@ function writeHit(instance: KernelInstance, visit: Visit, k: number, kind: numbe
   writeNormal(instance, visit.sides[k]!, hit.normal);
 }
 
-/** The normal of the side that was hit, from the kernel's number for it. */
+/** The normal along an axis of the side that was hit, from the kernel's number for it. */
+export const normalAlong = (axis: number, side: number) => (side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0);
+
 function writeNormal(instance: KernelInstance, side: number, normal: number[]): void {
   for (let axis = 0; axis < instance.dimensions; axis++) {
-    normal[axis] = side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0;
+    normal[axis] = normalAlong(axis, side);
   }
   normal.length = instance.dimensions;
 }

@@ -1,6 +1,6 @@
 // Many queries in one call: all their numbers in, all their answers out, in typed arrays. The kernel answers them
 // (kernel/questions/bulk.hpp); here they are checked, and the answers copied.
-import { isNumber, known, number, point2, point3, tellTouching, tooFar } from './answers.ts';
+import { isNumber, known, normalAlong, number, point2, point3, tellTouching, tooFar } from './answers.ts';
 import type { Dimensions } from './dimensions.ts';
 import {
   badId,
@@ -72,7 +72,7 @@ const boxOptions = [...areaOptions, 'within'];
 const farOptions = [...idOptions, 'maxDistance'];
 const ofAllOptions = ['mask', 'maxDistance', 'out'];
 
-interface Question {
+interface QueryKind {
   kind: number;
   /** The numbers of one query, by dimensions. */
   names: Record<Dimensions, readonly string[]>;
@@ -81,7 +81,7 @@ interface Question {
 }
 
 /** The kind of query, by the name of the call. */
-const questions = {
+const queryKinds = {
   queryBoxes: { kind: asks.box, names: corners, parts: idParts, options: boxOptions },
   queryPoints: { kind: asks.point, names: points, parts: idParts, options: areaOptions },
   queryCircles: { kind: asks.circle, names: circles, parts: idParts, options: areaOptions },
@@ -89,21 +89,21 @@ const questions = {
   sweeps: { kind: asks.way, names: ways, parts: wayParts, options: idOptions },
   nearests: { kind: asks.nearest, names: points, parts: nearParts, options: farOptions },
   nearestsOfAll: { kind: asks.others, names: nobodys, parts: ofParts, options: ofAllOptions },
-} satisfies Record<string, Question>;
+} satisfies Record<string, QueryKind>;
 
 /** Checks queries, runs them, and collects the answers, up to a limit for each. */
 export function askMany(
   instance: KernelInstance,
-  where: keyof typeof questions,
+  where: keyof typeof queryKinds,
   numbers: ArrayLike<number>,
   options: Options | undefined,
   most: number,
 ): Answer {
-  const question: Question = questions[where];
-  checkOptions(where, options, question.options);
-  const names = question.names[instance.dimensions];
-  const { parts } = question;
-  let { kind } = question;
+  const query: QueryKind = queryKinds[where];
+  checkOptions(where, options, query.options);
+  const names = query.names[instance.dimensions];
+  const { parts } = query;
+  let { kind } = query;
   if (kind === asks.box) {
     const within = options?.within === undefined ? false : options.within;
     if (typeof within !== 'boolean') checkBoolean(`${where}: within`, within);
@@ -220,7 +220,7 @@ function copyHit(
   if (normals === undefined) return;
   const side = words[at + 3]! | 0;
   for (let axis = 0; axis < instance.dimensions; axis++) {
-    normals[n * instance.dimensions + axis] = side === axis + 1 ? 1 : side === -axis - 1 ? -1 : 0;
+    normals[n * instance.dimensions + axis] = normalAlong(axis, side);
   }
 }
 

@@ -39,7 +39,7 @@ function giveBack(space: KernelInstance, options?: BroadPhaseOptions<Dimensions>
 function plain(options?: BroadPhaseOptions<Dimensions>): number {
   if (options === undefined) return builtDimensions[0]!;
   for (const name in options) if (name !== 'dimensions') return 0;
-  const { dimensions } = options ?? {};
+  const { dimensions } = options;
   return builtDimensions.includes(dimensions!) ? dimensions! : 0;
 }
 

@@ -241,7 +241,7 @@ function screenAll(
       found = best;
     }
   });
-  screened.sort((a, b) => a.ms - b.ms);
+  screened.sort(byTime);
   return { screened, curves };
 }
 
