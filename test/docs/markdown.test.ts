@@ -73,6 +73,14 @@ test('each `vitest run` that a document names runs something', () => {
   expect(asked.filter((name) => !files.some((file) => file.endsWith('.test.ts') && file.includes(name)))).toEqual([]);
 });
 
+test('docs/promises.md gives the numbers of cases and sequences that there are', () => {
+  const promises = read('docs/promises.md');
+  const cases = Object.keys(JSON.parse(read('test/promises/determinism/golden.json'))).length;
+  const sequences = files.filter((file) => file.startsWith('kernel/test/corpus/')).length;
+  expect(matches(promises, /(\d+) cases\. Sixteen/g)).toEqual([String(cases)]);
+  expect(matches(promises, /saved corpus is (\d+) sequences/g)).toEqual([String(sequences)]);
+});
+
 describe('ARCHITECTURE.md', () => {
   const architecture = read('ARCHITECTURE.md');
   const [map] = matches(architecture, /## The map\n\n```\n([\s\S]*?)```/g);
