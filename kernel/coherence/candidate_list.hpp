@@ -277,7 +277,7 @@ template <int D> class CandidateList {
       out += rest;
     }
     candidates_.count = left;
-    settled_.count = Pairs::between(settled_.list.data(), out);
+    settled_.end_at(out);
   }
 
   // --- boxes that leave their regions ---
@@ -456,7 +456,7 @@ template <int D> class CandidateList {
       u32 apart = are_apart(slot, other);
       out += !(boxes_touch<D>(its_base, base(other)) | apart | (tag & tags_[other] & ~slot_mask));
     }
-    extra_.count = Pairs::between(extra_.list.data(), out);
+    extra_.end_at(out);
     __builtin_memcpy(region(slot), larger_one, width * sizeof(f32));
     places_.put(larger_one, slot);
   }
@@ -491,6 +491,6 @@ template <int D> class CandidateList {
         if (watch && any_equal<D>(touching)) pairs.doubt(begin, out);
       }
     }
-    pairs.count = Pairs::between(pairs.list.data(), out);
+    pairs.end_at(out);
   }
 };

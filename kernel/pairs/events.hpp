@@ -118,8 +118,8 @@ class Events {
     }
     while (old < old_end) *left++ = *old++;
     while (its < its_end) *fresh++ = *its++;
-    began.count = Pairs::between(began.list.data(), fresh);
-    ended.count = Pairs::between(ended.list.data(), left);
+    began.end_at(fresh);
+    ended.end_at(left);
   }
 
   /// Where a pair is among the next few; 0 if it is not there, or the next.

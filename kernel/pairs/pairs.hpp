@@ -28,6 +28,9 @@ struct Pairs {
     return (reinterpret_cast<size_t>(to) - reinterpret_cast<size_t>(from)) / sizeof(u64);
   }
 
+  /// Ends the list here.
+  void end_at(const u64* out) { count = between(list.data(), out); }
+
   /// Makes room for `more` pairs after `out`; returns where to continue writing.
   u64* room(u64* out, u64 more) {
     u64 have = between(list.data(), out);

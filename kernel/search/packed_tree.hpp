@@ -190,7 +190,7 @@ template <int D> class PackedTree {
           descend(level - 1, u32(expand(halves + h, n, level, false, below, stats) - below), pairs, stats);
         } else {
           u64* out = pairs.room(pairs.list.data() + pairs.count, 4 * n);
-          pairs.count = u64(expand(halves + h, n, level, true, out, stats) - pairs.list.data());
+          pairs.end_at(expand(halves + h, n, level, true, out, stats));
         }
       }
     }

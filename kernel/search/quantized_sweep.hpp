@@ -113,7 +113,7 @@ template <int D> class QuantizedSweep {
       }
       if (watch && any(touching)) pairs.doubt(begin, out);
     }
-    pairs.count = Pairs::between(pairs.list.data(), out);
+    pairs.end_at(out);
   }
   static void test(const LaneView<D>& lanes, const Near* from, const Near* end, Pairs& pairs) {
     if (pairs.watch) test_as<true>(lanes, from, end, pairs);

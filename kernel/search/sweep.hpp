@@ -131,7 +131,7 @@ NOINLINE void sweep_as(const Lanes<D>& from, const u32* end, u32 count, Pairs& p
     }
     if (watch && any(touching)) pairs.doubt(begin, out);
   }
-  pairs.count = Pairs::between(pairs.list.data(), out);
+  pairs.end_at(out);
 }
 
 template <int D, bool exact_end = false> void sweep(const Lanes<D>& from, const u32* end, u32 count, Pairs& pairs) {
@@ -171,12 +171,12 @@ template <int D> NOINLINE f64 sweep_runs(const Lanes<D>& from, const Run* runs, 
     Run run = *runs;
     u32 length = run.until - run.from;
     tests += length;
-    if (u64(limit - out) < length + Pairs::slack) {
+    if (Pairs::between(out, limit) < length + Pairs::slack) {
       out = pairs.room(out, length);
       limit = pairs.list.data() + pairs.list.capacity();
     }
     out = sweep_run(lanes, run, out);
   }
-  pairs.count = u64(out - pairs.list.data());
+  pairs.end_at(out);
   return f64(tests);
 }

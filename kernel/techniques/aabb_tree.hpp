@@ -252,8 +252,8 @@ template <int D> class AabbTree {
     }
     for (; k < kept; k++) take(list[k], stays(list[k]));
     for (; next < count; next++) take(list[next], true);
-    candidates_.count = u64(left - merged_.data());
+    candidates_.count = Pairs::between(merged_.data(), left);
     candidates_.list.swap(merged_);
-    pairs.count = u64(out - pairs.list.data());
+    pairs.end_at(out);
   }
 };

@@ -162,7 +162,7 @@ template <int D> class Quadtree {
       tests += until - from;
       out = sweep_run(lanes, {i, from, until}, pairs.room(out, until - from));
     }
-    pairs.count = u64(out - pairs.list.data());
+    pairs.end_at(out);
     return tests;
   }
 };

@@ -261,7 +261,7 @@ template <int D> class RetainedGrid {
       out += !moves(found_[k]);
     }
     for (; next < count; next++) *out++ = fresh[next];
-    pairs.count = u64(out - pairs.list.data());
+    pairs.end_at(out);
     found_.reserve(pairs.count);
     if (pairs.count) __builtin_memcpy(found_.data(), pairs.list.data(), pairs.count * sizeof(u64));
     found_count_ = pairs.count;

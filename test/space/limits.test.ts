@@ -215,6 +215,15 @@ describe.runIf(process.env.LARGE_MEMORY)('with all memory that WebAssembly allow
     expect(space.ended.length).toBe(2 * (pairs - 1));
   });
 
+  // Those that retain pairs would need as much memory again.
+  const searches = ['hierarchical-grid', 'home-cell-grid', 'quadtree', 'r-tree', 'strip-sweep', 'bsp-tree'] as const;
+  test.each(searches)('more than 2 GiB of pairs are counted, with %s', { timeout: 300_000 }, (technique) => {
+    const count = 25_000;
+    const space = new BroadPhase({ technique }).setAll(identical(count, 2)).update();
+    expect(space.pairCount).toBe((count * (count - 1)) / 2);
+    space.dispose();
+  });
+
   test('pairs and boxes are found beyond the first 2 GiB', { timeout: 300_000 }, () => {
     const count = 25_000;
     const space = new BroadPhase({ technique: 'brute-force' }).setAll(identical(count, 2)).update();
