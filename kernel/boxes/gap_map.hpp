@@ -22,16 +22,16 @@ template <int D> class GapMap {
 
   // Piece p of an axis begins at from[p]; less[p] is subtracted in it; its results are clamped to where the next one
   // begins.
-  struct Axes {
+  struct Pieces {
     f64 from[most_cuts + 1][D], less[most_cuts + 1][D], until[most_cuts + 1][D];
   };
-  Axes axes_ = {};
-  u32 pieces_ = 1;  // largest number on any axis
+  Pieces pieces_ = {};
+  u32 piece_count_ = 1;  // largest number on any axis
   bool plain_ = true;  // one piece, and nothing is subtracted
 
  public:
   SMALL void reset() {
-    pieces_ = 1;
+    piece_count_ = 1;
     plain_ = true;
   }
 
@@ -45,8 +45,8 @@ template <int D> class GapMap {
   Less less() const {
     Less all;
     for (u32 k = 0; k < D; k++)
-      all.of[k] = plain_ ? f64x2{} : f64x2{axes_.less[0][2 * k % D], axes_.less[0][(2 * k + 1) % D]};
-    all.alone = pieces_ == 1;
+      all.of[k] = plain_ ? f64x2{} : f64x2{pieces_.less[0][2 * k % D], pieces_.less[0][(2 * k + 1) % D]};
+    all.alone = piece_count_ == 1;
     return all;
   }
 
@@ -149,16 +149,16 @@ template <int D> class GapMap {
   f64 map(f64 x, u32 axis) const {
     if (plain_) return x;
     u32 p = 0;
-    while (p + 1 < pieces_ && x >= axes_.from[p + 1][axis]) p++;
-    return smaller(axes_.until[p][axis], x - axes_.less[p][axis]);
+    while (p + 1 < piece_count_ && x >= pieces_.from[p + 1][axis]) p++;
+    return smaller(pieces_.until[p][axis], x - pieces_.less[p][axis]);
   }
 
   /// The inverse: from a number that is searched to the one that was given.
   f64 unmap(f64 x, u32 axis) const {
     if (plain_) return x;
     u32 p = 0;
-    while (p + 1 < pieces_ && x >= axes_.until[p][axis]) p++;
-    return x + axes_.less[p][axis];
+    while (p + 1 < piece_count_ && x >= pieces_.until[p][axis]) p++;
+    return x + pieces_.less[p][axis];
   }
 
   /// Chooses a map for these boxes, from a sample that includes those in `more`; false if the present one will do.
@@ -193,7 +193,7 @@ template <int D> class GapMap {
 
   bool operator==(const GapMap& other) const {
     if (plain_ || other.plain_) return plain_ == other.plain_;
-    return !differ<sizeof(Axes)>(&axes_, &other.axes_);
+    return !differ<sizeof(Pieces)>(&pieces_, &other.pieces_);
   }
 
  private:
@@ -213,11 +213,11 @@ template <int D> class GapMap {
   NOINLINE f64x2 shifted(f64x2 x, u32 number) const {
     u32 one = number % D, other = (number + 1) % D;
     auto both = [&](const f64(&row)[D]) { return f64x2{row[one], row[other]}; };
-    f64x2 less = both(axes_.less[0]), until = both(axes_.until[0]);
-    for (u32 p = 1; p < pieces_; p++) {
-      u64x2 here = bits<u64x2>(x >= both(axes_.from[p]));
-      less = bits<f64x2>((bits<u64x2>(both(axes_.less[p])) & here) | (bits<u64x2>(less) & ~here));
-      until = bits<f64x2>((bits<u64x2>(both(axes_.until[p])) & here) | (bits<u64x2>(until) & ~here));
+    f64x2 less = both(pieces_.less[0]), until = both(pieces_.until[0]);
+    for (u32 p = 1; p < piece_count_; p++) {
+      u64x2 here = bits<u64x2>(x >= both(pieces_.from[p]));
+      less = bits<f64x2>((bits<u64x2>(both(pieces_.less[p])) & here) | (bits<u64x2>(less) & ~here));
+      until = bits<f64x2>((bits<u64x2>(both(pieces_.until[p])) & here) | (bits<u64x2>(until) & ~here));
     }
     return min(until, x - less);
   }
@@ -241,12 +241,12 @@ template <int D> class GapMap {
   /// Copies an axis from another map.
   SMALL void take(const GapMap& other, u32 axis) {
     for (u32 p = 0; p <= most_cuts; p++) {
-      bool is = !other.plain_ && p < other.pieces_;
-      axes_.from[p][axis] = is ? other.axes_.from[p][axis] : __builtin_nan("");
-      axes_.less[p][axis] = is ? other.axes_.less[p][axis] : 0;
-      axes_.until[p][axis] = is ? other.axes_.until[p][axis] : __builtin_inf();
+      bool is = !other.plain_ && p < other.piece_count_;
+      pieces_.from[p][axis] = is ? other.pieces_.from[p][axis] : __builtin_nan("");
+      pieces_.less[p][axis] = is ? other.pieces_.less[p][axis] : 0;
+      pieces_.until[p][axis] = is ? other.pieces_.until[p][axis] : __builtin_inf();
     }
-    pieces_ = larger(pieces_, other.pieces_);
+    piece_count_ = larger(piece_count_, other.piece_count_);
     plain_ = false;
   }
 
@@ -292,14 +292,14 @@ template <int D> class GapMap {
       f64 less = is ? from - at : 0;
       f64 steps = less / grid;
       if (__builtin_fabs(steps) < 0x1p52) less = __builtin_floor(steps + 0.5) * grid;
-      axes_.from[p][axis] = from;
-      axes_.less[p][axis] = less;
-      axes_.until[p][axis] = __builtin_inf();
-      if (is && p > 0) axes_.until[p - 1][axis] = from - less;
-      if (is && p > 1 && !(axes_.until[p - 2][axis] <= from - less)) return __builtin_inf();  // not monotone
+      pieces_.from[p][axis] = from;
+      pieces_.less[p][axis] = less;
+      pieces_.until[p][axis] = __builtin_inf();
+      if (is && p > 0) pieces_.until[p - 1][axis] = from - less;
+      if (is && p > 1 && !(pieces_.until[p - 2][axis] <= from - less)) return __builtin_inf();  // not monotone
       if (is && p < best) at = low[cuts[p] - 1] - less + gap;
     }
-    pieces_ = larger(pieces_, best + 1);
+    piece_count_ = larger(piece_count_, best + 1);
     plain_ = false;
     return half;
   }

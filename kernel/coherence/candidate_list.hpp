@@ -420,7 +420,8 @@ template <int D> class CandidateList {
   /// If it is late again, its region reaches back to the one before, and as far ahead as it got from that.
   void find_region(const f32* its, const f32* before, u32 tag, f32 aside, f32* out) const {
     f32 box[width + padding];
-    shifted(its, box);
+    store(box, shift_(load<f32x4>(its)));
+    store(box + D, shift_(load<f32x4>(its + D)));
     f32x4 low = load<f32x4>(before) - load<f32x4>(box), high = load<f32x4>(before + D) - load<f32x4>(box + D);
     i32x4 far = (low > splat(2 * aside)) | (high < splat(-2 * aside));
     if (!(tag & fresh) && (bitmask(far) & ((1 << D) - 1))) aside = margin_;
@@ -459,12 +460,6 @@ template <int D> class CandidateList {
     extra_.end_at(out);
     __builtin_memcpy(region(slot), larger_one, width * sizeof(f32));
     places_.put(larger_one, slot);
-  }
-
-  /// Writes a box without the common motion since the list was made, and what follows the box.
-  void shifted(const f32* box, f32* out) const {
-    store(out, shift_(load<f32x4>(box)));
-    store(out + D, shift_(load<f32x4>(box + D)));
   }
 
   static void test(const Scene<D>& scene, const Pairs& candidates, Pairs& pairs) {

@@ -14,7 +14,7 @@ class PairTable {
   static constexpr u32 none = 0xffffffff;
   bool made = false;
 
-  __attribute__((noinline)) void make(const Pairs& pairs) {
+  NOINLINE void make(const Pairs& pairs) {
     u32 log = 6;
     while (u64(1) << log < 2 * pairs.count) log++;
     u32* places = places_.reserve(u64(1) << log);

@@ -1,4 +1,4 @@
-// Runs the techniques of a space: which one ran last, its counters, and its structure as boxes.
+// Runs the techniques of a space; knows which one ran last, and its cells as boxes.
 #pragma once
 #include "space/scene_builder.hpp"
 #include "space/techniques.hpp"

@@ -24,7 +24,10 @@ template <int D> class Written {
     shown_count_ = 0;
   }
   /// Ends writing in place.
-  void end() { in_place_ = false, shown_count_ = 0; }
+  void end() {
+    in_place_ = false;
+    shown_count_ = 0;
+  }
 
   /// Moves the first `count` boxes, whose memory was handed out, to where there is room for `numbers` numbers.
   SMALL void move(Buffer<f32>& boxes, u64 numbers, u32 count) {
