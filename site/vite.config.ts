@@ -9,6 +9,7 @@ import { api } from './plugins/api.ts';
 import { documents } from './plugins/documents.ts';
 import { frame } from './plugins/frame.ts';
 import { live } from './plugins/live.ts';
+import { notFound } from './plugins/not-found.ts';
 import { sources } from './plugins/sources.ts';
 
 const path = (file: string) => fileURLToPath(new URL(file, import.meta.url));
@@ -20,9 +21,9 @@ const headers = {
 export default defineConfig({
   root: path('.'),
   base: './',
-  appType: 'mpa', // a URL without a page gets a 404
+  appType: 'mpa', // a URL without a page gets a 404, which plugins/not-found.ts fills
   // The same in pages and workers, in development and in a build: every technique, inlined in the script.
-  plugins: [addresses, api, documents, frame, live, sources, everyTechnique],
+  plugins: [addresses, api, documents, frame, live, notFound, sources, everyTechnique],
   resolve: {
     dedupe: ['react', 'react-dom', '@xyflow/react', 'd3-force', 'd3-quadtree', 'rbush', 'flatbush', 'three'],
     alias: {
@@ -45,6 +46,7 @@ export default defineConfig({
     rolldownOptions: {
       input: {
         index: path('index.html'),
+        404: path('404.html'),
         article: path('article/index.html'),
         lab: path('lab/index.html'),
         bench: path('bench/index.html'),

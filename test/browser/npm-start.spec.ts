@@ -118,6 +118,16 @@ for (const [from, at] of [
     }
   });
 
+  test(`${from}: the page of an address that is no page leads back to the site`, async ({ page }) => {
+    for (const address of ['/nothing', '/guides/nothing/deep/', '/api/nothing.html']) {
+      expect((await page.goto(at + address))!.status(), address).toBe(404);
+      await expect(page.getByRole('heading', { level: 1 })).toHaveText('No page has this address');
+      await expect(page.locator('.site-nav'), address).toHaveCSS('display', 'flex');
+      await page.locator('main').getByRole('link', { name: 'The guides' }).click();
+      await expect(page).toHaveURL(`${at}/guides/`);
+    }
+  });
+
   test(`${from}: a folder without its slash leads to the page`, async ({ request }) => {
     for (const address of ['/lab', '/guides/getting-started', '/api', '/examples/ecs?x=1']) {
       const answer = await request.get(at + address, { headers: { Accept: 'text/html' } });

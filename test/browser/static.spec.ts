@@ -37,8 +37,12 @@ async function serve(folder: string, base: string): Promise<Server> {
   return server;
 }
 
-/** Under the root, which most servers have, the reference is left out: it takes as long as all else. */
-const isPage = (name: string, base: string) => name.endsWith('.html') && !(base === '/' && name.startsWith('api/'));
+/**
+ * Under the root, which most servers have, the reference is left out: it takes as long as all else. Under another path,
+ * 404.html: its links start at the path of `homepage` in package.json.
+ */
+const isPage = (name: string, base: string) =>
+  name.endsWith('.html') && !(base === '/' ? name.startsWith('api/') : name === '404.html');
 
 for (const base of ['/', '/x/y/']) {
   test(`every page works from a static file server under ${base}, and every link leads somewhere`, async ({ page }) => {
