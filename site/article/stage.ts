@@ -94,6 +94,7 @@ export function createStage<D extends { readonly world: World }>(
     },
     root,
   );
+  addEventListener('beforeprint', attended.stop); // what runs would take the colours of paper with its next frame only
   button(controls, 'Step', () => {
     attended.stop();
     world.step();

@@ -1,4 +1,5 @@
-// The colours of the figures: the page's own CSS variables, read again when light turns to dark.
+// The colours of the figures: the page's own CSS variables, read again when light turns to dark, or the page is
+// printed, which is light.
 
 const names = {
   page: '--page',
@@ -22,7 +23,7 @@ const names = {
 
 export type Colors = Readonly<Record<keyof typeof names, string>>;
 
-const dark = matchMedia('(prefers-color-scheme: dark)');
+const dark = matchMedia('screen and (prefers-color-scheme: dark)');
 let colors: Colors | undefined;
 
 export function themeColors(): Colors {
@@ -33,6 +34,7 @@ export function themeColors(): Colors {
   return colors;
 }
 
+/** `changed` draws at once: no frame comes before the page is printed. */
 export function onThemeChange(changed: () => void): void {
   dark.addEventListener('change', () => {
     colors = undefined;

@@ -66,13 +66,13 @@ export function createView(root: HTMLElement, { height: heightOf, draw, label }:
     if (now !== width && now > 0) {
       width = now;
       height = Math.round(heightOf(width));
-      canvas.style.height = `${height}px`;
+      canvas.style.aspectRatio = `${width} / ${height}`;
     }
     redraw();
   };
 
   new ResizeObserver(resize).observe(canvas);
-  onThemeChange(redraw);
+  onThemeChange(paint);
   resize();
 
   return {
