@@ -52,9 +52,10 @@ function firstFlow() {
     const height = 90 * Math.sqrt(to - from + 1);
     return cardAt(k, 230 * level + 30 * random(), ((k + 0.5 - from) / (to - from) - 0.5) * height * 1.6, random);
   });
-  const edges = nodes.slice(1).map(({ id }) => {
+  const edges = nodes.slice(1).map(({ id, data }) => {
     const source = String(Math.floor((Number(id) - 1) / 3));
-    return { id: `${source}-${id}`, source, target: id };
+    const ariaLabel = `From ${nodes[source].data.label} to ${data.label}`;
+    return { id: `${source}-${id}`, source, target: id, ariaLabel };
   });
   return { nodes, edges };
 }
@@ -103,6 +104,7 @@ function Canvas({ nodes, edges, changed, started }) {
       edgesFocusable={false}
       onNodesChange={changed}
       onInit={started}
+      aria-label="A canvas of nodes. Tab goes from node to node, Enter selects one, arrow keys move it."
       colorMode="system"
       minZoom={0.1}
       preventScrolling={false}

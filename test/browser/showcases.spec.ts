@@ -74,6 +74,14 @@ test('nodes: untangled, by everyone, none overlaps another; a node that is moved
   expect(after.filter(([, y], k) => y !== before[k][1]).length).toBeGreaterThan(1);
 });
 
+test('nodes: one application, which says how keys move in it, and edges that name what they join', async ({ page }) => {
+  const section = await open(page, 'nodes');
+  const application = section.getByRole('application');
+  await expect(application).toHaveCount(1);
+  await expect(application).toHaveAccessibleName(/^A canvas of nodes\. Tab goes from node to node/);
+  await expect(section.getByRole('img', { name: 'From Fetch 1 to Parse 2', exact: true })).toHaveCount(1);
+});
+
 test('nodes: 500 are pasted, and come apart frame by frame', async ({ page }) => {
   const section = await open(page, 'nodes', 'no-preference');
   await section.getByRole('button', { name: 'Paste 500' }).click();
