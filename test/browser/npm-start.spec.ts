@@ -152,6 +152,14 @@ for (const [what, script] of [
           }),
     );
     await page.goto('/lab/');
+    const colour = () =>
+      page
+        .locator('#flat canvas')
+        .first()
+        .evaluate((canvas: HTMLCanvasElement) => {
+          return [...canvas.getContext('2d')!.getImageData(9, 9, 1, 1).data];
+        });
+    await expect.poll(colour, 'that of the page').toEqual([251, 251, 250, 255]);
     const said = what === 'never answers' ? 'its worker did not start within 6 s' : 'its worker could not be loaded';
     await expect(page.locator('#note')).toContainText(`This stopped: ${said}`, { timeout: 9000 });
   });

@@ -10,6 +10,8 @@ const fingertip = 14;
 /** The renderer fills boxes smaller than this, in CSS pixels: cells are outlines, so there is nothing left of them. */
 const leastCell = 4;
 const cellsLookedAt = 100;
+const noBoxes = new Float32Array();
+const noSlots = new Uint8Array();
 
 /** Draws pairs as lines, or clears those of before. */
 function drawLines(
@@ -55,7 +57,7 @@ export function createFlatView(element: HTMLElement, moved: () => void, kind?: R
   /** The width of a CSS pixel in the world. */
   const pixel = () => camera.width / canvas.getBoundingClientRect().width / camera.scale;
   const draw = () => {
-    if (!picture) return;
+    if (!picture) return renderer.draw(noBoxes, noSlots, 0, camera); // the colour of the page, until the worker answers
     const { drawn, slots, cells, boxes, lines } = picture;
     renderer.draw(drawn, slots, cells + boxes, camera);
     drawLines(upper, lines, camera);
