@@ -9,6 +9,7 @@ import { formatCount, formatMilliseconds, formatRate, formatShare } from '../sha
 import { numberPanel } from '../shared/numbers.ts';
 import type { RendererKind } from '../shared/renderer.ts';
 import { fetchRecording, type LiveScene, recordedScene, seededScene } from '../shared/scenes.ts';
+import '../shared/stopped.ts';
 
 /** The scenes of the menu: name, label, and a short description. */
 const scenes: readonly (readonly [SceneName | 'rain', string, string])[] = [
@@ -229,11 +230,9 @@ addEventListener('keydown', (event) => {
   event.preventDefault();
   play(!figure.loop.playing);
 });
-const failed = (reason: unknown) => {
+addEventListener('unhandledrejection', ({ reason }) => {
   note.textContent = `This stopped: ${reason instanceof Error ? reason.message : String(reason)}`;
-};
-addEventListener('error', (event) => failed(event.error));
-addEventListener('unhandledrejection', (event) => failed(event.reason));
+});
 
 const still = matchMedia('(prefers-reduced-motion: reduce)');
 still.addEventListener('change', () => play(!still.matches));

@@ -14,6 +14,7 @@ import { find, showPlaying } from '../shared/elements.ts';
 import { formatCount } from '../shared/format.ts';
 import { FrameLoop } from '../shared/loop.ts';
 import { numberPanel } from '../shared/numbers.ts';
+import '../shared/stopped.ts';
 import { Timings } from '../shared/timings.ts';
 
 const sharpest = 2;

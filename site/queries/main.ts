@@ -9,6 +9,7 @@ import { numberPanel } from '../shared/numbers.ts';
 import { makePalette } from '../shared/palette.ts';
 import { createRenderer, type RendererKind } from '../shared/renderer.ts';
 import { type LiveScene, seededScene } from '../shared/scenes.ts';
+import '../shared/stopped.ts';
 import { Timings } from '../shared/timings.ts';
 import type { Ask, Desk } from './ask.ts';
 import { asks, setLayers } from './asks.ts';

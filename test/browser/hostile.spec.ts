@@ -1,4 +1,5 @@
-// Addresses and files made by strangers: the page neither runs what they say, nor hangs, nor breaks.
+// Addresses and files made by strangers: the page neither runs what they say, nor hangs, nor breaks. And browsers that
+// have no WebAssembly: the page says so.
 import { gzipSync } from 'node:zlib';
 import { expect, type Page, test } from '@playwright/test';
 
@@ -73,3 +74,13 @@ test('no file breaks the lab', async ({ page }) => {
   await expect(page.getByRole('heading', { level: 1 })).toBeVisible();
   done();
 });
+
+for (const path of ['', 'narrow-phase/', 'queries/']) {
+  test(`without WebAssembly, /${path} says what is missing`, async ({ page }) => {
+    await page.addInitScript('delete globalThis.WebAssembly');
+    await page.goto(`/${path}`);
+    const said = page.getByRole('alert');
+    await expect(said).toHaveText(/^This stopped: broadphase needs WebAssembly/);
+    await expect(said).toBeInViewport();
+  });
+}
