@@ -462,6 +462,17 @@ test('200,000 boxes run', async ({ page }) => {
   expect(await number(page, 'pairs')).toBeGreaterThan(90_000);
 });
 
+test('the tests of brute force, of nine digits, fit beside the pairs', async ({ page }) => {
+  await page.setViewportSize({ width: 1440, height: 900 });
+  await openStill(page, 'scene=sparse2d&boxes=20000&technique=brute-force');
+  await expect(page.locator('#numbers [data-number=tests]')).toHaveText('199,990,000');
+  const rightOf = async (selector: string) => {
+    const { x, width } = (await page.locator(selector).boundingBox())!;
+    return x + width;
+  };
+  expect(await rightOf('#numbers [data-number=tests]')).toBeLessThanOrEqual(await rightOf('#numbers'));
+});
+
 for (const [device, width, height] of [
   ['phone', 390, 844],
   ['wide', 1100, 800],
