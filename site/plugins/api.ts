@@ -51,7 +51,7 @@ async function writeReference(folder: string): Promise<void> {
     options: path('../../typedoc.json'),
     tsconfig: path('../../tsconfig.json'),
     customCss,
-    customJs: path('api-search.js'),
+    customJs: path('api-keys.js'),
     categoryOrder: groups.map(({ title }) => title),
     favicon: path('../public/logo.svg'),
   });

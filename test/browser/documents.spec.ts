@@ -257,3 +257,24 @@ test('Enter leads to the first that the search finds, also at once after typing'
   await page.keyboard.press('Enter');
   await expect(page).toHaveURL(/broadphase\.BroadPhase\.html#raycastall/);
 });
+
+test('keys open the menu of the reference on a screen that is zoomed in, go through it, and close it', async ({
+  page,
+}) => {
+  await page.setViewportSize({ width: 640, height: 450 });
+  await page.goto('api/classes/broadphase.BroadPhase.html');
+  const link = page.locator('.tsd-navigation').getByRole('link', { name: 'findPairsBetween' });
+  await expect(link).toBeHidden();
+  const button = page.locator('#tsd-toolbar-menu-trigger');
+  await button.focus();
+  await page.keyboard.press('Enter');
+  await expect(link).toBeVisible();
+  expect(await page.locator('.col-sidebar :focus').count()).toBe(1);
+  await page.keyboard.press('Escape');
+  await expect(link).toBeHidden();
+  await expect(button).toBeFocused();
+  await page.keyboard.press('Enter');
+  await link.focus();
+  await page.keyboard.press('Enter');
+  await expect(page).toHaveURL(/findPairsBetween/);
+});
