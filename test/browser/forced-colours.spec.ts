@@ -1,5 +1,6 @@
 // Where the system forces its colours, as Windows' contrast themes do: what is chosen, pressed or current differs from
-// the rest, the focus is seen, and bars and sliders have not vanished with their backgrounds.
+// the rest, the focus is seen, and bars and sliders have not vanished with their backgrounds. And where more contrast is
+// asked for.
 import { expect, type Locator, type Page, test } from '@playwright/test';
 
 test.beforeEach(async ({ page }) => {
@@ -39,6 +40,12 @@ async function acrossMiddle(page: Page, element: Locator): Promise<{ colours: Se
   const canvas = await page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g)!.join(' '));
   return { colours: new Set(row), ends: [row[3]!, row.at(-4)!].map((colour) => colour !== canvas) };
 }
+
+test('who asks for more contrast sees the borders of buttons', async ({ page }) => {
+  await page.emulateMedia({ forcedColors: 'none', contrast: 'more' });
+  await page.goto('/');
+  await expect(page.locator('#step')).toHaveCSS('border-top-color', 'rgb(93, 96, 103)');
+});
 
 for (const colorScheme of ['light', 'dark'] as const) {
   test.describe(colorScheme, () => {
