@@ -35,6 +35,8 @@ class World {
   #ticks = new Map();
   #newest = [-1, -1, -1];
   #watchers = [];
+  /** A zone that begins with all entities, as if it had had them once. */
+  stale;
 
   presence = {
     subscribe: (topic, hear) => this.#listeners.set(topic, [...(this.#listeners.get(topic) ?? []), hear]),
@@ -83,7 +85,8 @@ class World {
 
   #link(zone, address) {
     const simulation = new Simulation(zones, zone);
-    const mine = () => [...beginnings(entities)].filter((entity) => zoneOf(zones, entity) === zone);
+    const mine = () =>
+      [...beginnings(entities)].filter((entity) => zone === this.stale || zoneOf(zones, entity) === zone);
     const link = new Link({
       presence: this.presence,
       isConnected: () => true,
@@ -273,6 +276,45 @@ test(
     expect(world.log.filter((line) => line.includes('zone 2: begins'))).toEqual([
       expect.stringMatching(/beside 2 zones$/),
     ]);
+    expect(world.wrong).toEqual([]);
+  },
+  limit,
+);
+
+test(
+  'of two zones that die together, the one that is back first brings back the other',
+  async () => {
+    world = new World();
+    await world.start();
+    await Promise.all([world.kill(0), world.kill(1)]);
+    await world.until(() => world.lost.length > 0);
+    const [back] = world.lost;
+    await world.create(back);
+    world.fate = () => undefined;
+    world.links[back].start();
+    await world.until(() => world.lost.includes(1 - back));
+    expect(world.said(`zone 2: zone ${back} is made anew`)).toBe(true);
+  },
+  limit,
+);
+
+test(
+  'a zone that has been away takes no entity that is on its way from one zone to another',
+  async () => {
+    world = new World();
+    world.stale = 2;
+    await world.start([0, 1]);
+    let isOnItsWay = false;
+    world.fate = (topic, { type, from, entities }) => {
+      if (type !== 'tick' || topic !== 'zone:1' || from !== 0) return undefined;
+      isOnItsWay ||= entities !== '';
+      return isOnItsWay ? 'held' : undefined;
+    };
+    await world.until(() => isOnItsWay);
+    world.links[2].start();
+    await world.until(() => world.said('zone 2: begins'));
+    world.deliver();
+    await world.until(() => world.whole > 0);
     expect(world.wrong).toEqual([]);
   },
   limit,

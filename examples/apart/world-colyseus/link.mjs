@@ -296,6 +296,10 @@ export class Link {
     // then would count as newer than what they hand to it from now on.
     const start = Math.max(tick + 1, ...ticks.map((tick) => tick + ahead));
     const others = new Set(welcomes.flatMap(({ owned }) => [...unpack(owned, Uint32Array)]));
+    // Nobody's, as its new zone answered before it arrived there, and its old one after it had left.
+    for (const [id, to, given] of welcomes.flatMap(({ given }) => given)) {
+      if (this.#welcomes.get(to)?.tick <= given) others.add(id);
+    }
     // What others handed over since the snapshot is newer than it; live entities are newer than what was handed over.
     const offers = welcomes.flatMap((welcome) => unpackEntities(welcome.offers));
     const all = isLive ? [...offers, ...entities] : [...entities, ...offers];
@@ -307,6 +311,12 @@ export class Link {
       this.#lost.delete(from);
       this.#peers.set(from, { inbox: new Map(), epoch, info, heard: performance.now() });
       this.#send(from, { type: 'start', start, info: this.#info });
+    }
+    // It may be the one whose turn it is to bring these back.
+    for (const [zone, info] of welcomes.flatMap(({ lost }) => lost)) {
+      if (this.#peers.has(zone) || this.#lost.has(zone) || zone === this.#zone) continue;
+      this.#lost.set(zone, info);
+      this.#bringBack(zone, info, false);
     }
     this.#sayHello();
     this.#calls.restarted();
@@ -375,7 +385,9 @@ export class Link {
       tick: this.tick,
       info: this.#info,
       peers: [...this.#peers, ...this.#coming].map(([zone, { info }]) => [zone, info]),
+      lost: [...this.#lost],
       owned: pack(Uint32Array.from(this.#simulation.entities.keys())),
+      given: this.#simulation.handedToOthersThan(from),
       offers: packEntities(this.#simulation.handedTo(from, since)),
     });
   }

@@ -77,6 +77,11 @@ export class Simulation {
     return this.#handedOver.filter(({ to, tick }) => to === zone && tick > since).map(({ entity }) => entity);
   }
 
+  /** Recent hand-overs to zones other than this: for each the entity's id, its new zone, and when. */
+  handedToOthersThan(zone) {
+    return this.#handedOver.filter(({ to }) => to !== zone).map(({ entity, to, tick }) => [entity.id, to, tick]);
+  }
+
   /** The place of an entity that this zone sees: its own, or a ghost. */
   placeOf(id, out) {
     const own = this.entities.get(id);

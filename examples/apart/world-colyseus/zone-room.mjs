@@ -215,7 +215,7 @@ export class ZoneRoom extends Room {
   }
 
   #keep(tick) {
-    const entities = packEntities([...this.#simulation.entities.values()]);
+    const entities = packEntities(this.#simulation.everybody());
     Promise.resolve(this.presence.set(`zone:${this.zone}:snapshot`, JSON.stringify({ tick, entities }))).catch(
       () => {},
     );
