@@ -18,7 +18,7 @@ export class Interest {
     this.#reach = [reachX, reachY];
   }
 
-  /** Players are whole numbers from 0 on; those of players who left may be reused. */
+  /** Players are whole numbers from 0 on; those of players who left may be reused after an update. */
   add(player, x, y) {
     this.move(player, x, y);
     this.#space.setFilter(body(player), bodies, windows).setFilter(window(player), windows, bodies);

@@ -26,6 +26,9 @@ export function startServer({ port = 0, reach = 50 } = {}) {
   const interest = new Interest(reach);
   const players = new Map();
   const free = [];
+  /** Ids of players who left since the last tick. The others have not been told yet, so nobody gets these. */
+  const left = [];
+  let unused = 0;
   let sent = 0;
   const send = (player, message) => {
     sent++;
@@ -33,7 +36,7 @@ export function startServer({ port = 0, reach = 50 } = {}) {
   };
   const server = new WebSocketServer({ port, maxPayload });
   server.on('connection', (socket) => {
-    const id = free.pop() ?? players.size;
+    const id = free.pop() ?? unused++;
     const player = { socket, x: 0, y: 0 };
     players.set(id, player);
     interest.add(id, 0, 0);
@@ -48,7 +51,7 @@ export function startServer({ port = 0, reach = 50 } = {}) {
     socket.on('close', () => {
       players.delete(id);
       interest.remove(id);
-      free.push(id);
+      left.push(id);
     });
     socket.send(JSON.stringify({ you: id }));
   });
@@ -67,6 +70,7 @@ export function startServer({ port = 0, reach = 50 } = {}) {
         },
         (viewer, seen) => send(viewer, { leave: seen }),
       );
+      free.push(...left.splice(0));
       for (const viewer of players.keys()) {
         for (const seen of interest.seenBy(viewer)) {
           if (fresh.has(`${viewer} ${seen}`)) continue;

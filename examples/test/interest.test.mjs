@@ -116,6 +116,26 @@ describe.skipIf(!installed)('the server of interest management', () => {
     await server.close();
   });
 
+  test('takes nobody for the one who has just left', async () => {
+    const { startServer } = await import('../server-interest/server.mjs');
+    const server = startServer({ reach: 10 });
+    const [ann, bob] = [await join(server), await join(server)];
+    server.tick();
+    await until(() => ann.heard.length === 2 && bob.heard.length === 2);
+    bob.socket.close();
+    await until(() => server.players.size === 1);
+    const cay = await join(server);
+    server.tick();
+    await until(() => cay.heard.length === 2);
+    expect(cay.heard).toEqual([{ you: cay.id }, { enter: ann.id, x: 0, y: 0 }]);
+    await until(() => ann.heard.length === 4);
+    expect(ann.heard.slice(2)).toEqual([{ leave: bob.id }, { enter: cay.id, x: 0, y: 0 }]);
+    const dan = await join(server);
+    expect(dan.id).toBe(bob.id); // free again
+    for (const { socket } of [ann, cay, dan]) socket.close();
+    await server.close();
+  });
+
   test('closes the socket of a player that sends something else, and goes on', async () => {
     const { startServer } = await import('../server-interest/server.mjs');
     const server = startServer();
