@@ -236,7 +236,8 @@ export class Shard {
   /**
    * Updates pairs and events. Chainable.
    *
-   * @param deltas those that the exchanges of other zones returned for this one
+   * @param deltas those that the exchanges of other zones returned for this one; if there are several of one zone, all in
+   *   the order in which they were sent
    * @throws RangeError or TypeError for what is no delta from another zone to this one. All is as before. Also throws
    *   what `entered` throws: call it then again with the same deltas, which calls `entered` again for that box.
    *
@@ -253,7 +254,7 @@ export class Shard {
 
   #apply(messages: readonly Message[]): this {
     this.taken.length = 0;
-    for (const [id, , before] of this.#hear(messages)) this.#entering.set(id, before);
+    this.#hear(messages);
     // First to where it was at the previous update, so that the space knows what overlapped then.
     for (const [id, before] of this.#entering) {
       this.#seen.get(id)!.before = before;
@@ -383,28 +384,47 @@ export class Shard {
     }
   }
 
-  /** Applies the changes that zones told. Returns those of boxes that come into sight. */
-  #hear(messages: readonly Message[]): Told[] {
-    // Pairs with boxes of a forgotten zone have ended here. So they begin now, wherever these boxes were before.
-    const news = messages.map(({ from, told, isAll }) => {
+  /** Applies the changes that zones told, in the order in which they came. */
+  #hear(messages: readonly Message[]): void {
+    const done = this.#removeDeleted(messages);
+    const ids = new Set(messages.flatMap(({ told }) => told.map(([id]) => id)));
+    for (const { from, told, isAll } of messages) {
+      // Pairs with boxes of a forgotten zone have ended here. So they begin now, wherever these boxes were before.
       const isBack = this.#forgotten.delete(from) && isAll;
-      return { from, isAll, told: isBack ? told.map(([id, ...boxes]): Told => [id, ...boxes.slice(0, 1)]) : told };
-    });
-    const told = news.flatMap((message) => message.told);
-    // Removals first: another zone may have added a box with that id.
-    for (const [id, box] of told) if (!box) this.#remove(id);
-    for (const { from, isAll } of news) if (isAll) this.#dropRest(from, told);
-    const entering = told.filter(([id, , before]) => before && !this.#seen.has(id));
-    for (const { from, told } of news) for (const [id, box] of told) if (box) this.#receive(id, box, from);
-    return entering;
+      if (isAll) this.#dropRest(from, ids);
+      for (const one of told) {
+        const [id, box, before] = one;
+        if (before && !isBack && !this.#seen.has(id)) this.#entering.set(id, before);
+        if (box) this.#receive(id, box, from);
+        else if (!done.has(one)) this.#remove(id);
+      }
+    }
+  }
+
+  /**
+   * Removes what its owner has deleted: another zone may have added a box with that id, and come first. Only as the first
+   * message of each zone says, since a later one may be about boxes that these messages tell of. Returns what is done.
+   */
+  #removeDeleted(messages: readonly Message[]): Set<Told> {
+    const done = new Set<Told>();
+    const heard = new Set<number>();
+    for (const { from, told } of messages) {
+      for (const one of heard.has(from) ? [] : told) {
+        const [id, box] = one;
+        if (box || this.#seen.get(id)?.owner !== from) continue;
+        this.#remove(id);
+        done.add(one);
+      }
+      heard.add(from);
+    }
+    return done;
   }
 
   /**
    * Drops the boxes of a zone that it should have told, but did not. Not those of which it may not know yet that it
    * owns them.
    */
-  #dropRest(zone: number, told: readonly Told[]): void {
-    const ids = new Set(told.map(([id]) => id));
+  #dropRest(zone: number, ids: ReadonlySet<number>): void {
     for (const [id, { owner, teller }] of this.#seen) {
       if (owner === zone && teller === zone && !ids.has(id)) this.#remove(id);
     }
