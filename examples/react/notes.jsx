@@ -13,7 +13,8 @@ const first = [noteAt(20, 20), noteAt(80, 60), noteAt(200, 30), noteAt(40, 180),
 
 export function Notes() {
   const desk = useRef(null);
-  const held = useRef(undefined);
+  /** Where each pointer that holds a note was last: several fingers may. */
+  const held = useRef(new Map());
   const [boxes, put] = useState(first);
   const { pairs, space } = useBroadPhase(boxes);
   const touching = new Set(pairs);
@@ -36,12 +37,13 @@ export function Notes() {
   const handlersOf = (id) => ({
     onPointerDown({ currentTarget, pointerId, clientX, clientY }) {
       currentTarget.setPointerCapture(pointerId);
-      held.current = [clientX, clientY];
+      held.current.set(pointerId, [clientX, clientY]);
     },
-    onPointerMove({ clientX, clientY }) {
-      if (!held.current) return;
-      move(id, clientX - held.current[0], clientY - held.current[1]);
-      held.current = [clientX, clientY];
+    onPointerMove({ pointerId, clientX, clientY }) {
+      const last = held.current.get(pointerId);
+      if (!last) return;
+      move(id, clientX - last[0], clientY - last[1]);
+      held.current.set(pointerId, [clientX, clientY]);
     },
     onPointerUp: release,
     onPointerCancel: release,
@@ -53,8 +55,8 @@ export function Notes() {
     },
   });
 
-  function release() {
-    held.current = undefined;
+  function release({ pointerId }) {
+    held.current.delete(pointerId);
   }
 
   return (

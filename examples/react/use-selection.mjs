@@ -47,7 +47,7 @@ export function useSelection(boxes) {
 
   const handlers = {
     onPointerDown(event) {
-      if (event.button !== 0) return;
+      if (event.button !== 0 || !event.isPrimary) return; // a second finger does nothing
       event.currentTarget.setPointerCapture(event.pointerId);
       start.current = at(event);
       undo.current = { selected: state.selected, active: state.active, anchor: state.anchor };
@@ -58,13 +58,13 @@ export function useSelection(boxes) {
       put({ before, selected: both(before, ids), active, anchor: active, took });
     },
     onPointerMove(event) {
-      if (!start.current) return;
+      if (!start.current || !event.isPrimary) return;
       const band = bandOf(start.current, at(event));
       const { ids, took } = within(band);
       put({ band, selected: both(state.before, ids), took });
     },
-    onPointerUp: () => end(),
-    onPointerCancel: () => end(undo.current),
+    onPointerUp: ({ isPrimary }) => isPrimary && end(),
+    onPointerCancel: ({ isPrimary }) => isPrimary && end(undo.current),
     onKeyDown(event) {
       const { key, shiftKey } = event;
       if (arrows[key]) move(arrows[key], shiftKey);

@@ -265,11 +265,23 @@ test('React: a finger draws the band too', async ({ browser }) => {
     ['touchStart', 40, 60],
     ['touchMove', 120, 200],
     ['touchMove', 250, 420],
-    ['touchEnd', 0, 0],
   ] as const) {
-    await touch.send('Input.dispatchTouchEvent', { type, touchPoints: type === 'touchEnd' ? [] : [{ x, y }] });
+    await touch.send('Input.dispatchTouchEvent', { type, touchPoints: [{ x, y, id: 0 }] });
   }
-  await expect.poll(() => page.getByRole('option', { selected: true }).count()).toBeGreaterThan(20);
+  const selected = page.getByRole('option', { selected: true });
+  await expect.poll(() => selected.count()).toBeGreaterThan(20);
+  const count = await selected.count();
+  // A second finger does nothing.
+  const touchPoints = [
+    { x: 250, y: 420, id: 0 },
+    { x: 60, y: 500, id: 1 },
+  ];
+  for (const type of ['touchStart', 'touchMove'] as const) {
+    await touch.send('Input.dispatchTouchEvent', { type, touchPoints });
+    touchPoints[1].x += 9;
+  }
+  await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+  await expect(selected).toHaveCount(count);
   expect(await page.evaluate(() => [scrollX, scrollY, document.documentElement.scrollWidth])).toEqual([0, 0, 390]);
   expect(faults).toEqual([]);
   await page.close();
@@ -318,6 +330,37 @@ for (const [framework, folder, search] of [
     expect(overlapping(boxes, boxes[5])).toEqual([5]);
     await page.screenshot({ path: `test-results/screens/notes-${folder}.png` });
     expect(faults).toEqual([]);
+  });
+}
+
+for (const [framework, folder, search] of [
+  ['React', 'react', '?show=notes'],
+  ['Vue', 'vue', ''],
+] as const) {
+  test(`${framework}: two fingers move two notes`, async ({ browser }) => {
+    const page = await browser.newPage({ viewport: { width: 390, height: 780 }, hasTouch: true, isMobile: true });
+    const faults = await openExample(page, folder, search);
+    const notes = page.locator('.note');
+    await expect(notes).toHaveCount(5);
+    const places = async () => {
+      const boxes = [(await notes.nth(0).boundingBox())!, (await notes.nth(3).boundingBox())!];
+      return boxes.map(({ x, y }) => [x, y]);
+    };
+    const [[x, y], [u, v]] = await places();
+    const touch = await page.context().newCDPSession(page);
+    const fingers = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...points: number[][]) =>
+      touch.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    await fingers('touchStart', [x + 5, y + 5]);
+    await fingers('touchStart', [x + 5, y + 5], [u + 5, v + 5]);
+    await fingers('touchMove', [x + 15, y + 5], [u + 5, v + 5]);
+    await fingers('touchMove', [x + 15, y + 5], [u + 5, v + 35]);
+    await fingers('touchEnd');
+    await expect.poll(places).toEqual([
+      [x + 10, y],
+      [u, v + 30],
+    ]);
+    expect(faults).toEqual([]);
+    await page.close();
   });
 }
 
