@@ -1,5 +1,6 @@
 #!/usr/bin/env node
 // The executable; also a thread of `broadphase join`.
+import { WriteStream } from 'node:tty';
 import { isMainThread, workerData } from 'node:worker_threads';
 import { exitCode } from './arguments.ts';
 import { serve, workerMark } from './join/worker.ts';
@@ -26,7 +27,7 @@ async function command(): Promise<void> {
     // A terminal may report 0 columns; piped output gets lines of 80.
     columns: process.stdout.columns || process.stderr.columns || 80,
     tableColumns: process.stdout.columns || Infinity,
-    // Node respects NO_COLOR, FORCE_COLOR and TERM.
-    colour: Boolean(process.stdout.isTTY) && process.stdout.hasColors(),
+    // Node respects NO_COLOR, FORCE_COLOR and TERM, but asks only terminals.
+    colour: (process.stdout.isTTY || process.env.FORCE_COLOR !== undefined) && WriteStream.prototype.hasColors(),
   });
 }

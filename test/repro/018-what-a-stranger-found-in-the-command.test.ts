@@ -107,6 +107,21 @@ describe.skipIf(!existsSync('/dev/full'))('a full disk', () => {
   });
 });
 
+test('colours are forced where nothing is a terminal, and not there else', async () => {
+  const command = await bundle('src/cli/index.ts', 'build/cli/stranger.mjs');
+  const { FORCE_COLOR: _, NO_COLOR: __, ...environment } = process.env;
+  const isColoured = (more: object) =>
+    String(spawnSync(process.execPath, [command, '--help'], { env: { ...environment, ...more } }).stdout).includes(
+      '\x1b[',
+    );
+  expect([{ FORCE_COLOR: '1' }, { FORCE_COLOR: '0' }, { NO_COLOR: '1' }, {}].map(isColoured)).toEqual([
+    true,
+    false,
+    false,
+    false,
+  ]);
+});
+
 test.each([
   ['update: out of memory: 9 more bytes are needed for 2 boxes and their pairs', 6],
   ['Array buffer allocation failed', 6],
