@@ -31,6 +31,8 @@ const patience = 1500;
 /** Milliseconds without a report after which none is expected any more. */
 const silence = 90_000;
 
+const file = fileURLToPath(new URL('../apart/world-colyseus/index.mjs', import.meta.url));
+
 class World {
   events = [];
   /** The newest report of each zone, and the number of reports. */
@@ -47,7 +49,6 @@ class World {
   #heard = performance.now();
 
   constructor(...options) {
-    const file = fileURLToPath(new URL('../apart/world-colyseus/index.mjs', import.meta.url));
     const args = ['--entities', String(entities), '--clients', String(clients), '--seconds', '900', ...options];
     this.child = spawn(node, [file, '--json', ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
     this.child.stderr.on('data', (data) => {
@@ -206,9 +207,21 @@ async function losesRedis(world) {
   console.log(`Redis was away for ${back.at - stopped} ms: the world waited, and went on`);
 }
 
-const world = new World('--port', await freePort());
+/** What is wrong is said, and nothing is started. */
+function refuses(expected, ...options) {
+  const { status, stdout, stderr } = spawnSync(node, [file, ...options, '--seconds', '9']);
+  equal(status, 2);
+  ok(String(stderr).startsWith(expected), String(stderr));
+  equal(String(stdout), '');
+}
+
+refuses('--zones is 0, expected an integer from 1 to 100\n', '--zones', '0');
+const port = await freePort();
+const world = new World('--port', port);
 try {
   await begins(world);
+  refuses('listen EADDRINUSE', '--port', port);
+  ok(!world.complaints.includes('no entity is free'), world.complaints);
   await isKilled(world);
   await isSilent(world);
   await losesRedis(world);

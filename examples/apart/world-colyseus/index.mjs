@@ -9,6 +9,7 @@
 // --everything: no interest management, for comparison: every client is sent its whole room
 // --seconds 60: ends after this time; --json: reports and events as lines of JSON
 import { spawn, spawnSync } from 'node:child_process';
+import { createServer } from 'node:net';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
@@ -27,7 +28,23 @@ const { values } = parseArgs({
     json: { type: 'boolean', default: false },
   },
 });
-const [zones, entities, port, clients] = ['zones', 'entities', 'port', 'clients'].map((name) => Number(values[name]));
+
+function stop(why) {
+  console.error(why);
+  process.exit(2);
+}
+
+const whole = ([name, least, most]) => {
+  const value = Number(values[name]);
+  if (Number.isInteger(value) && value >= least && value <= most) return value;
+  return stop(`--${name} is ${values[name]}, expected an integer from ${least} to ${most}`);
+};
+const [zones, entities, port, clients] = [
+  ['zones', 1, 100],
+  ['entities', 0, 2 ** 16],
+  ['port', 1, 64_000],
+  ['clients', 0, 1000],
+].map(whole);
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
 const children = new Set();
 let ending = false;
@@ -47,7 +64,9 @@ function start(file, options, ended) {
   children.add(child);
   createInterface({ input: child.stdout }).on('line', (line) => {
     try {
-      say(JSON.parse(line));
+      const event = JSON.parse(line);
+      say(event);
+      startClients(event);
     } catch {
       say({ text: line });
     }
@@ -91,6 +110,28 @@ function end() {
 process.on('SIGINT', end);
 process.on('SIGTERM', end);
 
+/** Another world may be running. */
+async function mustBeFree(at) {
+  const server = createServer();
+  await new Promise((resolve) => {
+    server.once('error', ({ message }) => stop(`${message}; --port chooses other ports`));
+    server.listen(at, resolve);
+  });
+  await new Promise((resolve) => server.close(resolve));
+}
+
+const begun = new Set();
+
+/** Starts the clients once all zones have begun: before, no entity is free. */
+function startClients({ text }) {
+  const [, zone] = /^zone (\d+): begins/.exec(text ?? '') ?? [];
+  if (zone === undefined || begun.size === zones) return;
+  if (begun.add(zone).size < zones || clients === 0) return;
+  start('clients.mjs', { ports: redis ? all.map((each) => port + each) : [port], zones, clients });
+}
+
+for (let k = 0; k < (values.memory ? 1 : zones); k++) await mustBeFree(port + k);
+if (!values.memory) await mustBeFree(port + 1000);
 const redis = values.memory ? undefined : await startRedis();
 const all = Array.from({ length: zones }, (_, zone) => zone);
 const { everything } = values;
@@ -121,8 +162,4 @@ function startServer(number, rooms) {
 
 if (redis) for (const zone of all) startServer(zone, [zone]);
 else startServer(0, all);
-if (clients > 0) {
-  const ports = redis ? all.map((zone) => port + zone) : [port];
-  start('clients.mjs', { ports, zones, clients });
-}
 if (values.seconds) setTimeout(end, 1000 * Number(values.seconds));
