@@ -1,7 +1,7 @@
 // Three zones in one process, over a wire that loses and delays messages: at every tick that all of them reach, no
 // entity is missing or there twice. It needs neither Colyseus nor Redis.
 import { createServer } from 'node:http';
-import { afterEach, expect, test } from 'vitest';
+import { afterEach, expect, test, vi } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
 import { seed } from '../../test/support/runs.ts';
 import { Link } from '../apart/world-colyseus/link.mjs';
@@ -319,3 +319,38 @@ test(
   },
   limit,
 );
+
+test('a zone that has yielded to another asks again, also if it wakes at the very time', async () => {
+  vi.useFakeTimers({ toFake: ['setTimeout', 'clearTimeout', 'performance'] });
+  const said = [];
+  let hear;
+  const link = new Link({
+    presence: {
+      subscribe: async (_, listener) => {
+        hear = listener;
+      },
+      unsubscribe: async () => {},
+      publish: async (_, { type }) => said.push(type),
+    },
+    isConnected: () => true,
+    simulation: new Simulation(zones, 1),
+    info: { roomId: 'room 1', processId: 'process 1', address: 'localhost:1' },
+    calls: {
+      begin: () => ({ tick: -1, entities: [], peers: [] }),
+      ticked: () => {},
+      restarted: () => said.push('begins'),
+      log: () => {},
+    },
+  });
+  world = { end: () => link.stop() };
+  try {
+    link.start();
+    await vi.advanceTimersByTimeAsync(100);
+    hear({ type: 'join', from: 0, epoch: 7, since: -1, info: {} });
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(said.slice(0, 5)).toEqual(['join', 'absent', 'join', 'hello', 'begins']);
+    await link.stop();
+  } finally {
+    vi.useRealTimers();
+  }
+});

@@ -257,9 +257,9 @@ export class Link {
       this.#welcomes.clear();
       this.#absent.clear();
       const asked = performance.now();
-      await this.#ask(begin, expected);
+      const answered = await this.#ask(begin, expected);
       if (this.#stopped) return;
-      if (this.#yieldUntil > performance.now()) continue;
+      if (!answered) continue;
       this.#begin(begin, asked);
       return;
     }
@@ -267,23 +267,25 @@ export class Link {
 
   /**
    * Asks all running zones which entities they own. Their answers also name the other running zones. It does not wait
-   * for a zone whose process has ended, that says it is not running, or that has been silent for too long.
+   * for a zone whose process has ended, that says it is not running, or that has been silent for too long. Returns
+   * false if it has to yield to another zone that joins.
    */
   async #ask({ isLive, tick }, expected) {
     const join = { type: 'join', since: isLive ? -1 : tick, info: this.#info };
     let begun = performance.now();
-    for (let asked = -Infinity; !this.#stopped && this.#yieldUntil < performance.now(); await sleep(20)) {
+    for (let asked = -Infinity; !this.#stopped && this.#yieldUntil <= performance.now(); await sleep(20)) {
       if (!this.#isConnected()) begun = performance.now();
       for (const [zone, { at, info }] of this.#ran) if (at > begun - 1000) expected.set(zone, info);
       for (const { peers } of this.#welcomes.values()) for (const [zone, info] of peers) expected.set(zone, info);
       const missing = [...expected].filter(([zone]) => !this.#welcomes.has(zone) && !this.#absent.has(zone));
       const waited = performance.now() - begun;
-      if (missing.length === 0 ? expected.size > 0 || waited > gathering : waited > patience) return;
+      if (missing.length === 0 ? expected.size > 0 || waited > gathering : waited > patience) return true;
       if (performance.now() - asked < 2 * gathering) continue;
       if (asked > 0) for (const [zone, info] of missing) if (!(await isThere(info))) this.#absent.add(zone);
       asked = performance.now();
       this.#send(undefined, join);
     }
+    return false;
   }
 
   #begin({ tick, entities, isLive }, asked) {
