@@ -23,6 +23,11 @@ export const flags = [
   // Nor does it pay to unroll loops of unknown length.
   '-mllvm',
   '-unroll-runtime=false',
+  // Engines optimise addresses and loads in loops themselves: docs/decisions/0015-builds-and-entries.md.
+  '-mllvm',
+  '-disable-lsr',
+  '-mllvm',
+  '-enable-load-pre=false',
   '-Ikernel',
   '-Wall',
   '-Wextra',
