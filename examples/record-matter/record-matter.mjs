@@ -19,8 +19,12 @@ export function recordMatter(engine) {
     for (const body of Composite.allBodies(engine.world)) {
       const { id, bounds, collisionFilter, isStatic } = body;
       space.set(id, bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y);
-      // Bodies of a group meet by other rules than bits, so all may meet there: a few pairs more than the engine has.
-      if (collisionFilter.group === 0) space.setFilter(id, collisionFilter.category >>> 0, collisionFilter.mask >>> 0);
+      // Bodies of a positive group always meet, whatever their bits. These may meet all: a few pairs more than the engine
+      // has. Those of a negative group never do, and meet others by their bits.
+      const { group, category, mask } = collisionFilter;
+      if (group > 0) space.setFilter(id, 0xffffffff, 0xffffffff);
+      else space.setFilter(id, category >>> 0, mask >>> 0);
+      space.setGroup(id, Math.max(0, -group));
       space.setStatic(id, isStatic);
       now.add(id);
     }

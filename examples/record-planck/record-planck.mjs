@@ -27,10 +27,12 @@ export function recordPlanck(world) {
           for (let child = 0; child < children; child++) {
             const { lowerBound, upperBound } = fixture.getAABB(child);
             space.set(id + child, lowerBound.x, lowerBound.y, upperBound.x, upperBound.y);
-            // Groups have rules that bits cannot express, so fixtures with a group may meet all.
-            if (fixture.getFilterGroupIndex() === 0) {
-              space.setFilter(id + child, fixture.getFilterCategoryBits(), fixture.getFilterMaskBits());
-            }
+            // Fixtures of a positive group always meet, whatever their bits. These may meet all: a few pairs more than
+            // the engine has. Those of a negative group never do, and meet others by their bits.
+            const group = fixture.getFilterGroupIndex();
+            if (group > 0) space.setFilter(id + child, 0xffffffff, 0xffffffff);
+            else space.setFilter(id + child, fixture.getFilterCategoryBits(), fixture.getFilterMaskBits());
+            space.setGroup(id + child, Math.max(0, -group));
             space.setStatic(id + child, body.isStatic());
           }
         }

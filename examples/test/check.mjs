@@ -25,3 +25,25 @@ export const pairsOf = ({ pairs }) =>
   new Set(Array.from({ length: pairs.length / 2 }, (_, k) => `${pairs[2 * k]} ${pairs[2 * k + 1]}`));
 
 export const pairName = (a, b) => `${Math.min(a, b)} ${Math.max(a, b)}`;
+
+/** The category and the mask of six bodies at one place. */
+export const bits = [1, 2, 4, 1, 2, 4].map((category, k) => [category, k < 3 ? 3 : 6]);
+
+/** Their groups, as an engine has them: of a positive one all bodies meet, of a negative one none. */
+export const groupsInTime = [
+  [0, 0, 0, 0, 0, 0],
+  [-1, -1, -2, -2, 5, 5],
+  [5, 0, 5, 0, -1, -1],
+  [0, -2, 0, -2, 0, 0],
+];
+
+/** Checks that all bodies meet that may; others only where one is of a positive group. */
+export function checkGroups(space, groups, idOf, mayMeet) {
+  const pairs = pairsOf(space);
+  for (let a = 0; a < groups.length; a++) {
+    for (let b = 0; b < a; b++) {
+      const isPair = pairs.has(pairName(idOf(a), idOf(b)));
+      if (mayMeet(a, b) || Math.max(groups[a], groups[b]) <= 0) expect([a, b, isPair]).toEqual([a, b, mayMeet(a, b)]);
+    }
+  }
+}

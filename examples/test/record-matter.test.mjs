@@ -1,6 +1,6 @@
 // Every collision that Matter.js finds is among the pairs of the recording, and the recording replays exactly.
 import { describe, expect, test } from 'vitest';
-import { checkRecording, installed, pairName, pairsOf } from './check.mjs';
+import { bits, checkGroups, checkRecording, groupsInTime, installed, pairName, pairsOf } from './check.mjs';
 
 describe.skipIf(!installed)('recording Matter.js', () => {
   test('has the boxes of all bodies, and every collision among its pairs', async () => {
@@ -27,5 +27,25 @@ describe.skipIf(!installed)('recording Matter.js', () => {
     expect(frames.map(({ count }) => count)).toEqual([...Array(100).fill(147), ...Array(50).fill(146)]);
     expect(frames[50].rules.filter((number, k) => k % 3 === 2 && number === 1)).toHaveLength(27);
     expect(frames[50].changed).toBeGreaterThan(100);
+  });
+
+  test('has the pairs that may collide, by bits and by groups, which change', async () => {
+    const { default: Matter } = await import('matter-js');
+    const { recordMatter } = await import('../record-matter/record-matter.mjs');
+    const engine = Matter.Engine.create({ gravity: { scale: 0 } });
+    const bodies = bits.map(() => Matter.Bodies.rectangle(0, 0, 10, 10, { isSensor: true }));
+    Matter.Composite.add(engine.world, bodies);
+    const recorded = recordMatter(engine);
+    for (const groups of groupsInTime) {
+      for (const [k, { collisionFilter }] of bodies.entries()) {
+        const [category, mask] = bits[k];
+        Object.assign(collisionFilter, { category, mask, group: groups[k] });
+      }
+      Matter.Engine.update(engine, 1000 / 60);
+      const mayMeet = (a, b) => Matter.Detector.canCollide(bodies[a].collisionFilter, bodies[b].collisionFilter);
+      checkGroups(recorded.space, groups, (k) => bodies[k].id, mayMeet);
+    }
+    await recorded.stop();
+    checkRecording(recorded.recording.bytes());
   });
 });

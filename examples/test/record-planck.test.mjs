@@ -1,6 +1,6 @@
 // Every contact that touches in Planck is among the pairs of the recording, and the recording replays exactly.
 import { describe, expect, test } from 'vitest';
-import { checkRecording, installed, pairName, pairsOf } from './check.mjs';
+import { bits, checkGroups, checkRecording, groupsInTime, installed, pairName, pairsOf } from './check.mjs';
 
 describe.skipIf(!installed)('recording Planck', () => {
   test('has the boxes of all fixtures, and every contact among its pairs', async () => {
@@ -31,5 +31,24 @@ describe.skipIf(!installed)('recording Planck', () => {
     const frames = checkRecording(recorded.recording.bytes());
     expect(frames.map(({ count }) => count)).toEqual([...Array(100).fill(141), ...Array(50).fill(140)]);
     expect(frames[50].rules.filter((number, k) => k % 3 === 2 && number === 1)).toHaveLength(40);
+  });
+
+  test('has the pairs that may collide, by bits and by groups, which change', async () => {
+    const { Box, World } = await import('planck');
+    const { recordPlanck } = await import('../record-planck/record-planck.mjs');
+    const world = new World();
+    const fixtures = bits.map(() => world.createDynamicBody().createFixture(new Box(1, 1), { density: 1 }));
+    const recorded = recordPlanck(world);
+    for (const groups of groupsInTime) {
+      for (const [k, fixture] of fixtures.entries()) {
+        const [categoryBits, maskBits] = bits[k];
+        fixture.setFilterData({ groupIndex: groups[k], categoryBits, maskBits });
+      }
+      recorded.frame();
+      const mayMeet = (a, b) => fixtures[a].shouldCollide(fixtures[b]);
+      checkGroups(recorded.space, groups, (k) => recorded.idOf(fixtures[k]), mayMeet);
+    }
+    await recorded.stop();
+    checkRecording(recorded.recording.bytes());
   });
 });
