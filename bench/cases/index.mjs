@@ -8,7 +8,7 @@ import { fileURLToPath } from 'node:url';
 const folder = fileURLToPath(new URL('./', import.meta.url));
 const recordings = /\.(bin|trace)(\.gz)?$/;
 
-/** All cases, by name. The most asked for come first. */
+/** All cases, by name. Those of the README come first, so that a run that ends early has them. */
 export function loadCases(traces) {
   const cases = readdirSync(folder)
     .filter((file) => file.endsWith('.json'))
@@ -24,7 +24,7 @@ export function loadCases(traces) {
       cases.push({ name: file.replace(recordings, ''), recording: resolve(traces, file) });
     }
   }
-  const headline = ['uniform2d', 'mixed2d', 'uniform3d'];
+  const headline = ['uniform2d', 'mixed2d', 'clustered2d', 'uniform3d', 'rain'];
   const rank = ({ name }) => (headline.indexOf(name) + headline.length + 1) % (headline.length + 1);
   cases.sort((a, b) => rank(a) - rank(b) || (a.name < b.name ? -1 : 1));
   return new Map(cases.map((item) => [item.name, item]));
