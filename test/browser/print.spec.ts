@@ -30,5 +30,5 @@ test('the article in print: light, with whole code, and a word where a picture d
   const code = loops.locator('.listing pre').first();
   expect(await code.evaluate((each) => each.scrollHeight - each.clientHeight)).toBe(0);
   const unseen = page.locator('#fig-14 .live');
-  expect(await unseen.evaluate((each) => getComputedStyle(each, '::before').content)).toContain('in sight before');
+  expect(await unseen.evaluate((each) => getComputedStyle(each, '::before').content)).toContain('printed only if');
 });
