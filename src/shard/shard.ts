@@ -387,11 +387,10 @@ export class Shard {
   /** Applies the changes that zones told, in the order in which they came. */
   #hear(messages: readonly Message[]): void {
     const done = this.#removeDeleted(messages);
-    const ids = new Set(messages.flatMap(({ told }) => told.map(([id]) => id)));
     for (const { from, told, isAll } of messages) {
       // Pairs with boxes of a forgotten zone have ended here. So they begin now, wherever these boxes were before.
       const isBack = this.#forgotten.delete(from) && isAll;
-      if (isAll) this.#dropRest(from, ids);
+      if (isAll) this.#dropRest(from, messages);
       for (const one of told) {
         const [id, box, before] = one;
         if (before && !isBack && !this.#seen.has(id)) this.#entering.set(id, before);
@@ -424,7 +423,8 @@ export class Shard {
    * Drops the boxes of a zone that it should have told, but did not. Not those of which it may not know yet that it
    * owns them.
    */
-  #dropRest(zone: number, ids: ReadonlySet<number>): void {
+  #dropRest(zone: number, messages: readonly Message[]): void {
+    const ids = new Set(messages.flatMap(({ told }) => told.map(([id]) => id)));
     for (const [id, { owner, teller }] of this.#seen) {
       if (owner === zone && teller === zone && !ids.has(id)) this.#remove(id);
     }
