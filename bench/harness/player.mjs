@@ -31,6 +31,8 @@ export class Player {
   #notes = nothing();
   /** Milliseconds of the warm-up updates, for contenders whose start is measured. */
   #start = [];
+  /** Milliseconds that the contender took in the last frame it played. */
+  #last = 0;
   #sink = 0;
 
   constructor(scene, contender, plan, stride = 1) {
@@ -58,6 +60,7 @@ export class Player {
       const part = partOf(this.#frame, this.#plan, this.#stride);
       if (part === 'no') continue;
       const times = this.#time();
+      this.#last = times.give + times.update + times.walk;
       if (part === 'timed') this.#note(times);
       else if (this.#frame < this.#plan.warmUp) this.#start.push(times.give + times.update);
     }
@@ -65,8 +68,8 @@ export class Player {
 
   /**
    * Plays the first frames for a number of milliseconds, so that the engine compiles the code, and returns how many
-   * milliseconds a frame takes then. Afterwards everything starts again: this only determines how many frames a
-   * contender can be timed in.
+   * milliseconds the contender takes in a frame then, the motion of the scene not included. Afterwards everything starts
+   * again: this only determines how many frames a contender can be timed in.
    */
   probe(frames, milliseconds) {
     const times = [];
@@ -75,8 +78,8 @@ export class Player {
     while (times.length < frames && !this.over && spent < (times.length < fewest ? mostOfFirst : 1) * milliseconds) {
       const start = performance.now();
       this.play(1);
-      times.push(performance.now() - start);
-      spent += times.at(-1);
+      times.push(this.#last);
+      spent += performance.now() - start;
     }
     return Math.min(...times.slice(times.length >> 1));
   }

@@ -50,18 +50,18 @@ export function start() {
 /**
  * @param row `{ scene | motion | recording, dimensions, count, numbers, seed, plan: { warmUp, timed }, contenders }`, where
  *   the contenders are `{ name, peer, module, variant }`, or have a `runner` that is asked as a process is; the first is held to be fast: it plays all frames;
- *   `budget`: milliseconds that any other may take; `playings`: how often all is played, each time from the first frame,
- *   of which the least time of each frame counts
+ *   `budget`: milliseconds that any other may take, or Infinity: then all play all frames; `playings`: how often all is
+ *   played, each time from the first frame, of which the least time of each frame counts
  */
 export async function race({ contenders, ...row }) {
   const { budget = 1000, playings = 1 } = row;
   const entrants = [];
   for (const { name, peer, module, variant, runner: own } of contenders) {
     const runner = own?.() ?? start();
-    const order = { module, variant, row, budget };
+    const playsAll = entrants.length === 0 || budget === Infinity;
+    const order = { module, variant, row, budget, stride: playsAll ? 1 : undefined };
     const { ms, error, count, slow } = await runner.ask('open', order, patienceAtFirst);
-    const stride =
-      entrants.length === 0 ? 1 : strideFor(ms, row.plan, peer === 'broadphase' ? oursMay * budget : budget);
+    const stride = order.stride ?? strideFor(ms, row.plan, peer === 'broadphase' ? oursMay * budget : budget);
     const entrant = { name, peer };
     entrants.push(entrant);
     if (error) entrant.error = firstLine(error);

@@ -22,6 +22,7 @@ export const rows = ({ counts = [10_000, 100_000] }) =>
         seed: 1,
         plan: framesFor(count),
         playings: 3,
+        budget: Infinity,
         contenders: techniques('strip-sweep', 'auto'),
       })),
   );

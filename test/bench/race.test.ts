@@ -1,6 +1,6 @@
 // That all contenders of a race are timed in the same frames, and that the motions they are timed in are what they say.
 import { BroadPhase } from 'broadphase';
-import { describe, expect, test } from 'vitest';
+import { describe, expect, test, vi } from 'vitest';
 import { framesFor, partOf, strideFor } from '../../bench/harness/frames.mjs';
 import { difference } from '../../bench/harness/judge.mjs';
 import { type Contender, Player } from '../../bench/harness/player.mjs';
@@ -61,6 +61,19 @@ describe('the frames of a race', () => {
     expect(strideFor(1, plan, 87)).toBe(2);
     expect(strideFor(1, plan, 30)).toBe(8);
     expect(strideFor(100, plan, 87)).toBeUndefined();
+    expect(strideFor(100, plan, Infinity)).toBe(1);
+  });
+
+  test('how slow a contender is does not depend on how long the boxes take to move', () => {
+    let now = 0;
+    const clock = vi.spyOn(performance, 'now').mockImplementation(() => now);
+    const step = () => {
+      now += 100;
+    };
+    const scene = { boxes: new Float32Array(4), step };
+    const idle = { update: () => 0, pairs: () => [] };
+    expect(new Player(scene, idle, plan).probe(10, 1000)).toBeLessThan(100);
+    clock.mockRestore();
   });
 });
 
