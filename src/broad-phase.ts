@@ -134,9 +134,9 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     // Short enough for engines to inline, three times into one function. Otherwise each call would allocate its doubles on
     // the heap, which is garbage. V8 inlines up to 460 bytes of bytecode, and into one function 920, of which the last to
     // be inlined counts 1.2 times; this has 278, with `settle` left out. `arguments` may be passed on by `apply` alone, or
-    // each call would allocate it.
+    // each call would allocate it; and Firefox does so unless its length is read by these very words.
     const ring = this.#ring;
-    const { length } = arguments;
+    const length = arguments.length;
     if (
       length !== ring.step ||
       typeof id !== 'number' ||

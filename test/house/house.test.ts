@@ -178,6 +178,17 @@ describe('the house', () => {
     expect(pages.filter((file) => parts.some((part) => !texts.get(file)!.includes(`\n${part}\n`)))).toEqual([]);
   });
 
+  test('uses `arguments` only in ways for which no engine allocates an object: Firefox took 2.6 times as long for `set`', () => {
+    const places = code
+      .filter((file) => /^src\/(?!cli\/)/.test(file))
+      .flatMap((file) =>
+        (texts.get(file) ?? '').split('\n').map((line) => ({ file, line: line.replace(/`.*?`|(\/\/|\*).*/g, '') })),
+      )
+      .filter(({ line }) => /\barguments\b/.test(line));
+    expect(places.length).toBeGreaterThan(10);
+    expect(places.filter(({ line }) => !/\barguments\.length\b|\.apply\(this, arguments\b/.test(line))).toEqual([]);
+  });
+
   test('decides by counts of work: the kernel has no constant in units of time, and no clock', () => {
     const timed = /constexpr.*\/\/.*\b(?:ns|us|ms|nanoseconds|microseconds|milliseconds)\b|<(?:chrono|ctime)>/;
     const found = code
