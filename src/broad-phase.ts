@@ -20,7 +20,6 @@ import type {
 import { areNumbers, badCentred, badSet, badSwept, badValue, checkId, isId, isSize } from './errors.ts';
 import type { Technique as LeanTechnique } from './generated/kernel-lean.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-import type { Ring } from './kernel/ring.ts';
 import { type BroadPhaseOptions, type ConstructorOptions, open } from './options.ts';
 import { began, eachPair, ended, eventsIn, pairCount, pairsIn, update } from './pairs.ts';
 import { type Kept, pairsWith } from './pairs-between.ts';
@@ -53,6 +52,15 @@ import { newStats, type Stats } from './stats.ts';
 import { builtNames, checkTechnique, type TechniqueName, techniques } from './techniques.ts';
 import { structure, validate } from './validate.ts';
 import { show, type Watcher, type World, watch } from './watch.ts';
+
+/** The key of a space's instance. A private name would be slow where tools for older engines make it a weak map. */
+const inner = Symbol('instance');
+
+/** The instance, for a call: it is refused if it has too many arguments, undefined ones too, as `set` is. */
+function given({ [inner]: instance }: { [inner]: KernelInstance }, where: string, got: number, most: number) {
+  if (got <= most) return instance;
+  throw new TypeError(`${where}: got ${got} arguments, expected at most ${most} in ${instance.dimensions}D`);
+}
 
 type Inspect = (value: unknown, options: unknown) => string;
 
@@ -91,9 +99,8 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
 
   /** How many axes the boxes have: an option of the constructor. */
   readonly dimensions: D;
-  readonly #instance: KernelInstance;
-  /** The ring of the instance: boxes that wait to be taken by the kernel. */
-  readonly #ring: Ring;
+  /** @internal */
+  declare readonly [inner]: KernelInstance;
   /** The counters, once somebody has asked for them. */
   #stats: Stats | undefined;
   /** Spare hit objects, from answers that were shorter than the one before, to reuse in a longer one. */
@@ -114,10 +121,10 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
    */
   constructor(...options: ConstructorOptions<D>);
   constructor(options?: BroadPhaseOptions<D>) {
-    this.#instance = open(options);
-    this.#ring = this.#instance.ring;
-    this.dimensions = this.#instance.dimensions as D;
-    this.#with('new BroadPhase', arguments.length, 1);
+    const instance = open(options);
+    Object.defineProperty(this, inner, { value: instance });
+    this.dimensions = instance.dimensions as D;
+    given(this, 'new BroadPhase', arguments.length, 1);
   }
 
   /** Frameworks that wrap objects in proxies, such as Vue, leave objects alone whose name here is not `Object`. */
@@ -126,16 +133,15 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
 
   get size(): number {
-    return this.#instance.size;
+    return this[inner].size;
   }
 
   set(...box: BoxOfId<D>): this;
   set(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
-    // Short enough for engines to inline, three times into one function. Otherwise each call would allocate its doubles on
-    // the heap, which is garbage. V8 inlines up to 460 bytes of bytecode, and into one function 920, of which the last to
-    // be inlined counts 1.2 times; this has 278, with `settle` left out. `arguments` may be passed on by `apply` alone, or
-    // each call would allocate it; and Firefox does so unless its length is read by these very words.
-    const ring = this.#ring;
+    // Short enough for V8 to inline three times into one function; otherwise each call would allocate its doubles on the
+    // heap: docs/decisions/0003-ring.md. `arguments` may be passed on by `apply` alone, or each call would allocate it; and
+    // Firefox does so unless its length is read by these very words.
+    const { ring } = this[inner];
     const length = arguments.length;
     if (
       length !== ring.step ||
@@ -188,48 +194,50 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     ) {
       badSwept.apply(this, arguments as unknown as unknown[]);
     }
-    const { way } = this.#ring;
+    const { ring } = this[inner];
+    const { way } = ring;
     way[0] = flat ? e : g!;
     way[1] = flat ? f : h!;
     way[2] = flat ? 0 : i!;
-    this.#ring.put(id, a, b, c, d, e, f, true);
+    ring.put(id, a, b, c, d, e, f, true);
     return this;
   }
 
   setCentred(...box: CentredBoxOfId<D>): this;
   setCentred(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
-    const flat = this.#ring.step === 5;
+    const { ring } = this[inner];
+    const flat = ring.step === 5;
     if (
-      arguments.length !== this.#ring.step ||
+      arguments.length !== ring.step ||
       !isId(id) ||
       !(Number.isFinite(a) && Number.isFinite(b) && (flat || Number.isFinite(c))) ||
       !(flat ? isSize(c) && isSize(d) : isSize(d) && isSize(e) && isSize(f))
     ) {
       badCentred.apply(this, arguments as unknown as unknown[]);
     }
-    if (flat) this.#ring.put(id, a - c, b - d, a + c, b + d);
-    else this.#ring.put(id, a - d, b - e!, c - f!, a + d, b + e!, c + f!);
+    if (flat) ring.put(id, a - c, b - d, a + c, b + d);
+    else ring.put(id, a - d, b - e!, c - f!, a + d, b + e!, c + f!);
     return this;
   }
 
   setAll(boxes: Boxes, count?: number): this {
-    setAll(this.#with('setAll', arguments.length, 2), boxes, count);
+    setAll(given(this, 'setAll', arguments.length, 2), boxes, count);
     return this;
   }
   boxes(count: number): Float32Array {
-    return expose(this.#with('boxes', arguments.length, 1), count);
+    return expose(given(this, 'boxes', arguments.length, 1), count);
   }
 
   delete(id: number): boolean {
     checkId('delete', id);
-    return this.#instance.remove(id);
+    return this[inner].remove(id);
   }
   clear(): void {
-    this.#instance.clear();
+    this[inner].clear();
   }
   has(id: number): boolean {
     checkId('has', id);
-    return hasBox(this.#instance, id);
+    return hasBox(this[inner], id);
   }
 
   /**
@@ -256,10 +264,10 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   get<Out extends Float32Array | Float64Array | number[]>(id: number, out: Out): Out | undefined;
   get(id: number, out: Float32Array | Float64Array | number[] = new Float64Array(2 * this.dimensions)) {
     checkId('get', id);
-    return readBox(this.#instance, id, out) ? out : undefined;
+    return readBox(this[inner], id, out) ? out : undefined;
   }
   keys(): IterableIterator<number> {
-    return present(this.#instance);
+    return present(this[inner]);
   }
 
   /**
@@ -277,107 +285,101 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
 
   setFilter(id: number, layer: number, mask: number): this {
-    rules.setFilter(this.#with('setFilter', arguments.length, 3), id, layer, mask);
+    rules.setFilter(given(this, 'setFilter', arguments.length, 3), id, layer, mask);
     return this;
   }
   filterOf(id: number): rules.Filter | undefined {
-    return rules.filterOf(this.#instance, id);
+    return rules.filterOf(this[inner], id);
   }
   setStatic(id: number, ...given: [] | [isStatic: boolean]): this;
   setStatic(id: number, isStatic?: boolean): this {
-    rules.setStatic(this.#with('setStatic', arguments.length, 2), id, arguments.length < 2 || isStatic!);
+    rules.setStatic(given(this, 'setStatic', arguments.length, 2), id, arguments.length < 2 || isStatic!);
     return this;
   }
   isStatic(id: number): boolean {
-    return rules.isStatic(this.#instance, id);
+    return rules.isStatic(this[inner], id);
   }
   setEnabled(id: number, enabled: boolean): this {
-    rules.setEnabled(this.#with('setEnabled', arguments.length, 2), id, enabled);
+    rules.setEnabled(given(this, 'setEnabled', arguments.length, 2), id, enabled);
     return this;
   }
   isEnabled(id: number): boolean {
-    return rules.isEnabled(this.#instance, id);
+    return rules.isEnabled(this[inner], id);
   }
   setGroup(id: number, group: number): this {
-    rules.setGroup(this.#with('setGroup', arguments.length, 2), id, group);
+    rules.setGroup(given(this, 'setGroup', arguments.length, 2), id, group);
     return this;
   }
   groupOf(id: number): number | undefined {
-    return rules.groupOf(this.#instance, id);
+    return rules.groupOf(this[inner], id);
   }
   setReach(id: number, distance: number): this {
-    rules.setReach(this.#with('setReach', arguments.length, 2), id, distance);
+    rules.setReach(given(this, 'setReach', arguments.length, 2), id, distance);
     return this;
   }
   reachOf(id: number): number | undefined {
-    return rules.reachOf(this.#instance, id);
+    return rules.reachOf(this[inner], id);
   }
 
   update(): this {
-    update(this.#instance, this.#stats);
-    if (this.#watcher !== undefined) show(this.#instance, this.#watcher);
+    update(this[inner], this.#stats);
+    if (this.#watcher !== undefined) show(this[inner], this.#watcher);
     return this;
   }
   get pairs(): Uint32Array {
-    return pairsIn(this.#instance);
+    return pairsIn(this[inner]);
   }
   eachPair(): IterableIterator<[a: number, b: number]> {
     return eachPair(this.pairs.slice());
   }
   get pairCount(): number {
-    return pairCount(this.#instance);
+    return pairCount(this[inner]);
   }
   get began(): Uint32Array {
-    return eventsIn(this.#instance, began);
+    return eventsIn(this[inner], began);
   }
   get ended(): Uint32Array {
-    return eventsIn(this.#instance, ended);
-  }
-  /** The instance, for a call: it is refused if it has too many arguments, undefined ones too, as `set` is. */
-  #with(where: string, got: number, most: number): KernelInstance {
-    if (got > most)
-      throw new TypeError(`${where}: got ${got} arguments, expected at most ${most} in ${this.dimensions}D`);
-    return this.#instance;
+    return eventsIn(this[inner], ended);
   }
   isColliding(a: number, b: number): boolean {
-    return places.isColliding(this.#with('isColliding', arguments.length, 2), a, b);
+    return places.isColliding(given(this, 'isColliding', arguments.length, 2), a, b);
   }
   collisionsOf(id: number, out?: number[]): number[] {
-    return places.collisionsOf(this.#with('collisionsOf', arguments.length, 2), id, out);
+    return places.collisionsOf(given(this, 'collisionsOf', arguments.length, 2), id, out);
   }
   pairsWith(other: BroadPhase<D>): Uint32Array {
-    if (!(Object(other) === other && #instance in other))
+    if (!(Object(other) === other && inner in other))
       badValue('pairsWith', other, 'another BroadPhase, of the same import', true);
-    return pairsWith(this.#instance, other.#instance, this.#kept);
+    return pairsWith(this[inner], other[inner], this.#kept);
   }
 
   queryBox(...query: BoxQuery<D, BoxOptions>): number[];
   queryBox(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: BoxOptions): number[] {
-    const instance = this.#with('queryBox', arguments.length, 1 + 2 * this.dimensions);
+    const instance = given(this, 'queryBox', arguments.length, 1 + 2 * this.dimensions);
     return places.queryBox(instance, a, b, c, d, e, f, options);
   }
   queryPoint(...query: PointQuery<D, IdsOptions>): number[];
   queryPoint(x: number, y: number, z?: unknown, options?: IdsOptions): number[] {
-    return places.queryPoint(this.#with('queryPoint', arguments.length, 1 + this.dimensions), x, y, z, options);
+    return places.queryPoint(given(this, 'queryPoint', arguments.length, 1 + this.dimensions), x, y, z, options);
   }
   queryCircle(...query: D extends 2 ? RoundQuery<2, IdsOptions> : never): number[];
   queryCircle(x: number, y: number, radius: number, options?: IdsOptions): number[] {
-    return places.queryCircle(this.#with('queryCircle', arguments.length, 2 + this.dimensions), x, y, radius, options);
+    return places.queryCircle(given(this, 'queryCircle', arguments.length, 2 + this.dimensions), x, y, radius, options);
   }
   querySphere(...query: D extends 3 ? RoundQuery<3, IdsOptions> : never): number[];
   querySphere(x: number, y: number, z: number, radius: number, options?: IdsOptions): number[] {
-    return places.querySphere(this.#with('querySphere', arguments.length, 5), x, y, z, radius, options);
+    return places.querySphere(given(this, 'querySphere', arguments.length, 5), x, y, z, radius, options);
   }
   queryPlanes(planes: Float32Array | Float64Array | readonly number[], options?: PlanesOptions): number[] {
-    return queryPlanes(this.#with('queryPlanes', arguments.length, 2), planes, options);
+    return queryPlanes(given(this, 'queryPlanes', arguments.length, 2), planes, options);
   }
   rayCast(...query: RayQuery<D, RayOptions>): RayHit | undefined;
   rayCast(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayOptions) {
-    return ahead.rayCast(this.#with('rayCast', arguments.length, 1 + 2 * this.dimensions), a, b, c, d, e, f, options);
+    return ahead.rayCast(given(this, 'rayCast', arguments.length, 1 + 2 * this.dimensions), a, b, c, d, e, f, options);
   }
   rayCastAll(...query: RayQuery<D, RayAllOptions>): RayHit[];
   rayCastAll(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayAllOptions): RayHit[] {
-    const instance = this.#with('rayCastAll', arguments.length, 1 + 2 * this.dimensions);
+    const instance = given(this, 'rayCastAll', arguments.length, 1 + 2 * this.dimensions);
     return ahead.rayCastAll(instance, this.#spareHits, a, b, c, d, e, f, options);
   }
   sweep(...query: SweepQuery<D, SweepOptions>): SweepHit | undefined;
@@ -393,54 +395,54 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     i?: unknown,
     options?: SweepOptions,
   ) {
-    const instance = this.#with('sweep', arguments.length, 1 + 3 * this.dimensions);
+    const instance = given(this, 'sweep', arguments.length, 1 + 3 * this.dimensions);
     return ahead.sweep(instance, a, b, c, d, e, f, g, h, i, options);
   }
   nearest(...query: NearestQuery<D, NearestOptions>): number[];
   nearest(x: number, y: number, z: number, k?: unknown, options?: NearestOptions): number[] {
-    return ahead.nearest(this.#with('nearest', arguments.length, 2 + this.dimensions), x, y, z, k, options);
+    return ahead.nearest(given(this, 'nearest', arguments.length, 2 + this.dimensions), x, y, z, k, options);
   }
   queryBoxes(boxes: Boxes, options?: ManyBoxOptions): ManyIds {
-    return askMany(this.#with('queryBoxes', arguments.length, 2), 'queryBoxes', boxes, options, 1);
+    return askMany(given(this, 'queryBoxes', arguments.length, 2), 'queryBoxes', boxes, options, 1);
   }
   queryPoints(points: Boxes, options?: ManyAreaOptions): ManyIds {
-    return askMany(this.#with('queryPoints', arguments.length, 2), 'queryPoints', points, options, 1);
+    return askMany(given(this, 'queryPoints', arguments.length, 2), 'queryPoints', points, options, 1);
   }
   queryCircles(circles: Boxes, options?: ManyAreaOptions): ManyIds {
-    return askMany(this.#with('queryCircles', arguments.length, 2), 'queryCircles', circles, options, 1);
+    return askMany(given(this, 'queryCircles', arguments.length, 2), 'queryCircles', circles, options, 1);
   }
   rayCasts(rays: Boxes, options?: ManyFarOptions<ManyRayHits>): ManyRayHits {
-    return askMany(this.#with('rayCasts', arguments.length, 2), 'rayCasts', rays, options, 1) as ManyRayHits;
+    return askMany(given(this, 'rayCasts', arguments.length, 2), 'rayCasts', rays, options, 1) as ManyRayHits;
   }
   sweeps(boxes: Boxes, options?: ManyOptions<ManySweepHits>): ManySweepHits {
-    return askMany(this.#with('sweeps', arguments.length, 2), 'sweeps', boxes, options, 1) as ManySweepHits;
+    return askMany(given(this, 'sweeps', arguments.length, 2), 'sweeps', boxes, options, 1) as ManySweepHits;
   }
   nearests(points: Boxes, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest {
-    return askMany(this.#with('nearests', arguments.length, 3), 'nearests', points, options, k) as ManyNearest;
+    return askMany(given(this, 'nearests', arguments.length, 3), 'nearests', points, options, k) as ManyNearest;
   }
   nearestsOfAll(k: number, options?: Omit<ManyFarOptions<ManyNearestOfAll>, 'ignoreEach'>): ManyNearestOfAll {
-    const instance = this.#with('nearestsOfAll', arguments.length, 2);
+    const instance = given(this, 'nearestsOfAll', arguments.length, 2);
     return askMany(instance, 'nearestsOfAll', nothing, options, k) as ManyNearestOfAll;
   }
 
   get stats(): Readonly<Stats> {
-    this.#stats ??= newStats(this.#instance);
+    this.#stats ??= newStats(this[inner]);
     return this.#stats;
   }
   get technique(): TechniqueName {
-    return techniques[this.#instance.technique]!;
+    return techniques[this[inner].technique]!;
   }
   set technique(name: LeanTechnique) {
-    this.#instance.setTechnique(checkTechnique(name, this.#instance.exports.techniques())); // `init` changes later spaces
+    this[inner].setTechnique(checkTechnique(name, this[inner].exports.techniques())); // `init` changes later spaces
   }
   structure(): Float32Array {
-    return structure(this.#instance);
+    return structure(this[inner]);
   }
   snapshot(): Uint8Array<ArrayBuffer> {
-    return snapshot(this.#instance);
+    return snapshot(this[inner]);
   }
   restore(bytes: Uint8Array | ArrayBuffer): this {
-    restore(this.#instance, bytes, this.#stats);
+    restore(this[inner], bytes, this.#stats);
     return this;
   }
 
@@ -466,7 +468,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
         /** The only property after `dispose`. */
         disposed: true;
       } {
-    if (this.#instance.isDisposed) return { disposed: true };
+    if (this[inner].isDisposed) return { disposed: true };
     return { dimensions: this.dimensions, technique: this.technique, size: this.size, pairs: this.pairCount };
   }
 
@@ -478,11 +480,11 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     return `BroadPhase ${inspect(this.toJSON(), options)}`;
   }
   validate(): this {
-    validate(this.#instance);
+    validate(this[inner]);
     return this;
   }
   dispose(): void {
-    this.#instance.dispose();
+    this[inner].dispose();
   }
 
   /**
@@ -493,6 +495,6 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   [watch](watcher?: Watcher | null): World {
     if (watcher && this.#watcher) throw new Error('this BroadPhase is being recorded already');
     if (watcher !== null) this.#watcher = watcher;
-    return { wrap: this.#instance.wrap, touching: this.#instance.touching };
+    return { wrap: this[inner].wrap, touching: this[inner].touching };
   }
 }

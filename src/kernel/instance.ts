@@ -27,8 +27,8 @@ export class KernelInstance {
   readonly ring: Ring;
   /** The kernel's memory, as of the last call of `wordView`. */
   words = new Uint32Array();
-  #doubles = new Float64Array();
-  #io = new Float64Array();
+  private doubles = new Float64Array();
+  private ioView = new Float64Array();
   /** The array that `boxes()` returned last, while it is in use. */
   exposed: Float32Array | undefined;
   /** Whether it may have been written since the last update: then detaching it by growing memory must be noticed. */
@@ -37,10 +37,10 @@ export class KernelInstance {
   technique = 0;
   readonly events: boolean;
   // Cached views: of pairs by their count, of the two arrays in which boxes are staged in turns, of the counters.
-  #pairViews: Uint32Array[][] = [];
-  #stagedViews: (Float32Array | Float64Array)[] = [];
-  #stats = new Float64Array();
-  readonly #stackTop: number;
+  private pairs: Uint32Array[][] = [];
+  private staged: (Float32Array | Float64Array)[] = [];
+  private counters = new Float64Array();
+  private readonly stackTop: number;
 
   constructor(dimensions: Dimensions, wrap: readonly number[] | undefined, touching: boolean, events: boolean) {
     this.dimensions = dimensions;
@@ -51,7 +51,7 @@ export class KernelInstance {
     this.width = 2 * dimensions;
     this.exports = instantiate(dimensions);
     this.ring = new Ring(this);
-    this.#stackTop = this.exports.__stack_pointer.value;
+    this.stackTop = this.exports.__stack_pointer.value;
     this.exports.open_space(dimensions);
   }
 
@@ -75,11 +75,11 @@ export class KernelInstance {
     this.exports = disposed;
     this.ring.dispose();
     this.words = new Uint32Array();
-    this.#doubles = this.#io = this.#stats = new Float64Array();
+    this.doubles = this.ioView = this.counters = new Float64Array();
     this.exposed = undefined;
-    this.#pairViews = [];
+    this.pairs = [];
     this.neighbours = [];
-    this.#stagedViews = [];
+    this.staged = [];
   }
 
   setTechnique(technique: number): void {
@@ -111,10 +111,10 @@ export class KernelInstance {
 
   /** The kernel's array for numbers in and out. */
   io(): Float64Array {
-    if (this.#io.length === 0) {
-      this.#io = new Float64Array(this.kernel.memory.buffer, this.kernel.io_address(), ioLength);
+    if (this.ioView.length === 0) {
+      this.ioView = new Float64Array(this.kernel.memory.buffer, this.kernel.io_address(), ioLength);
     }
-    return this.#io;
+    return this.ioView;
   }
 
   /** The kernel's memory. */
@@ -123,21 +123,21 @@ export class KernelInstance {
     return this.words;
   }
   doubleView(): Float64Array {
-    if (this.#doubles.length === 0) this.#doubles = new Float64Array(this.kernel.memory.buffer);
-    return this.#doubles;
+    if (this.doubles.length === 0) this.doubles = new Float64Array(this.kernel.memory.buffer);
+    return this.doubles;
   }
 
   /** The counters of the last update. */
   statsView(): Float64Array {
-    if (this.#stats.length === 0) {
-      this.#stats = new Float64Array(this.kernel.memory.buffer, this.kernel.stats_address(), statsLength);
+    if (this.counters.length === 0) {
+      this.counters = new Float64Array(this.kernel.memory.buffer, this.kernel.stats_address(), statsLength);
     }
-    return this.#stats;
+    return this.counters;
   }
 
   /** A view of staged boxes. Three arrays take turns in the kernel, so the last three views are kept. */
   stagedView(at: number, length: number, single: boolean): Float32Array | Float64Array {
-    const views = this.#stagedViews;
+    const views = this.staged;
     const kind = single ? Float32Array : Float64Array;
     for (let k = 0; k < views.length; k++) {
       const view = views[k]!;
@@ -150,8 +150,8 @@ export class KernelInstance {
 
   /** A view of pairs in the kernel's memory, from the cache for this list if possible. */
   pairView(list: number, address: number, count: number): Uint32Array {
-    this.#pairViews[list] ??= [];
-    const views = this.#pairViews[list]!;
+    this.pairs[list] ??= [];
+    const views = this.pairs[list]!;
     // A WebAssembly address is signed in JavaScript, and 0 if there was never a pair: then any other will do.
     const at = address >>> 0 || 4;
     let view = views[count % viewsKept];
@@ -165,7 +165,7 @@ export class KernelInstance {
 
   /** After an exception from the kernel: makes the space usable again, and throws an error that says what was wrong. */
   recover(error: unknown, where: string): never {
-    if (!this.isDisposed) this.exports.__stack_pointer.value = this.#stackTop; // the end of the stack is no RuntimeError
+    if (!this.isDisposed) this.exports.__stack_pointer.value = this.stackTop; // the end of the stack is no RuntimeError
     if ((error as Error | undefined)?.name !== 'RuntimeError') throw error;
     if (this.kernel.recover() === 0) throw error;
     throw new RangeError(

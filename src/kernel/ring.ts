@@ -21,13 +21,13 @@ const isSingle = (x: number) => Math.fround(x) === x;
 const sizeOf = (x: number) => (Number.isFinite(x) ? Math.abs(x) * roundings : 0);
 
 export class Ring {
-  readonly #instance: KernelInstance;
+  private readonly instance: KernelInstance;
   /** Numbers per entry: the id, then the box. */
   readonly step: number;
   /** Where the next box goes while the ring is closed. */
-  readonly #aside: Float64Array;
+  private readonly aside: Float64Array;
   /** The ring in the kernel's memory. */
-  #entries = new Float64Array();
+  private entries = new Float64Array();
   /** Where boxes are written: for each its id, then its numbers. */
   numbers: Float64Array;
   /** How far the next box moves, if it does. */
@@ -40,24 +40,24 @@ export class Ring {
   last: number;
   /** All ids below this are in the space, once waiting boxes are taken; 0 if that is not known. */
   dense = 0;
-  #room = 0;
+  private room = 0;
   /** The index of the kernel's table of id pages in its memory: see kernel/boxes/ids.hpp. */
-  #pages = nowhere;
+  private pages = nowhere;
   /** If ids have gaps: all pages of ids below this exist, so these ids may wait. */
-  #paged = 0;
+  private paged = 0;
 
   constructor(instance: KernelInstance) {
-    this.#instance = instance;
+    this.instance = instance;
     this.step = instance.width + 1;
     this.last = ringHead + (ringCapacity - 1) * this.step;
-    this.numbers = this.#aside = new Float64Array(7);
+    this.numbers = this.aside = new Float64Array(7);
   }
 
   /** Whether there is a box of this id; also false if only the kernel knows. */
   knows(id: number): boolean {
     if (id < this.dense) return true;
-    const page = this.#page(id);
-    return page > 0 && this.#instance.words[(page >>> 2) + (id & (pageLength - 1))]! > 0;
+    const page = this.page(id);
+    return page > 0 && this.instance.words[(page >>> 2) + (id & (pageLength - 1))]! > 0;
   }
 
   /**
@@ -75,7 +75,7 @@ export class Ring {
       numbers[next + 5] = e!;
       numbers[next + 6] = f!;
     }
-    if (moves) this.#stretch();
+    if (moves) this.stretch();
     if (id >= this.limit || next >= this.last) this.settle(id);
     else this.next = next + this.step;
   }
@@ -84,7 +84,7 @@ export class Ring {
    * Enlarges the box that was written last by its way, so that it holds all that `sweep` may hit. Of float32 numbers an
    * exact sum is the answer. Others are rounded outward, as `sweep` hits what its own roundings do not tell apart.
    */
-  #stretch(): void {
+  private stretch(): void {
     const { numbers, next, way } = this;
     const axes = this.step >> 1;
     for (let a = 0; a < axes; a++) {
@@ -109,13 +109,13 @@ export class Ring {
    */
   settle(id: number): void {
     const { step } = this;
-    const instance = this.#instance;
-    const aside = this.#aside;
+    const instance = this.instance;
+    const aside = this.aside;
     let end = this.next;
     if (id !== none) {
       if (id > maxId) badId('set', id);
-      const isNext = id === this.dense && this.#room > 0;
-      const mayWait = isNext || id < this.dense || this.#page(id) > 0;
+      const isNext = id === this.dense && this.room > 0;
+      const mayWait = isNext || id < this.dense || this.page(id) > 0;
       if (!mayWait && end > ringHead) {
         // Adding it may fail, or an open view of the boxes has to show it: it is flushed after all others.
         const { numbers } = this;
@@ -130,7 +130,7 @@ export class Ring {
         this.numbers = aside;
       }
       if (this.numbers === aside) {
-        const ring = this.#view();
+        const ring = this.view();
         ring[ringHead] = aside[0]!;
         ring[ringHead + 1] = aside[1]!;
         ring[ringHead + 2] = aside[2]!;
@@ -146,9 +146,9 @@ export class Ring {
         this.next = end;
         if (isNext) {
           this.dense++;
-          this.#room--;
+          this.room--;
         }
-        this.limit = Math.max(this.dense, this.#paged);
+        this.limit = Math.max(this.dense, this.paged);
         return;
       }
       if (!mayWait && !instance.exposedIsOpen) instance.exposed = undefined;
@@ -156,94 +156,94 @@ export class Ring {
     try {
       instance.exports.take((end - ringHead) / step);
     } catch (error) {
-      this.#fail(error);
+      this.fail(error);
       instance.recover(error, 'set');
     }
-    this.#reopen();
+    this.reopen();
   }
 
   /** Flushes the ring and closes it, as the kernel is about to be called. */
   close(): void {
     if (this.next > ringHead) this.settle(none);
-    this.#shut();
+    this.shut();
   }
 
   /** Drops the boxes that wait, with the memory they are in. */
   dispose(): void {
-    this.#shut();
+    this.shut();
     this.forget();
-    this.#entries = new Float64Array();
+    this.entries = new Float64Array();
   }
 
   /** Forgets which boxes may wait: called after anything that adds or removes boxes. */
   forget(): void {
-    this.limit = this.dense = this.#room = this.#paged = 0;
-    this.#pages = nowhere;
+    this.limit = this.dense = this.room = this.paged = 0;
+    this.pages = nowhere;
   }
 
   /** Lets an update of the kernel take the boxes that wait. Returns what it returns. */
   update(): number {
     const waiting = this.next - ringHead;
-    if (waiting <= 0) this.#shut();
+    if (waiting <= 0) this.shut();
     try {
-      const bad = this.#instance.exports.update(waiting > 0 ? waiting / this.step : 0);
-      if (waiting > 0) this.#reopen();
+      const bad = this.instance.exports.update(waiting > 0 ? waiting / this.step : 0);
+      if (waiting > 0) this.reopen();
       return bad;
     } catch (error) {
-      this.#fail(error);
+      this.fail(error);
       throw error;
     }
   }
 
   /** After an exception. At the end of the stack, the boxes that were set go on waiting: taking them twice is harmless. */
-  #fail(error: unknown): void {
+  private fail(error: unknown): void {
     if ((error as Error | undefined)?.name !== 'RuntimeError') {
-      if (this.next > 0) this.numbers = this.#view(); // memory may have grown before
+      if (this.next > 0) this.numbers = this.view(); // memory may have grown before
       return;
     }
-    this.#shut();
+    this.shut();
     this.forget();
   }
 
   /** Hears from the kernel, which has emptied the ring, which boxes may wait in it. */
-  #reopen(): void {
+  private reopen(): void {
     this.forget();
-    const told = this.#view();
+    const told = this.view();
     // As integers: doubles would be garbage.
     this.dense = told[0]! | 0;
-    this.#room = told[1]! | 0;
+    this.room = told[1]! | 0;
     if (told[2]! > 0) {
-      this.#pages = (told[2]! / 4) | 0;
-      this.#instance.wordView();
-      while (this.#paged <= maxId && this.#page(this.#paged) > 0) this.#paged += pageLength;
+      this.pages = (told[2]! / 4) | 0;
+      this.instance.wordView();
+      while (this.paged <= maxId && this.page(this.paged) > 0) this.paged += pageLength;
     }
     this.last = ringHead + ((told[3]! | 0) - 1) * this.step;
     this.numbers = told;
     this.next = ringHead;
-    this.limit = Math.max(this.dense, this.#paged);
+    this.limit = Math.max(this.dense, this.paged);
   }
 
   /** The page of an id. If growing memory has detached the view, nothing is found. */
-  #page(id: number): number {
-    return this.#instance.words[this.#pages + 2 * (id >>> 12)]!;
+  private page(id: number): number {
+    return this.instance.words[this.pages + 2 * (id >>> 12)]!;
   }
 
   /** Closes the ring. */
-  #shut(): void {
-    this.numbers = this.#aside;
+  private shut(): void {
+    this.numbers = this.aside;
     this.next = this.limit = 0;
   }
 
   /** The ring in the kernel's memory. */
-  #view(): Float64Array {
-    if (this.#entries.length === 0) {
-      const { exports } = this.#instance;
-      this.#entries = new Float64Array(
+  private view(): Float64Array {
+    if (this.entries.length === 0) {
+      const { exports } = this.instance;
+      this.entries = new Float64Array(
         exports.memory.buffer,
         exports.ring_address(),
         ringHead + ringCapacity * this.step,
       );
     }
-    return this.#entries;
+    return this.entries;
   }
 }
