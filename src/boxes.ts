@@ -117,6 +117,13 @@ export function countBoxes(where: string, boxes: Boxes, dimensions: Dimensions):
   return (boxes.length / width) | 0; // as an integer: a double returned from a call would be garbage
 }
 
+/** Checks all boxes of an array: throws for the first bad one. */
+export function checkBoxes(where: string, boxes: Boxes, dimensions: Dimensions): void {
+  const count = countBoxes(where, boxes, dimensions);
+  checkNumbers(where, boxes, count, dimensions);
+  checkValues(where, boxes, count, dimensions);
+}
+
 /** Checks that the elements of the first `count` boxes are numbers; the kernel checks their values. */
 function checkNumbers(where: string, boxes: ArrayLike<unknown>, count: number, dimensions: Dimensions): void {
   const width = 2 * dimensions;

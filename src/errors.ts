@@ -180,7 +180,7 @@ export function checkBits(where: string, bits: unknown): void {
 
 /** An array to write answers to: the given one, or a new one. */
 export function checkOut<Out extends unknown[]>(where: string, out = [] as unknown[] as Out): Out {
-  if (!Array.isArray(out)) badValue(`${where}: out`, out, 'an array', true);
+  if (!Array.isArray(out)) badValue(`${where}: out`, out, 'an ordinary array', true);
   return out;
 }
 

@@ -2,7 +2,7 @@
 // A call with no options but `dimensions` reuses a spare space, since creating one costs many times as much as a search
 // among a few boxes. A spare space is reset to its initial state, so that the order of pairs does not depend on earlier
 // calls.
-import { type Boxes, countBoxes, setAll } from './boxes.ts';
+import { type Boxes, checkBoxes, countBoxes, setAll } from './boxes.ts';
 import type { Dimensions } from './dimensions.ts';
 import { checkNumberArray } from './errors.ts';
 import type { KernelInstance } from './kernel/instance.ts';
@@ -70,7 +70,7 @@ export function findPairs(boxes: Boxes, options?: BroadPhaseOptions<Dimensions>)
  * @param blue the same; the two together at most 2^24 boxes
  * @param options those of {@link BroadPhase}: `dimensions: 3` for boxes of six numbers
  * @returns a new array, independent of later calls
- * @throws RangeError or TypeError that names the first bad box (blue boxes are numbered after the red ones) or option
+ * @throws RangeError or TypeError that names the first bad box by its array and index there, or the option
  *
  * @example
  * const players = [0, 0, 10, 10];
@@ -83,7 +83,14 @@ export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOp
   checkNumberArray('findPairsBetween: blue', blue);
   const reds = countBoxes('findPairsBetween: red', red, space.dimensions);
   countBoxes('findPairsBetween: blue', blue, space.dimensions);
-  setAll(space, join(red, blue), undefined, 'findPairsBetween');
+  try {
+    setAll(space, join(red, blue), undefined, 'findPairsBetween');
+  } catch (error) {
+    // A bad box is named by its index in the caller's array, not in the joined one.
+    checkBoxes('findPairsBetween: red', red, space.dimensions);
+    checkBoxes('findPairsBetween: blue', blue, space.dimensions);
+    throw error;
+  }
   split(space, reds);
   const pairs = search(space, 'findPairsBetween');
   giveBack(space, options);

@@ -184,7 +184,7 @@ export function nearest(
   const out: number[] = checkOut('nearest', options?.out);
   const distances = options?.distances;
   if (distances !== undefined && (!Array.isArray(distances) || distances === out)) {
-    badValue('nearest: distances', distances, 'an array other than out', true);
+    badValue('nearest: distances', distances, 'an ordinary array other than out', true);
   }
   const count = order(instance, 'nearest', orderNear, options, wanted);
   const words = instance.wordView();

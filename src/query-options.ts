@@ -209,7 +209,7 @@ export function ignoredOf(where: string, options: QueryOptions | undefined): num
   if (!Array.isArray(ignore)) {
     if (isId(ignore)) return ignore;
     where += ': ignore';
-    if (typeof ignore === 'object' && ignore) badValue(where, ignore, 'an id, or an array of ids', true);
+    if (typeof ignore === 'object' && ignore) badValue(where, ignore, 'an id, or an ordinary array of ids', true);
     badId(where, ignore);
   }
   for (let k = 0; k < ignore.length; k++) if (!isId(ignore[k])) badId(`${where}: ignore[${k}]`, ignore[k]);

@@ -93,6 +93,7 @@ describe('findPairsBetween', () => {
   test('refuses bad boxes on either side', () => {
     expect(() => findPairsBetween([0, 0, 1, Number.NaN], [])).toThrow(/0.*NaN/s);
     expect(() => findPairsBetween([], [0, 0, 1, 1, 5, 0, 1, 1])).toThrow(/1.*5/s);
+    expect(() => findPairsBetween([0, 0, 1, 1], [5, 0, 1, 1])).toThrow('findPairsBetween: blue: box 0 has minX 5');
     expect(() => findPairsBetween([0, 0, 1], [])).toThrow('3');
   });
 });

@@ -27,7 +27,7 @@ test('the ids of the last answer can be those to ignore, in the same array', () 
   const ids = [1, 2];
   expect(space.queryBox(0, 0, 1, 1, { ignore: ids, out: ids })).toEqual([0, 3, 4, 5, 6, 7]);
   expect(() => space.nearest(0, 0, 2, { out: ids, distances: ids })).toThrow(
-    'nearest: distances: got [0, 3, 4, 5, 6, 7], expected an array other than out',
+    'nearest: distances: got [0, 3, 4, 5, 6, 7], expected an ordinary array other than out',
   );
 });
 

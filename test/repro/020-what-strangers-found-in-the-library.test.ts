@@ -106,11 +106,11 @@ describe('an error says what is wrong', () => {
   structuredClone(detached, { transfer: [detached.buffer] });
   test.each<[string, () => unknown]>([
     [
-      'queryBox: ignore: got [object Uint32Array], expected an id, or an array of ids',
+      'queryBox: ignore: got [object Uint32Array], expected an id, or an ordinary array of ids',
       () => any.queryBox!(0, 0, 1, 1, { ignore: new Uint32Array(1) }),
     ],
     [
-      'nearest: ignore: got [object Set], expected an id, or an array of ids',
+      'nearest: ignore: got [object Set], expected an id, or an ordinary array of ids',
       () => any.nearest!(0, 0, 1, { ignore: new Set([0]) }),
     ],
     ['queryPoints: ignoreEach: got a detached array', () => space.queryPoints([0, 0], { ignoreEach: detached })],

@@ -53,9 +53,11 @@ describe('options', () => {
 
   test('have no out that is null', () => {
     const options = { out: null } as never;
-    expect(() => space.queryBox(0, 0, 1, 1, options)).toThrow('queryBox: out: got null, expected an array');
-    expect(() => space.rayCastAll(0, 0, 1, 1, options)).toThrow('rayCastAll: out: got null, expected an array');
-    expect(() => space.nearest(0, 0, 1, options)).toThrow('nearest: out: got null, expected an array');
+    expect(() => space.queryBox(0, 0, 1, 1, options)).toThrow('queryBox: out: got null, expected an ordinary array');
+    expect(() => space.rayCastAll(0, 0, 1, 1, options)).toThrow(
+      'rayCastAll: out: got null, expected an ordinary array',
+    );
+    expect(() => space.nearest(0, 0, 1, options)).toThrow('nearest: out: got null, expected an ordinary array');
   });
 });
 

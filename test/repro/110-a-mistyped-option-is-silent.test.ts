@@ -54,7 +54,16 @@ describe('errors of findPairs name findPairs', () => {
     [() => findPairs([0, 0, 1, 1n as never]), 'findPairs: maxY of box 0 is 1n'],
     [() => findPairs(Float32Array.of(5, 0, 1, 1)), 'findPairs: box 0 has minX 5 above maxX 1'],
     [() => findPairs(5 as never), 'findPairs: got 5'],
-    [() => findPairsBetween([0, 0, 1, 1], [3, 0, 1, 1]), 'findPairsBetween: box 1 has minX 3'],
+    [() => findPairsBetween([0, 0, 1, 1], [3, 0, 1, 1]), 'findPairsBetween: blue: box 0 has minX 3'],
+    [() => findPairsBetween([0, 0, 1, Number.NaN], [3, 0, 1, 1]), 'findPairsBetween: red: maxY of box 0 is NaN'],
+    [
+      () => findPairsBetween([0, 0, 1, 1], [0, 0, 1, 1, 0, '0' as never, 1, 1]),
+      'findPairsBetween: blue: minY of box 1 is "0"',
+    ],
+    [
+      () => findPairsBetween(Float32Array.of(0, 0, 1, 1), Float64Array.of(0, 0, 1, 1, 0, Number.NaN, 1, 1)),
+      'findPairsBetween: blue: minY of box 1 is NaN',
+    ],
   ])('%s', (call, message) => expect(call).toThrow(message));
 });
 
