@@ -19,9 +19,10 @@ interface Applied {
 const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
 
 /**
- * Replaces the boxes and rules of a space by those of a frame, in their recorded order, so that pairs come in the same
- * order too. The caller calls `update()`. Nothing else may change the space between two frames: only differences are
- * set, as in a game.
+ * Replaces the boxes and rules of a space by those of a frame, in their recorded order. The caller calls `update()`.
+ * Nothing else may change the space between two frames: of the rules, only differences are set. Boxes are given by
+ * `setAll` if their ids are 0, 1, 2, …, otherwise by `set`. If the recorded space was given them in the same way from its
+ * first update on, pairs come in the same order too; otherwise `auto` and `incremental` may give another order.
  *
  * @throws RangeError if the space has other dimensions, and if lengths do not fit; TypeError if it is no space. All is as
  * before.
