@@ -117,15 +117,8 @@ export function countBoxes(where: string, boxes: Boxes, dimensions: Dimensions):
   return (boxes.length / width) | 0; // as an integer: a double returned from a call would be garbage
 }
 
-/** Checks all boxes of an array: throws for the first bad one. */
-export function checkBoxes(where: string, boxes: Boxes, dimensions: Dimensions): void {
-  const count = countBoxes(where, boxes, dimensions);
-  checkNumbers(where, boxes, count, dimensions);
-  checkValues(where, boxes, count, dimensions);
-}
-
 /** Checks that the elements of the first `count` boxes are numbers; the kernel checks their values. */
-function checkNumbers(where: string, boxes: ArrayLike<unknown>, count: number, dimensions: Dimensions): void {
+export function checkNumbers(where: string, boxes: ArrayLike<unknown>, count: number, dimensions: Dimensions): void {
   const width = 2 * dimensions;
   for (let k = 0; k < count * width; k++) {
     if (typeof boxes[k] !== 'number') badBoxOf(where, boxes, Math.floor(k / width), dimensions);
@@ -133,7 +126,7 @@ function checkNumbers(where: string, boxes: ArrayLike<unknown>, count: number, d
 }
 
 /** Checks their values. */
-function checkValues(where: string, boxes: Boxes, count: number, dimensions: Dimensions): void {
+export function checkValues(where: string, boxes: Boxes, count: number, dimensions: Dimensions): void {
   for (let k = 0; k < 2 * dimensions * count; k += k % dimensions === dimensions - 1 ? dimensions + 1 : 1) {
     if (!(boxes[k]! <= boxes[k + dimensions]!)) badBoxOf(where, boxes, Math.floor(k / 2 / dimensions), dimensions);
   }

@@ -2,7 +2,7 @@
 // A call with no options but `dimensions` reuses a spare space, since creating one costs many times as much as a search
 // among a few boxes. A spare space is reset to its initial state, so that the order of pairs does not depend on earlier
 // calls.
-import { type Boxes, checkBoxes, countBoxes, setAll } from './boxes.ts';
+import { type Boxes, checkNumbers, checkValues, countBoxes, setAll } from './boxes.ts';
 import type { Dimensions } from './dimensions.ts';
 import { checkNumberArray } from './errors.ts';
 import type { KernelInstance } from './kernel/instance.ts';
@@ -45,7 +45,8 @@ function plain(options?: BroadPhaseOptions<Dimensions>): number {
 
 /**
  * Every overlapping pair of an array of boxes, once: `[a0, b0, a1, b1, …]` with a < b, indices into the array. For
- * boxes that move, a {@link BroadPhase} is faster. Up to 64 MiB of memory stay allocated for the next call.
+ * boxes that move, a {@link BroadPhase} is faster. Up to 64 MiB of memory stay allocated for the next call. With options
+ * other than `dimensions`, each call creates a space: for many small searches, keep one, and call its `setAll`.
  *
  * @param boxes interleaved: minX, minY, maxX, maxY (3D: minX, minY, minZ, maxX, maxY, maxZ), box after box
  * @param options those of {@link BroadPhase}: `dimensions: 3` for boxes of six numbers
@@ -79,16 +80,15 @@ export function findPairs(boxes: Boxes, options?: BroadPhaseOptions<Dimensions>)
  */
 export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOptions<Dimensions>): Uint32Array {
   const space = borrow('findPairsBetween', options);
-  checkNumberArray('findPairsBetween: red', red);
-  checkNumberArray('findPairsBetween: blue', blue);
-  const reds = countBoxes('findPairsBetween: red', red, space.dimensions);
-  countBoxes('findPairsBetween: blue', blue, space.dimensions);
+  const { dimensions } = space;
+  const reds = count('findPairsBetween: red', red, dimensions);
+  const blues = count('findPairsBetween: blue', blue, dimensions);
   try {
     setAll(space, join(red, blue), undefined, 'findPairsBetween');
   } catch (error) {
     // A bad box is named by its index in the caller's array, not in the joined one.
-    checkBoxes('findPairsBetween: red', red, space.dimensions);
-    checkBoxes('findPairsBetween: blue', blue, space.dimensions);
+    checkValues('findPairsBetween: red', red, reds, dimensions);
+    checkValues('findPairsBetween: blue', blue, blues, dimensions);
     throw error;
   }
   split(space, reds);
@@ -113,9 +113,16 @@ function split(space: KernelInstance, red: number): void {
   }
 }
 
+/** The number of boxes in an array of numbers. */
+function count(where: string, boxes: Boxes, dimensions: Dimensions): number {
+  checkNumberArray(where, boxes);
+  const boxCount = countBoxes(where, boxes, dimensions);
+  if (Array.isArray(boxes)) checkNumbers(where, boxes, boxCount, dimensions); // joining would convert other values
+  return boxCount;
+}
+
 /** Both arrays as one, in double precision unless both are float32. */
 function join(red: Boxes, blue: Boxes): Boxes {
-  if (Array.isArray(red) || Array.isArray(blue)) return [...red, ...blue];
   const single = isFloat32Array(red) && isFloat32Array(blue);
   const joined = new (single ? Float32Array : Float64Array)(red.length + blue.length);
   joined.set(red);

@@ -96,6 +96,22 @@ describe('findPairsBetween', () => {
     expect(() => findPairsBetween([0, 0, 1, 1], [5, 0, 1, 1])).toThrow('findPairsBetween: blue: box 0 has minX 5');
     expect(() => findPairsBetween([0, 0, 1], [])).toThrow('3');
   });
+
+  test('takes an ordinary array beside a typed one, and converts nothing in it', () => {
+    const typed = Float32Array.of(0, 0, 1, 1);
+    expect([...findPairsBetween([5, 5, 6, 6, 1, 1, 2, 2.1], typed)]).toEqual([1, 0]);
+    expect([...findPairsBetween(typed, [5, 5, 6, 6, 1, 1, 2, 2.1])]).toEqual([0, 1]);
+    const sparse = [0, 0, 1, 1];
+    delete sparse[2];
+    for (const bad of [sparse, [0, 0, '1', 1], [0, 0, null, 1], [0, 0, 1n, 1]] as number[][]) {
+      expect(() => findPairsBetween(typed, bad)).toThrow(
+        /^findPairsBetween: blue: maxX of box 0 is .*, expected a number$/,
+      );
+      expect(() => findPairsBetween(bad, typed)).toThrow(
+        /^findPairsBetween: red: maxX of box 0 is .*, expected a number$/,
+      );
+    }
+  });
 });
 
 describe('the spare space', () => {
