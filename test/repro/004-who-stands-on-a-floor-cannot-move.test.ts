@@ -285,3 +285,17 @@ test('a million steps of Pong', { tags: 'long' }, () => {
   }
   expect(bounces).toBeGreaterThan(20_000);
 });
+
+test('the sweep of a point is a ray as long as its motion', () => {
+  const space = new BroadPhase().set(0, 1, 1, 3, 2).set(1, 3, 1, 4, 5).set(2, 6, 0, 6, 3).set(3, 5, 5, 7, 7).update();
+  const starts = Array.from({ length: 81 }, (_, k) => [k % 9, Math.floor(k / 9)] as const);
+  for (const [x, y] of starts)
+    for (const [right, down] of starts) {
+      const [dx, dy] = [right - 4, down - 4];
+      const length = Math.hypot(dx, dy);
+      const ray = space.rayCast(x, y, dx, dy, { maxDistance: length });
+      const hit = space.sweep(x, y, x, y, dx, dy);
+      expect([hit?.id, hit?.normal]).toEqual([ray?.id, ray?.normal]);
+      if (hit && ray) expect(hit.time * length).toBeCloseTo(ray.distance, 12);
+    }
+});
