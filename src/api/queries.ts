@@ -112,7 +112,7 @@ export interface Queries<D extends Dimensions> {
    * const planes = [1, 0, 0, 0, -1, 0, 0, 5]; // x from 0 to 5
    * space.queryPlanes(planes).sort((a, b) => a - b); // → [7, 8]
    * const whole: number[] = [];
-   * space.queryPlanes(planes, { visit: (id, inside) => inside && whole.push(id) });
+   * space.queryPlanes(planes, { visit: (id, inside) => { if (inside) whole.push(id); } });
    * whole; // → [7]
    *
    * @example
