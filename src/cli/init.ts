@@ -49,7 +49,7 @@ const shellWord = (path: string) => (/^[\w./\\:~@%+-]+$/.test(path) ? path : `"$
 
 export const initCommand: Command = {
   summary: 'create a small game to start from, with Vite and TypeScript',
-  operands: { folder: 'a new or empty folder' },
+  operands: { folder: 'a new or empty folder, which may have a .git in it' },
   options: {
     package: {
       value: 'file',
@@ -64,11 +64,13 @@ export const initCommand: Command = {
     if (given !== undefined && !existsSync(given)) throw new FileError(`cannot read ${given}: there is no such file`);
     const installed = given ?? (await installedHere());
     // Nothing is written to, nor removed from, a folder that cannot be looked into.
-    const there = await readdir(folder).catch((error: NodeJS.ErrnoException) => {
+    const there = await readdir(folder).catch((error: NodeJS.ErrnoException): string[] => {
       if (error.code === 'ENOENT') return [];
       throw new FileError(`cannot write ${name}: ${error.message}`);
     });
-    if (there.length > 0) throw new UsageError(`${name} is not empty, expected an empty or new folder`);
+    // A repository that was made first has no files of its own yet.
+    if (there.some((each) => each !== '.git'))
+      throw new UsageError(`${name} is not empty, expected an empty or new folder`);
     const spec = installed === undefined ? `^${version}` : `file:${relative(folder, resolve(installed))}`;
     let made: string | undefined; // the first folder on the path that was not there
     try {
@@ -77,9 +79,10 @@ export const initCommand: Command = {
       await writeFile(join(folder, 'package.json'), `${JSON.stringify(manifestOf(folder, spec), null, 2)}\n`);
       await writeFile(join(folder, '.gitignore'), 'node_modules\ndist\n'); // npm does not pack files of this name
     } catch (error) {
-      // The folder was empty or new, so all that is there was written above.
+      // The folder was empty or new, so all that is there was written above, but for what was found.
       const written = made === undefined ? await readdir(folder).catch(() => []) : [made];
-      for (const each of written) await rm(resolve(folder, each), { recursive: true, force: true }).catch(() => {});
+      for (const each of written)
+        if (!there.includes(each)) await rm(resolve(folder, each), { recursive: true, force: true }).catch(() => {});
       throw new FileError(`cannot write ${name}: ${(error as Error).message}`);
     }
     if (input.has('json')) terminal.out(`${JSON.stringify({ folder, broadphase: spec })}\n`);

@@ -1,5 +1,14 @@
 // What users of the command saw: results lost, recordings overwritten, stack traces, and texts of a parser.
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync } from 'node:fs';
+import {
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readdirSync,
+  readFileSync,
+  rmSync,
+  symlinkSync,
+  writeFileSync,
+} from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
@@ -212,5 +221,29 @@ describe('what tune recommends', () => {
   test('knows the size of what it asks to load', () => {
     const size = (name: string) => gzipSync(readFileSync(`src/generated/${name}.ts`), { level: 9 }).length / 1000;
     expect(Math.abs(size('kernel') - size('kernel-lean') - moreOfAll)).toBeLessThan(4);
+  });
+});
+
+describe('init in a folder with nothing but a new repository', () => {
+  const made = (name: string) => {
+    mkdirSync(file(`${name}/.git`), { recursive: true });
+    writeFileSync(file(`${name}/.git/HEAD`), 'ref: refs/heads/main');
+    return file(name);
+  };
+
+  test('makes the game there', async () => {
+    const game = made('game');
+    expect(await run(['init', game])).toMatchObject({ code: 0, err: '' });
+    expect(readdirSync(game)).toEqual(expect.arrayContaining(['.git', '.gitignore', 'package.json', 'src']));
+    expect(readFileSync(join(game, '.git/HEAD'), 'utf8')).toBe('ref: refs/heads/main');
+    expect((await run(['init', game])).err).toContain('is not empty');
+  });
+
+  test('leaves the repository alone if a file cannot be written', async () => {
+    let deep = made('parent');
+    while (deep.length < 4080) deep = join(deep, 'd'.repeat(Math.min(200, 4081 - deep.length)));
+    mkdirSync(join(deep, '.git'), { recursive: true });
+    expect(await run(['init', deep])).toMatchObject({ code: 4, err: expect.stringContaining('cannot write') });
+    expect(readdirSync(deep)).toEqual(['.git']);
   });
 });
