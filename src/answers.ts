@@ -2,22 +2,10 @@
 // their arguments and write them to the kernel's io array; the kernel answers (kernel/questions/queries.hpp); the code
 // here copies the answers to where the caller wants them. A visitor gets them in parts, so that it can end the search,
 // and may make queries itself.
-import { badQuery, badValue, checkBoolean, checkOptions, checkOut, maxId } from './errors.ts';
-import { afterAt, ioLength, orderNear, orderRay, orderWay, touchingAt } from './generated/abi.ts';
+import { badQuery, badValue, checkBoolean, checkOut, maxId } from './errors.ts';
+import { afterAt, ioLength, orderNear, orderRay, orderWay } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-import {
-  type AreaOptions,
-  checkVisitor,
-  everything,
-  type IdsOptions,
-  idsOptions,
-  ignoredOf,
-  maskOf,
-  nobody,
-  othersIgnored,
-  type PlanesOptions,
-  type QueryOptions,
-} from './query-options.ts';
+import { type Asked, everything, heed, type IdsOptions, letGo, nobody } from './query-options.ts';
 
 /** Instead of a number of planes: the query is for the box or circle in the array. */
 const shape = -1;
@@ -28,8 +16,8 @@ const firstPart = 4;
 
 /** A hit of a ray or of a moving box: it has one of the two numbers. */
 type Hit = { id: number; distance?: number; time?: number; normal: number[] };
-export type Visitor = (id: number, rank: number, hit?: Hit) => unknown;
-export type Accept = (id: number, hit: Hit) => unknown;
+type Visitor = (id: number, rank: number, hit?: Hit) => unknown;
+type Accept = (id: number, hit: Hit) => unknown;
 
 /** The state of a query, saved while its visitor is called, which may make other queries. */
 class Visit {
@@ -56,52 +44,49 @@ export const point3 = ['x', 'y', 'z'];
 export const isPlace = Number.isFinite as (value: unknown) => value is number;
 export const isNumber = (value: unknown): value is number => typeof value === 'number';
 
-/** Writes a point, as a box of zero size, to the io array; returns the options, which follow the numbers. */
+/** Writes a point, as a box of zero size, to the io array, after the options, which follow the numbers. */
 export function point(
   instance: KernelInstance,
   where: string,
+  names: readonly string[],
   x: number,
   y: number,
-  z?: unknown,
-  options?: unknown,
-): IdsOptions | undefined {
-  const io = instance.io();
+  z: unknown,
+  options: unknown,
+): Asked {
+  const flat = instance.width === 4;
   const good = isPlace(x) && isPlace(y);
-  if (instance.width === 4) {
+  if (flat) {
     if (!good) badQuery(where, [x, y], point2, finite);
-    io[2] = x;
-    io[3] = y;
     options = z;
-  } else {
-    if (!(good && isPlace(z))) badQuery(where, [x, y, z], point3, finite);
-    io[2] = z;
-    io[3] = x;
-    io[4] = y;
-    io[5] = z;
+  } else if (!(good && isPlace(z))) {
+    badQuery(where, [x, y, z], point3, finite);
   }
+  const asked = heed(instance, where, options as IdsOptions | undefined, names);
+  const io = instance.io();
   io[0] = x;
   io[1] = y;
-  return options as IdsOptions | undefined;
+  if (flat) {
+    io[2] = x;
+    io[3] = y;
+  } else {
+    io[2] = z as number;
+    io[3] = x;
+    io[4] = y;
+    io[5] = z as number;
+  }
+  return asked;
 }
 
 /** Finds the boxes that touch the box or circle in the io array, or that are not behind the `planes` planes there. */
-export function area(
-  instance: KernelInstance,
-  where: string,
-  options: IdsOptions | PlanesOptions | undefined,
-  names: readonly string[] = idsOptions,
-  planes = shape,
-): number[] {
-  checkOptions(where, options, names);
-  tellTouching(instance, where, options);
-  const mask = maskOf(where, options);
-  const ignored = ignoredOf(where, options);
-  const others = othersIgnored(options);
-  if (options?.visit !== undefined) {
-    visitArea(instance, where, planes, mask, ignored, others, options.visit);
+export function area(instance: KernelInstance, where: string, asked: Asked, planes = shape): number[] {
+  if (asked.visit !== undefined) {
+    visitArea(instance, where, planes, asked);
     return none as number[];
   }
-  const out = checkOut(where, options?.out);
+  const { mask, ignored, others } = asked;
+  const out = checkOut(where, asked.out as number[] | undefined);
+  letGo();
   try {
     return copyIds(instance, ids(instance, where, planes, mask, ignored, 0, everything), out, others);
   } catch (error) {
@@ -109,26 +94,10 @@ export function area(
   }
 }
 
-/** Tells the kernel whether touching counts. */
-export function tellTouching(instance: KernelInstance, where: string, options: AreaOptions | undefined): void {
-  // Without an object of its own, which would be garbage in every frame.
-  const given = options?.touching;
-  const touching = given === undefined ? instance.touching : given;
-  if (typeof touching !== 'boolean') checkBoolean(`${where}: touching`, touching);
-  instance.io()[touchingAt] = touching ? 1 : 0;
-}
-
 /** Finds the first boxes that the box in the io array meets, or the nearest ones; returns how many. */
-export function order(
-  instance: KernelInstance,
-  where: string,
-  kind: number,
-  options: QueryOptions | undefined,
-  most: number,
-): number {
-  const mask = maskOf(where, options);
-  const ignored = ignoredOf(where, options);
-  const others = othersIgnored(options);
+export function order(instance: KernelInstance, where: string, kind: number, asked: Asked, most: number): number {
+  const { mask, ignored, others } = asked;
+  letGo();
   try {
     const wanted = Math.min(most + (others?.length ?? 0), everything);
     const count = known(where, instance.kernel.ask_order(kind, mask, ignored, nobody, wanted));
@@ -168,16 +137,9 @@ function ids(
   return known(where, count);
 }
 
-function visitArea(
-  instance: KernelInstance,
-  where: string,
-  planes: number,
-  mask: number,
-  ignored: number,
-  others: readonly number[] | undefined,
-  visitor: (id: number, inside: boolean) => unknown,
-): void {
-  checkVisitor(`${where}: visit`, visitor);
+function visitArea(instance: KernelInstance, where: string, planes: number, asked: Asked): void {
+  const { mask, ignored, others } = asked;
+  const visitor = asked.visit as (id: number, inside: boolean) => unknown;
   const visit = startVisit(instance);
   try {
     for (let from = 0; from >= 0; ) {
@@ -202,53 +164,24 @@ function visitArea(
   }
 }
 
-/** Calls a visitor for each answer, at most `most`. */
-export function visitOrder(
-  instance: KernelInstance,
-  where: string,
-  kind: number,
-  options: QueryOptions,
-  most: number,
-  visitor: Visitor,
-): void {
-  checkVisitor(`${where}: visit`, visitor);
-  walk(instance, where, kind, options, most, part, visitor);
-}
-
-/** Writes each hit to `hit`, up to the first one that is accepted; false if none is. */
-export function firstAccepted(
-  instance: KernelInstance,
-  where: string,
-  kind: number,
-  options: QueryOptions,
-  hit: Hit,
-  accept: Accept,
-): boolean {
-  checkVisitor(`${where}: accept`, accept);
-  return walk(instance, where, kind, options, everything, firstPart, accept, hit);
-}
-
 /**
- * Goes through the answers in order, beginning with `most` at once. With `into`, writes each hit there until one is
- * accepted, and returns whether one was; else goes on until the visitor returns `false`.
+ * Goes through the answers in order, at most `most`. With `into`, writes each hit there until one is accepted, and
+ * returns whether one was; else calls the visitor until it returns `false`.
  */
-function walk(
+export function walk(
   instance: KernelInstance,
   where: string,
   kind: number,
-  options: QueryOptions,
+  asked: Asked,
   most: number,
-  ahead: number,
-  call: Visitor | Accept,
   into?: Hit,
 ): boolean {
-  const mask = maskOf(where, options);
-  const ignored = ignoredOf(where, options);
-  const others = othersIgnored(options);
+  const { mask, ignored, others } = asked;
+  const call = (into ? asked.accept : asked.visit) as Visitor & Accept;
   const visit = startVisit(instance);
   const hit = into ?? (kind === orderNear ? undefined : visit.hits[kind as typeof orderRay]);
   try {
-    for (let left = most, after = nobody; left > 0; ahead = part) {
+    for (let left = most, after = nobody, ahead = into ? firstPart : part; left > 0; ahead = part) {
       const wanted = Math.min(left + (others?.length ?? 0), ahead);
       instance.io().set(visit.query);
       const count = known(where, instance.kernel.ask_order(kind, mask, ignored, after, wanted));
@@ -259,7 +192,7 @@ function walk(
         if (others?.includes(id)) continue;
         left--;
         if (hit !== undefined) writeHit(instance, visit, k, kind, hit);
-        const told = into ? (call as Accept)(id, into) : (call as Visitor)(id, visit.ranks[k]!, hit);
+        const told = into ? call(id, into) : call(id, visit.ranks[k]!, hit);
         if (ends(instance, where, updates, told, into)) return true;
       }
       if (count < wanted) return false;
@@ -305,6 +238,7 @@ function writeNormal(instance: KernelInstance, side: number, normal: number[]): 
 
 /** Saves the query that is in the io array. */
 function startVisit(instance: KernelInstance): Visit {
+  letGo();
   const level = visiting++;
   let visit = visits[level];
   if (visit === undefined) {

@@ -1,13 +1,12 @@
 // Many queries in one call: all their numbers in, all their answers out, in typed arrays. The kernel answers them
 // (kernel/questions/bulk.hpp); here they are checked, and the answers copied.
-import { isNumber, known, normalAlong, number, point2, point3, tellTouching, tooFar } from './answers.ts';
+import { isNumber, known, normalAlong, number, point2, point3, tooFar } from './answers.ts';
 import type { Dimensions } from './dimensions.ts';
 import {
   badId,
   badQuery,
   badValue,
   checkAttached,
-  checkBoolean,
   checkDistance,
   checkNumberArray,
   checkOptions,
@@ -18,11 +17,12 @@ import {
   sweep2,
   sweep3,
 } from './errors.ts';
-import { asks, limitAt } from './generated/abi.ts';
+import { asks, limitAt, touchingAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { ray2, ray3 } from './queries.ts';
 import {
   checkMost,
+  checkSwitch,
   everything,
   isCount,
   type ManyBoxOptions,
@@ -104,11 +104,16 @@ export function askMany(
   const names = query.names[instance.dimensions];
   const { parts } = query;
   let { kind } = query;
-  if (kind === asks.box) {
-    const within = options?.within === undefined ? false : options.within;
-    if (typeof within !== 'boolean') checkBoolean(`${where}: within`, within);
-    if (within) kind = asks.within;
-  }
+  const {
+    within = false,
+    touching = instance.touching,
+    mask: given,
+    ignoreEach,
+    maxDistance = Number.POSITIVE_INFINITY,
+    out,
+  } = options ?? {};
+  checkSwitch(where, 'within', within);
+  if (within) kind = asks.within; // boxes alone take it
   // Compared first, since returning a large number would be garbage.
   if (!isCount(most)) checkMost(where, most);
   checkNumberArray(where, numbers);
@@ -121,9 +126,8 @@ export function askMany(
       if (typeof numbers[k] !== 'number') badNumbers(where, numbers, Math.floor(k / names.length), names);
     }
   }
-  const { ignoreEach, maxDistance = Number.POSITIVE_INFINITY, out } = options ?? {};
-  const mask = maskOf(where, options);
-  tellTouching(instance, where, options);
+  const mask = maskOf(where, given);
+  checkSwitch(where, 'touching', touching);
   // The text is made only after the test: a string in each call would be garbage.
   if (!isSize(maxDistance)) checkDistance(`${where}: maxDistance`, maxDistance);
   checkFar(instance, where, kind, numbers, maxDistance);
@@ -139,7 +143,9 @@ export function askMany(
     else doubles.set(ignored, at + length);
     const bad = instance.kernel.bad_question(kind, count);
     if (bad >= 0) badNumbers(where, numbers, bad, names);
-    instance.io()[limitAt] = kind === asks.way ? 1 : maxDistance;
+    const io = instance.io(); // only now: a getter among the options may have asked a query itself
+    io[touchingAt] = Number(touching);
+    io[limitAt] = kind === asks.way ? 1 : maxDistance;
     const asked = known(where, instance.kernel.ask_many(kind, count, mask, Math.min(most, everything)));
     return collect(instance, kind, asked, parts, out);
   } catch (error) {

@@ -142,7 +142,7 @@ export function checkBoxCount(what: string, count: unknown): void {
 /** Refuses an array whose memory is gone. */
 export function checkAttached(where: string, array: ArrayLike<number> & ArrayBufferView): void {
   if (array.length > 0 || isAttached(array)) return;
-  throw new TypeError(`${where}: got a detached array: its memory was transferred, or has grown`);
+  throw new TypeError(`${where}: got a detached array: its memory was transferred or resized`);
 }
 
 /** Numbers come in one of three kinds of array. */

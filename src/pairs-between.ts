@@ -1,7 +1,7 @@
 // The pairs of two spaces, such as a level at rest and what moves in it. The kernel of the space with fewer boxes has
 // them, and lists of the other's boxes: see kernel/questions/neighbours.hpp. The code here takes queries and answers from
 // one kernel to the other, and copies the pairs.
-import { known, tellTouching } from './answers.ts';
+import { known } from './answers.ts';
 import { badValue } from './errors.ts';
 import {
   asks,
@@ -13,6 +13,7 @@ import {
   mostNeighbours,
   mostReachAt,
   still,
+  touchingAt,
 } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { everything } from './query-options.ts';
@@ -131,7 +132,7 @@ function keep(few: KernelInstance, kept: Kept, many: KernelInstance): void {
     if (asked > 0) {
       running = many;
       copyStaged(few, many, asked * (row - 1));
-      tellTouching(many, where, undefined);
+      many.io()[touchingAt] = Number(many.touching);
       many.kernel.ask_many(asks.meeting, asked, everything, 1);
       const found = rowsOfAnswers(many, asked, row);
       running = few;

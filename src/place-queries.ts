@@ -1,9 +1,9 @@
 // The queries about places: which boxes collide, and which are in a box, at a point, or in a circle.
 import { area, copyIds, isNumber, number, point } from './answers.ts';
-import { badQuery, checkBoolean, checkDistance, checkId, checkOut, corners } from './errors.ts';
-import { noCircle, radiusAt, within } from './generated/abi.ts';
+import { badQuery, checkDistance, checkId, checkOut, corners, isSize } from './errors.ts';
+import { radiusAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-import { type BoxOptions, boxOptions, type IdsOptions } from './query-options.ts';
+import { type BoxOptions, boxOptions, heed, type IdsOptions, idsOptions } from './query-options.ts';
 
 export function isColliding(instance: KernelInstance, a: number, b: number): boolean {
   checkId('isColliding: a', a);
@@ -35,27 +35,25 @@ export function queryBox(
   f?: unknown,
   options?: BoxOptions,
 ): number[] {
-  const io = instance.io();
-  if (instance.width === 4) {
-    const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d;
-    if (!good) badQuery('queryBox', [a, b, c, d], corners[2], number);
+  const flat = instance.width === 4;
+  const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d);
+  if (flat) {
+    if (!(good && a <= c && b <= d)) badQuery('queryBox', [a, b, c, d], corners[2], number);
     options = e as BoxOptions | undefined;
-  } else {
-    const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && isNumber(e) && isNumber(f);
-    if (!(good && a <= d && b <= e && c <= f)) {
-      badQuery('queryBox', [a, b, c, d, e, f], corners[3], number);
-    }
-    io[4] = e;
-    io[5] = f;
+  } else if (!(good && isNumber(e) && isNumber(f) && a <= d && b <= e && c <= f)) {
+    badQuery('queryBox', [a, b, c, d, e, f], corners[3], number);
   }
+  const asked = heed(instance, 'queryBox', options, boxOptions);
+  const io = instance.io();
   io[0] = a;
   io[1] = b;
   io[2] = c;
   io[3] = d;
-  const wholly = options?.within === undefined ? false : options.within;
-  checkBoolean('queryBox: within', wholly);
-  io[radiusAt] = wholly ? within : noCircle;
-  return area(instance, 'queryBox', options, boxOptions);
+  if (!flat) {
+    io[4] = e as number;
+    io[5] = f as number;
+  }
+  return area(instance, 'queryBox', asked);
 }
 
 export function queryPoint(
@@ -65,9 +63,7 @@ export function queryPoint(
   z?: unknown,
   options?: IdsOptions,
 ): number[] {
-  options = point(instance, 'queryPoint', x, y, z, options);
-  instance.io()[radiusAt] = noCircle;
-  return area(instance, 'queryPoint', options);
+  return area(instance, 'queryPoint', point(instance, 'queryPoint', idsOptions, x, y, z, options));
 }
 
 export function queryCircle(
@@ -78,9 +74,7 @@ export function queryCircle(
   options?: IdsOptions,
 ): number[] {
   if (instance.width !== 4) wrongShape('queryCircle', instance.dimensions, 'querySphere');
-  point(instance, 'queryCircle', x, y);
-  instance.io()[radiusAt] = checkDistance('queryCircle: radius', radius);
-  return area(instance, 'queryCircle', options);
+  return round(instance, 'queryCircle', x, y, options, undefined, radius);
 }
 
 export function querySphere(
@@ -92,9 +86,23 @@ export function querySphere(
   options?: IdsOptions,
 ): number[] {
   if (instance.width !== 6) wrongShape('querySphere', instance.dimensions, 'queryCircle');
-  point(instance, 'querySphere', x, y, z);
-  instance.io()[radiusAt] = checkDistance('querySphere: radius', radius);
-  return area(instance, 'querySphere', options);
+  return round(instance, 'querySphere', x, y, z, options, radius);
+}
+
+/** A circle or a sphere: the options follow the point. */
+function round(
+  instance: KernelInstance,
+  where: string,
+  x: number,
+  y: number,
+  z: unknown,
+  options: IdsOptions | undefined,
+  radius: number,
+): number[] {
+  const asked = point(instance, where, idsOptions, x, y, z, options);
+  if (!isSize(radius)) checkDistance(`${where}: radius`, radius);
+  instance.io()[radiusAt] = radius;
+  return area(instance, where, asked);
 }
 
 function wrongShape(where: string, dimensions: number, right: string): never {

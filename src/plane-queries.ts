@@ -3,7 +3,7 @@ import { area } from './answers.ts';
 import { badValue, checkNumberArray } from './errors.ts';
 import { planesAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-import type { PlanesOptions } from './query-options.ts';
+import { heed, idsOptions, type PlanesOptions } from './query-options.ts';
 
 /** How many planes a query may have. */
 const most = 8;
@@ -20,13 +20,14 @@ export function queryPlanes(
   if (planes.length % width !== 0 || planes.length > most * width) {
     badValue(`${where}: planes.length`, planes.length, `${names[width - 3]} of at most ${most} planes`);
   }
-  const io = instance.io();
   for (let k = 0; k < planes.length; k++) {
     const value: unknown = planes[k];
     if (!Number.isFinite(value)) {
       badValue(`${where}: planes[${k}]`, value, 'a finite number', typeof value !== 'number');
     }
-    io[planesAt + k] = planes[k]!;
   }
-  return area(instance, where, options, undefined, (planes.length / width) | 0); // as an integer: a double would be garbage
+  const asked = heed(instance, where, options, idsOptions);
+  const io = instance.io();
+  for (let k = 0; k < planes.length; k++) io[planesAt + k] = planes[k]!;
+  return area(instance, where, asked, (planes.length / width) | 0); // as an integer: a double would be garbage
 }

@@ -1,9 +1,7 @@
 // Rays, sweeps and nearest boxes: the queries whose answers are in order. All queries see the boxes of the last update;
 // the index is built at the first query after it. The other queries are in place-queries.ts and plane-queries.ts.
 import {
-  type Accept,
   finite,
-  firstAccepted,
   isNumber,
   isPlace,
   none,
@@ -14,27 +12,17 @@ import {
   point3,
   readHit,
   tooFar,
-  type Visitor,
-  visitOrder,
+  walk,
 } from './answers.ts';
-import {
-  badHit,
-  badQuery,
-  badValue,
-  checkDistance,
-  checkOptions,
-  checkOut,
-  isHit,
-  isSize,
-  sweep2,
-  sweep3,
-} from './errors.ts';
+import { badHit, badQuery, badValue, checkOut, isHit, sweep2, sweep3 } from './errors.ts';
 import { limitAt, orderNear, orderRay, orderWay } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import {
+  type Asked,
   checkMost,
   everything,
   farOptions,
+  heed,
   type NearestOptions,
   nearestOptions,
   type RayAllOptions,
@@ -59,15 +47,21 @@ export function rayCast(
   f?: unknown,
   options?: RayOptions,
 ) {
-  options = ray(instance, 'rayCast', rayOptions, a, b, c, d, e, f, options);
-  if (options?.out !== undefined && !isHit(options.out)) badHit('rayCast: out', options.out, 'distance');
-  if (options?.accept !== undefined) {
-    const hit: RayHit = options.out ?? { id: 0, distance: 0, normal: [] };
-    return firstAccepted(instance, 'rayCast', orderRay, options, hit, options.accept as Accept) ? hit : undefined;
-  }
-  if (order(instance, 'rayCast', orderRay, options, 1) === 0) return undefined;
-  const hit: RayHit = options?.out ?? { id: 0, distance: 0, normal: [] };
-  hit.distance = instance.doubleView()[readHit(instance, 0, hit)]!;
+  const asked = ray(instance, 'rayCast', rayOptions, a, b, c, d, e, f, options);
+  return first(instance, 'rayCast', orderRay, asked) as RayHit | undefined;
+}
+
+/** The first hit, or the first that is accepted. */
+function first(instance: KernelInstance, where: string, kind: typeof orderRay | typeof orderWay, asked: Asked) {
+  const far = kind === orderRay ? 'distance' : 'time';
+  const { out, accept } = asked;
+  if (out !== undefined && !isHit(out)) badHit(`${where}: out`, out, far);
+  if (accept === undefined && order(instance, where, kind, asked, 1) === 0) return undefined;
+  const hit = (out ?? { id: 0, [far]: 0, normal: [] }) as RayHit & SweepHit;
+  if (accept !== undefined) return walk(instance, where, kind, asked, everything, hit) ? hit : undefined;
+  const rank = instance.doubleView()[readHit(instance, 0, hit)]!;
+  if (kind === orderRay) hit.distance = rank;
+  else hit.time = rank; // not `hit[far]`, which would be garbage
   return hit;
 }
 
@@ -82,16 +76,17 @@ export function rayCastAll(
   f?: unknown,
   options?: RayAllOptions,
 ): RayHit[] {
-  options = ray(instance, 'rayCastAll', farOptions, a, b, c, d, e, f, options);
-  if (options?.visit !== undefined) {
-    visitOrder(instance, 'rayCastAll', orderRay, options, everything, options.visit as Visitor);
+  const asked = ray(instance, 'rayCastAll', farOptions, a, b, c, d, e, f, options);
+  if (asked.visit !== undefined) {
+    walk(instance, 'rayCastAll', orderRay, asked, everything);
     return none as RayHit[];
   }
-  const out: RayHit[] = checkOut('rayCastAll', options?.out);
+  const isGiven = asked.out !== undefined;
+  const out = checkOut('rayCastAll', asked.out as RayHit[] | undefined);
   for (let k = 0; k < out.length; k++) if (!isHit(out[k])) badHit(`rayCastAll: out[${k}]`, out[k], 'distance');
-  const count = order(instance, 'rayCastAll', orderRay, options, everything);
+  const count = order(instance, 'rayCastAll', orderRay, asked, everything);
   for (let k = 0; k < count; k++) {
-    const hit = out[k] ?? (options?.out && spare.pop()) ?? { id: 0, distance: 0, normal: [] };
+    const hit = out[k] ?? (isGiven ? spare.pop() : undefined) ?? { id: 0, distance: 0, normal: [] };
     hit.distance = instance.doubleView()[readHit(instance, k, hit)]!;
     out[k] = hit;
   }
@@ -112,48 +107,37 @@ export function sweep(
   i?: unknown,
   options?: SweepOptions,
 ) {
-  const io = instance.io();
-  if (instance.width === 4) {
-    const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && a <= c && b <= d;
-    if (!(good && isPlace(e) && isPlace(f))) badQuery('sweep', [a, b, c, d, e, f], sweep2, number);
+  const flat = instance.width === 4;
+  const good = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && isNumber(e) && isNumber(f);
+  if (flat) {
+    if (!(good && a <= c && b <= d && isPlace(e) && isPlace(f))) badQuery('sweep', [a, b, c, d, e, f], sweep2, number);
     options = g as SweepOptions | undefined;
-  } else {
-    const all = isNumber(a) && isNumber(b) && isNumber(c) && isNumber(d) && isNumber(e) && isNumber(f);
-    const good = all && a <= d && b <= e && c <= f;
-    if (!(good && isPlace(g) && isPlace(h) && isPlace(i))) {
-      badQuery('sweep', [a, b, c, d, e, f, g, h, i], sweep3, number);
-    }
-    io[6] = g;
-    io[7] = h;
-    io[8] = i;
+  } else if (!(good && a <= d && b <= e && c <= f && isPlace(g) && isPlace(h) && isPlace(i))) {
+    badQuery('sweep', [a, b, c, d, e, f, g, h, i], sweep3, number);
   }
+  const asked = heed(instance, 'sweep', options, sweepOptions);
+  const io = instance.io();
   io[0] = a;
   io[1] = b;
   io[2] = c;
   io[3] = d;
   io[4] = e;
   io[5] = f;
+  if (!flat) {
+    io[6] = g as number;
+    io[7] = h as number;
+    io[8] = i as number;
+  }
   io[limitAt] = 1;
   if (instance.wrap !== undefined) {
     for (let k = instance.width; k < instance.width + instance.dimensions; k++) {
       if (Math.abs(io[k]!) > instance.farthest) tooFar('sweep: the motion', io[k]!, instance.farthest);
     }
   }
-  checkOptions('sweep', options, sweepOptions);
-  if (options?.visit !== undefined) {
-    if (options.accept !== undefined) throw new TypeError('sweep: got both visit and accept, expected one of them');
-    visitOrder(instance, 'sweep', orderWay, options, everything, options.visit as Visitor);
-    return undefined;
-  }
-  if (options?.out !== undefined && !isHit(options.out)) badHit('sweep: out', options.out, 'time');
-  if (options?.accept !== undefined) {
-    const hit: SweepHit = options.out ?? { id: 0, time: 0, normal: [] };
-    return firstAccepted(instance, 'sweep', orderWay, options, hit, options.accept as Accept) ? hit : undefined;
-  }
-  if (order(instance, 'sweep', orderWay, options, 1) === 0) return undefined;
-  const hit: SweepHit = options?.out ?? { id: 0, time: 0, normal: [] };
-  hit.time = instance.doubleView()[readHit(instance, 0, hit)]!;
-  return hit;
+  if (asked.visit === undefined) return first(instance, 'sweep', orderWay, asked) as SweepHit | undefined;
+  if (asked.accept !== undefined) throw new TypeError('sweep: got both visit and accept, expected one of them');
+  walk(instance, 'sweep', orderWay, asked, everything);
+  return undefined;
 }
 
 export function nearest(
@@ -165,28 +149,18 @@ export function nearest(
   options?: NearestOptions,
 ): number[] {
   const flat = instance.width === 4;
-  const most = flat ? z : k;
-  if (flat) {
-    options = k as NearestOptions | undefined;
-    point(instance, 'nearest', x, y);
-  } else {
-    point(instance, 'nearest', x, y, z);
-  }
-  const wanted = checkMost('nearest', most);
-  checkOptions('nearest', options, nearestOptions);
-  const { maxDistance = Number.POSITIVE_INFINITY } = options ?? {};
-  checkDistance('nearest: maxDistance', maxDistance);
-  instance.io()[limitAt] = maxDistance;
-  if (options?.visit !== undefined) {
-    visitOrder(instance, 'nearest', orderNear, options, wanted, options.visit);
+  const asked = point(instance, 'nearest', nearestOptions, x, y, flat ? k : z, options);
+  const wanted = checkMost('nearest', flat ? z : k);
+  if (asked.visit !== undefined) {
+    walk(instance, 'nearest', orderNear, asked, wanted);
     return none as number[];
   }
-  const out: number[] = checkOut('nearest', options?.out);
-  const distances = options?.distances;
+  const out = checkOut('nearest', asked.out as number[] | undefined);
+  const distances = asked.distances as number[] | undefined;
   if (distances !== undefined && (!Array.isArray(distances) || distances === out)) {
     badValue('nearest: distances', distances, 'an ordinary array other than out', true);
   }
-  const count = order(instance, 'nearest', orderNear, options, wanted);
+  const count = order(instance, 'nearest', orderNear, asked, wanted);
   const words = instance.wordView();
   const first = instance.kernel.hits_address();
   for (let n = 0; n < count; n++) out[n] = words[(first >>> 2) + 4 * n + 2]!;
@@ -199,47 +173,48 @@ export function nearest(
   return out;
 }
 
-/** Writes a ray, with its limit, to the io array; returns the options, which follow the numbers. */
-function ray<Options extends { maxDistance?: number | undefined }>(
+/** Writes a ray, with its limit, to the io array, after the options, which follow the numbers. */
+function ray(
   instance: KernelInstance,
   where: string,
-  known: readonly string[],
+  names: readonly string[],
   a: number,
   b: number,
   c: number,
   d: number,
   e: unknown,
   f: unknown,
-  options: Options | undefined,
-): Options | undefined {
-  const io = instance.io();
+  options: unknown,
+): Asked {
+  const flat = instance.width === 4;
   const good = isPlace(a) && isPlace(b) && isPlace(c) && isPlace(d);
-  if (instance.width === 4) {
+  if (flat) {
     if (!good) badQuery(where, [a, b, c, d], ray2, finite);
+    options = e;
+  } else if (!(good && isPlace(e) && isPlace(f))) {
+    badQuery(where, [a, b, c, d, e, f], ray3, finite);
+  }
+  const asked = heed(instance, where, options as RayOptions | undefined, names);
+  const io = instance.io();
+  io[0] = a;
+  io[1] = b;
+  if (flat) {
     io[2] = a;
     io[3] = b;
     io[4] = c;
     io[5] = d;
-    options = e as Options | undefined;
   } else {
-    if (!(good && isPlace(e) && isPlace(f))) badQuery(where, [a, b, c, d, e, f], ray3, finite);
     io[2] = c;
     io[3] = a;
     io[4] = b;
     io[5] = c;
     io[6] = d;
-    io[7] = e;
-    io[8] = f;
+    io[7] = e as number;
+    io[8] = f as number;
   }
-  io[0] = a;
-  io[1] = b;
-  checkOptions(where, options, known);
-  const { maxDistance = Number.POSITIVE_INFINITY } = options ?? {};
-  // The text is made only after the test: a string in each call would be garbage.
-  if (!isSize(maxDistance)) checkDistance(`${where}: maxDistance`, maxDistance);
-  io[limitAt] = maxDistance;
-  if (maxDistance > instance.farthest && maxDistance < Number.POSITIVE_INFINITY) {
-    tooFar(`${where}: maxDistance`, maxDistance, instance.farthest);
+  const most = io[limitAt]!;
+  if (most > instance.farthest && most < Number.POSITIVE_INFINITY) {
+    tooFar(`${where}: maxDistance`, most, instance.farthest);
   }
-  return options;
+  return asked;
 }

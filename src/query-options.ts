@@ -1,5 +1,17 @@
 // The options and the results of the queries in queries.ts, and their checks.
-import { badId, badNumber, badValue, checkBits, isId } from './errors.ts';
+import {
+  badId,
+  badNumber,
+  badValue,
+  checkBits,
+  checkBoolean,
+  checkDistance,
+  checkOptions,
+  isId,
+  isSize,
+} from './errors.ts';
+import { limitAt, noCircle, radiusAt, touchingAt, within } from './generated/abi.ts';
+import type { KernelInstance } from './kernel/instance.ts';
 
 /** Options of every query, each of which adds an `out` or a `visit` of its own. */
 export interface QueryOptions {
@@ -195,16 +207,14 @@ export const everything = 0xffffffff;
 /** Instead of an id. */
 export const nobody = 0xffffffff;
 
-export function maskOf(where: string, options: QueryOptions | undefined): number {
-  const mask = options?.mask;
+export function maskOf(where: string, mask: number | undefined): number {
   if (mask === undefined) return everything;
   checkBits(`${where}: mask`, mask);
   return mask;
 }
 
 /** The one box that is ignored; `nobody` if there is none, or several: see `othersIgnored`. */
-export function ignoredOf(where: string, options: QueryOptions | undefined): number {
-  const ignore = options?.ignore;
+function ignoredOf(where: string, ignore: QueryOptions['ignore']): number {
   if (ignore === undefined) return nobody;
   if (!Array.isArray(ignore)) {
     if (isId(ignore)) return ignore;
@@ -216,10 +226,86 @@ export function ignoredOf(where: string, options: QueryOptions | undefined): num
   return ignore.length === 1 ? ignore[0] : nobody;
 }
 
-/** The ignored boxes, if there are several. */
-export function othersIgnored(options: QueryOptions | undefined): readonly number[] | undefined {
-  const ignore = options?.ignore;
-  return typeof ignore === 'object' && ignore.length > 1 ? ignore : undefined;
+/** Checks an option that is true or false. The text is made only for an error: a string in each call would be garbage. */
+export function checkSwitch(where: string, name: string, value: unknown): void {
+  if (typeof value !== 'boolean') checkBoolean(`${where}: ${name}`, value);
+}
+
+function checkCallback(where: string, name: string, value: unknown): void {
+  if (value !== undefined && typeof value !== 'function') badValue(`${where}: ${name}`, value, 'a function', true);
+}
+
+/** All options of queries with one thing. Each kind has some of them. */
+type AnyOptions = QueryOptions &
+  AreaOptions & {
+    maxDistance?: number | undefined;
+    within?: boolean | undefined;
+    out?: unknown;
+    distances?: unknown;
+    visit?: unknown;
+    accept?: unknown;
+  };
+
+/** The options of the query that is being asked. One object for all queries, to make no garbage. */
+const asked = {
+  mask: 0,
+  ignored: 0,
+  /** The ignored boxes, if there are several. */
+  others: undefined as readonly number[] | undefined,
+  out: undefined as unknown,
+  distances: undefined as unknown,
+  visit: undefined as unknown,
+  accept: undefined as unknown,
+};
+export type Asked = Readonly<typeof asked>;
+
+/** Called once all is known, so that nothing is kept from the garbage collector until the next query. */
+export function letGo(): void {
+  asked.others = asked.out = asked.distances = asked.visit = asked.accept = undefined;
+}
+
+/**
+ * Reads each option once; then writes to the io array what concerns the kernel. A getter among them may have asked a
+ * query itself. So callers write their own numbers to the io array after this call, and nothing of theirs runs before
+ * the kernel is asked.
+ */
+export function heed(
+  instance: KernelInstance,
+  where: string,
+  options: AnyOptions | undefined,
+  names: readonly string[],
+): Asked {
+  checkOptions(where, options, names);
+  const {
+    mask,
+    ignore,
+    touching = instance.touching,
+    within: wholly = false,
+    maxDistance = Number.POSITIVE_INFINITY,
+    out,
+    distances,
+    visit,
+    accept,
+  }: AnyOptions = options ?? {};
+  checkSwitch(where, 'touching', touching);
+  checkSwitch(where, 'within', wholly);
+  if (!isSize(maxDistance)) checkDistance(`${where}: maxDistance`, maxDistance);
+  checkCallback(where, 'visit', visit);
+  checkCallback(where, 'accept', accept);
+  const bits = maskOf(where, mask);
+  const one = ignoredOf(where, ignore);
+  asked.others = typeof ignore === 'object' && ignore.length > 1 ? ignore : undefined;
+  asked.mask = bits | 0; // as integers: doubles would be garbage
+  asked.ignored = one | 0;
+  asked.out = out;
+  asked.distances = distances;
+  asked.visit = visit;
+  asked.accept = accept;
+  const io = instance.io();
+  io[touchingAt] = Number(touching);
+  io[radiusAt] = wholly ? within : noCircle;
+  io[limitAt] = maxDistance;
+  return asked;
 }
 
 /** The options of each kind of query. */
@@ -238,8 +324,4 @@ export const isCount = (k: unknown): k is number =>
 export function checkMost(where: string, k: unknown): number {
   if (!isCount(k)) badNumber(`${where}: k`, k, 'an integer from 1 on, or Infinity');
   return Math.min(k, everything);
-}
-
-export function checkVisitor(where: string, visitor: unknown): void {
-  if (typeof visitor !== 'function') badValue(where, visitor, 'a function', true);
 }

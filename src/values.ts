@@ -10,10 +10,11 @@ export const isTypedArray = (value: unknown, name: string): boolean => typedArra
 export const isFloat32Array = (value: unknown): value is Float32Array => isTypedArray(value, 'Float32Array');
 export const isFloat64Array = (value: unknown): value is Float64Array => isTypedArray(value, 'Float64Array');
 
-/** Whether the memory of an array is still there. */
+/** Whether the memory of a typed array is still there. If not, even `keys` throws; its length is just 0. */
 export function isAttached(numbers: ArrayBufferView): boolean {
   try {
-    return new Uint8Array(numbers.buffer).length >= 0;
+    (numbers as Uint8Array).keys();
+    return true;
   } catch {
     return false;
   }
@@ -23,14 +24,14 @@ export const isModule = (value: unknown): value is WebAssembly.Module => tagOf(v
 
 /**
  * Any view of bytes, or all of a buffer, as bytes. Undefined for anything else.
- * @throws TypeError if its memory was transferred; `where` names the function
+ * @throws TypeError if its memory was transferred or resized; `where` names the function
  */
 export function bytesOf(value: unknown, where = 'a recording'): Uint8Array | undefined {
   try {
     if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
     if (/^(Shared)?ArrayBuffer$/.test(tagOf(value))) return new Uint8Array(value as ArrayBuffer);
   } catch (cause) {
-    throw new TypeError(`${where}: got detached memory: it was transferred, or has grown`, { cause });
+    throw new TypeError(`${where}: got detached memory: it was transferred or resized`, { cause });
   }
   return undefined;
 }
