@@ -455,9 +455,9 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
    */
   toJSON():
     | {
-        /** That of the space. */
+        /** The dimensions of the space. */
         dimensions: 2 | 3;
-        /** That of the space. */
+        /** The technique of the space. */
         technique: TechniqueName;
         /** How many boxes there are. */
         size: number;

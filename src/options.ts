@@ -38,7 +38,7 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
   /**
    * The size of a world that wraps around, along each axis: what leaves it on one side enters on the other, as in
    * Asteroids. Boxes may be given anywhere; those from 0 to this size, or from minus half of it to half of it, cost
-   * least. Two are a pair if they overlap after both are shifted by whole worlds. A box as long as the world, or
+   * least. Two boxes are a pair if they overlap after being shifted by whole worlds. A box as long as the world, or
    * infinite, reaches all around. The numbers stay as they were given. Queries see a copy of each box in every
    * repetition of the world, and return each box once: see the guide to queries, also for worlds that wrap along one
    * axis only. Numbers above 0, up to 1e300. Default: the world is unbounded.
@@ -46,8 +46,8 @@ export interface BroadPhaseOptions<D extends Dimensions = 2, Technique extends T
   wrap?: readonly number[] | undefined;
   /**
    * Whether boxes that only touch overlap: in pairs, events, and, unless they say otherwise, queries about places.
-   * Default true. If false, a box of zero size overlaps only the boxes it is inside of. Nothing only touches a box that
-   * is as long as a world that wraps around: along that axis it has no sides.
+   * Default true. If false, a box of zero size overlaps only the boxes it is inside of. A box that is as long as a world
+   * that wraps around has no sides along that axis, so nothing merely touches it there.
    */
   touching?: boolean | undefined;
   /** Whether every update determines which pairs began and ended, for `began` and `ended`. Default false. */

@@ -15,7 +15,7 @@ import type { KernelInstance } from './kernel/instance.ts';
 
 /** Options of every query, each of which adds an `out` or a `visit` of its own. */
 export interface QueryOptions {
-  /** Only boxes with a layer in it: 32 bits, as for `setFilter`. All bits, the default: all boxes, even one without a layer. */
+  /** Only boxes on a layer in this mask: 32 bits, as for `setFilter`. Default: all bits, and so all boxes, even those on no layer. */
   mask?: number | undefined;
   /** A box to leave out, usually the one that asks, or a few: each is compared with each answer. */
   ignore?: number | readonly number[] | undefined;
@@ -33,7 +33,7 @@ export interface IdsOptions extends QueryOptions, AreaOptions {
   out?: number[] | undefined;
   /**
    * Called for each answer instead of collecting them; `false` ends the search. The answer is then empty. Must not call
-   * `update` or `restore` of this space, or the query throws; nor may it return a Promise. So for each `visit`, `accept`.
+   * `update` or `restore` of this space, or the query throws; nor may it return a Promise. This holds for every `visit` and `accept`.
    */
   visit?: ((id: number) => unknown) | undefined;
 }
@@ -71,11 +71,11 @@ export interface NearestOptions extends QueryOptions {
 
 /** What a ray hits. */
 export interface RayHit {
-  /** Of the box. */
+  /** The id of the box. */
   id: number;
   /** From the origin to the box, in units of the world; 0 if the ray starts at its face or inside. */
   distance: number;
-  /** Of the face that was hit, against the ray: one number per axis, -1, 0 or 1; all 0 if the ray starts inside. */
+  /** The normal of the face that was hit, against the ray: one number per axis, -1, 0 or 1; all 0 if the ray starts inside. */
   normal: number[];
 }
 
@@ -107,14 +107,14 @@ export interface RayAllOptions extends QueryOptions {
 
 /** What a moving box hits. */
 export interface SweepHit {
-  /** Of the box. */
+  /** The id of the box. */
   id: number;
   /**
    * The fraction of the motion, 0 … 1, until they touch; 0 if they touch or overlap from the start. It is rounded
    * towards the start: `maxX + dx * time` is never beyond the face.
    */
   time: number;
-  /** Of the face that was hit, against the motion: as in {@link RayHit}. */
+  /** The normal of the face that was hit, against the motion: as in {@link RayHit}. */
   normal: number[];
 }
 
@@ -153,33 +153,33 @@ export interface ManyIds {
 
 /** Answers to {@link BroadPhase.nearests}. */
 export interface ManyNearest extends ManyIds {
-  /** Of each answer. */
+  /** The distance of each answer. */
   distances: Float64Array;
 }
 
 /** Answers of {@link BroadPhase.nearestsOfAll}. */
 export interface ManyNearestOfAll extends ManyNearest {
-  /** The boxes that ask: their ids. */
+  /** The ids of the boxes whose neighbours are listed. */
   of: Uint32Array;
 }
 
 /** Answers of {@link BroadPhase.rayCasts}. */
 export interface ManyRayHits extends ManyNearest {
-  /** Of each answer, one number per axis: as in {@link RayHit}. */
+  /** The normals of all answers, one number per axis: as in {@link RayHit}. */
   normals: Int8Array;
 }
 
 /** Answers of {@link BroadPhase.sweeps}. */
 export interface ManySweepHits extends ManyIds {
-  /** Of each answer: as in {@link SweepHit}. */
+  /** The time of each answer: as in {@link SweepHit}. */
   times: Float64Array;
-  /** Of each answer, one number per axis: as in {@link SweepHit}. */
+  /** The normals of all answers, one number per axis: as in {@link SweepHit}. */
   normals: Int8Array;
 }
 
 /** Options of many queries. */
 export interface ManyOptions<Answer = ManyIds> {
-  /** Only boxes with a layer in it: 32 bits, as for `setFilter`. All bits, the default: all boxes, even one without a layer. */
+  /** Only boxes on a layer in this mask: 32 bits, as for `setFilter`. Default: all bits, and so all boxes, even those on no layer. */
   mask?: number | undefined;
   /** For each query a box to leave out of its answers, usually the one that asks; any id, in use or not. */
   ignoreEach?: Uint32Array | readonly number[] | undefined;

@@ -36,7 +36,7 @@ export async function run({ kinds, everything, json, selection }) {
     console.log(`\n${title}: ${rows.length} rows\n${headOf(kind)}`);
     for (const row of rows) {
       if (performance.now() > end) {
-        record.cut = `The run ended before this row: ${kind}, ${row.name}${row.count ? `, ${whole(row.count)} boxes` : ''}.`;
+        record.cut = `Not measured for lack of time: ${kind}, from ${row.name}${row.count ? `, ${whole(row.count)} boxes` : ''} on.`;
         console.log(record.cut);
         if (output) save(output, record);
         break;

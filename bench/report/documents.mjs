@@ -33,7 +33,7 @@ export function figuresPage(record) {
     part(
       'objects',
       '## A whole frame, from objects',
-      'A game has things with x, y, width and height in doubles. In a frame it gives the boxes, finds all pairs, and reads both things of each pair. A contender that cannot be timed in five frames within a second is "slow".',
+      'A game has things with x, y, width and height in doubles. In a frame it gives the boxes, finds all pairs, and reads both things of each pair. A contender is "slow" if five frames do not fit into a second.',
       objectsTable(record),
       'All move: the time of each package divided by that of `set`.',
       objectsOthers(record),
@@ -102,6 +102,7 @@ const headlineScenes = [
 const sceneWords = {
   uniform: 'all move',
   mixed: 'sizes from 2 to 2,000',
+  clustered: 'twenty crowds',
   static: '5 % move',
   rain: 'a recorded Box2D game',
 };
@@ -128,7 +129,7 @@ export function headlineOf(record) {
     originOf(record),
     'A whole frame of a game: its things are objects, their boxes are given, all pairs found, and both things of each pair read.',
     worthTable(record, headlineThings),
-    `The kernel alone, with boxes written in place as float32. ${legend.join('; ')}.`,
+    `The kernel alone, with boxes written in place as float32. The ratio is the package's time divided by that of \`auto\`. ${legend.join('; ')}.`,
     markdownTable(['scene', 'boxes', 'pairs', '`auto`', 'the fastest npm package', 'ratio'], cells),
   );
 }

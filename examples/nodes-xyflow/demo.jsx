@@ -195,7 +195,7 @@ export function nodesDemo(stage, { wake, say }) {
       rbush: 'rbush',
       flatbush: 'flatbush',
       quadtree: 'quadtree',
-      naive: 'every two',
+      naive: 'all pairs',
     },
     use(key) {
       separation.work = by[key];

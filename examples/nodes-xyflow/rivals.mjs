@@ -1,4 +1,4 @@
-// What people use instead, by the same rule as separate.mjs: a loop over every two, or a search for each node in rbush,
+// What people use instead, by the same rule as separate.mjs: a loop over all pairs, or a search for each node in rbush,
 // flatbush or a quadtree, which is rebuilt in every iteration.
 import { Quadtree, Rectangle } from '@timohausmann/quadtree-ts';
 import Flatbush from 'flatbush';

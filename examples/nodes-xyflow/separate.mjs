@@ -1,7 +1,7 @@
 // Nodes of React Flow or Svelte Flow that overlap push each other apart. One file, to copy.
 import { BroadPhase } from 'broadphase';
 
-/** Up to this many nodes, a loop over every two is faster than a search. */
+/** Up to this many nodes, a loop over all pairs is faster than a search. */
 const few = 48;
 /** Nodes at most this many pixels apart are tested too, since a push may bring them together. */
 const near = 2;

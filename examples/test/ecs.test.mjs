@@ -1,4 +1,4 @@
-// Both ECS, through spawning, moving and despawning, against a loop over every two entities.
+// Both ECS, through spawning, moving and despawning, against a loop over all pairs of entities.
 import { describe, expect, test } from 'vitest';
 import { installed, pairName } from './check.mjs';
 

@@ -1,4 +1,4 @@
-// Rectangles end up apart, pushed as by a loop over every two; labels are shown as if placed one by one.
+// Rectangles end up apart, pushed as by a loop over all pairs; labels are shown as if placed one by one.
 import { describe, expect, test } from 'vitest';
 import { firstScales } from '../force-d3/first-scales.mjs';
 import { forceCollideRect } from '../force-d3/force-collide-rect.mjs';

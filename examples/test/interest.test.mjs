@@ -5,7 +5,7 @@ import { installed } from './check.mjs';
 
 const sorted = (set) => [...set].sort();
 
-/** Who sees whom, by a look at every two. */
+/** Who sees whom, by a test of every pair. */
 function pairsInSight(places, reachX, reachY) {
   const pairs = new Set();
   for (const [viewer, [x, y]] of places) {

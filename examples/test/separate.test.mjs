@@ -1,9 +1,9 @@
-// Nodes end up apart, as by a loop over every two, and fixed nodes do not move.
+// Nodes end up apart, as by a loop over all pairs, and fixed nodes do not move.
 import { describe, expect, test } from 'vitest';
 import { makeNodes } from '../nodes-xyflow/datasets.mjs';
 import { separate } from '../nodes-xyflow/separate.mjs';
 
-/** How many pairs of nodes overlap by more than `threshold` along both axes, by a loop over every two. */
+/** How many pairs of nodes overlap by more than `threshold` along both axes, by a loop over all pairs. */
 function overlapping(nodes, threshold, padding = 0) {
   let count = 0;
   for (const [k, a] of nodes.entries()) {

@@ -1,4 +1,4 @@
-// The simplest model of a space: a map from id to box in double precision, and all pairs by testing every two boxes.
+// The simplest model of a space: a map from id to box in double precision, and all pairs by testing every pair of boxes.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@ export const others = 'var(--control-line)';
 export const style = { fontSize: '12px', background: 'none', overflow: 'visible' };
 const rowHeight = 22;
 /** Room for the names on the left, and for the label after the longest bar. */
-const [nameRoom, labelRoom] = [132, 62];
+const [nameRoom, labelRoom] = [140, 62];
 
 /** The marks of a logarithmic axis: at powers of ten, and between them if those are few. */
 export function marks(from: number, to: number): number[] {

@@ -109,7 +109,7 @@ function answerOf(race: Race): string {
   const [hand, pack] = [of((peer) => peer === 'by hand'), of((peer) => !['by hand', 'broadphase'].includes(peer))];
   const parts = [
     set && `${ms(set)} with this library, each box given by set`,
-    hand && `${ms(hand)} with the best that one writes oneself, ${hand.name}`,
+    hand && `${ms(hand)} with the fastest code of your own, ${hand.name}`,
     pack && `${ms(pack)} with the fastest package, ${pack.name}`,
   ];
   return `${formatCount(race.count)} things: a whole frame takes ${parts.filter(Boolean).join('; ')}.`;

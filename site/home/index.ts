@@ -26,7 +26,7 @@ const scenes: readonly (readonly [SceneName | 'rain', string, string])[] = [
 
 const fewest = 100;
 const most = 200_000;
-/** Brute force tests every two boxes: with more boxes a frame would take seconds. */
+/** Brute force tests every pair of boxes: with more boxes a frame would take seconds. */
 const mostByBruteForce = 20_000;
 /** The number of boxes until the visitor chooses one: the largest of these that runs smoothly on this machine. */
 const greetings = [100_000, 50_000, 20_000, 10_000, 5_000];

@@ -34,7 +34,7 @@ import { Pilot, TooSlow } from './worker/pilot.ts';
 
 /** Milliseconds that a worker may take to answer. */
 const patience = 10_000;
-/** Brute force tests every two boxes: with more boxes a frame would take seconds. */
+/** Brute force tests every pair of boxes: with more boxes a frame would take seconds. */
 const mostByBruteForce = 20_000;
 /** Limited, because every racer has all boxes in its own memory. */
 const mostInRace = 100_000;

@@ -20,6 +20,7 @@ const guides = [
   'getting-started',
   'worth-it',
   'ids-and-ecs',
+  'who-meets-whom',
   'moving-here',
   'choosing-a-technique',
   'static-worlds',

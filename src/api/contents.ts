@@ -64,7 +64,7 @@ export interface Contents<D extends Dimensions> {
   /**
    * Adds or moves box `id`, given its centre and half its size, such as the box of a circle: `setCentred(id, x, y,
    * radius, radius)`. 2D `setCentred(id, x, y, halfWidth, halfHeight)`, 3D `setCentred(id, x, y, z, halfWidth,
-   * halfHeight, halfDepth)`. The box consists of the four (six) sums, each rounded like any sum of doubles.
+   * halfHeight, halfDepth)`. Its bounds are the centre minus and plus half the size, each rounded like any sum of doubles.
    *
    * @param box an id; the centre: finite numbers; half the size along each axis: at least 0
    * @throws RangeError and TypeError that name the id and the number. The space is as before.
@@ -103,9 +103,9 @@ export interface Contents<D extends Dimensions> {
    *
    * Call this again each time before you write: it costs next to nothing and makes no garbage. Until `setAll`, `clear`
    * or `restore`, the array shows at once what `set` does, and what you write to it afterwards replaces that, doubles
-   * too. Doubles given with `set` remain until you write other values over their rounded ones. After `delete`, and
-   * after `update`, call it again: its rows may then hold other boxes, or memory has grown and detached it. `update()`
-   * checks what was written, and throws if the array was detached and not requested again since.
+   * too. Doubles given with `set` remain until you write other values over their rounded ones. After `delete` and
+   * `update`, rows may hold other boxes, or memory may have grown and detached the array. `update()` checks what was
+   * written, and throws if the array was detached and not requested again since.
    *
    * @param count how many boxes, 0 … 2^24
    * @throws RangeError or TypeError for a bad count

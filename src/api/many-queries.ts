@@ -87,10 +87,10 @@ export interface ManyQueries {
   nearests(points: Boxes, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest;
 
   /**
-   * The `k` boxes nearest to each box, itself left out, by the distance between boxes, then by id: those of box `of[n]` are
-   * `ids[offsets[n]]` up to `ids[offsets[n + 1] - 1]`. Their order depends on earlier calls: it is ascending if ids came
-   * in ascending order and none was deleted. A box that is off has no answers. In an `out` that
-   * is longer than needed, only the first places are written: one in `of` for each box of the last update.
+   * The `k` other boxes nearest to each box, by the distance between boxes, then by id: those of box `of[n]` are
+   * `ids[offsets[n]]` up to `ids[offsets[n + 1] - 1]`. The order of `of` depends on earlier calls: it is ascending if ids
+   * came in ascending order and none was deleted. A box that is off has no answers. In an `out` that is longer than
+   * needed, only the first places are written: one in `of` for each box of the last update.
    *
    * @param k an integer from 1 on, or Infinity for all
    * @throws as {@link BroadPhase.nearests}

@@ -97,8 +97,8 @@ export interface Queries<D extends Dimensions> {
    * may bound anything convex, or nothing: without planes all boxes are answers. A box near a corner of the view may be
    * outside it and yet not behind any single plane: it is among the answers.
    *
-   * In a world that wraps around, a box is in view if it is where it stands in the world, its minimum from 0 on, or one
-   * world back or forth along any axes. It is in the answer once, and inside if one of these copies is.
+   * In a world that wraps around, three copies of a box count along each axis: the one whose minimum is in the world, from
+   * 0 on, and those one world back and forth. The box is in the answer once, and inside if one of these copies is.
    *
    * @param planes 4 numbers for each plane, its normal, of any length, and its offset: `[nx, ny, nz, d, …]`; in 2D 3:
    *   `[nx, ny, d, …]`. All finite
@@ -170,11 +170,11 @@ export interface Queries<D extends Dimensions> {
 
   /**
    * The first box that a moving box hits, or `undefined`: the swept test for boxes that move too fast to be tested
-   * frame by frame. It hits the boxes that its path leads into: a box on a floor hits it only when it moves down. A box of
-   * zero size along an axis also hits the edges there, as a ray does: on a row of tiles the next one. If it overlaps a box
-   * from the start, the time is 0 and the normal is all zeros, unless it also moves into a box of a smaller id that it
-   * touches, which then comes first. Of several hit at the same time, faces come before
-   * corners, then the smallest id. A box that is in the space hits itself: name it in `ignore`. A box that stops at
+   * frame by frame. It hits the boxes that its path leads into: a box on a floor hits the floor only when it moves down. A
+   * box of zero size along an axis also hits the edges there, as a ray does: in a row of tiles, the next tile. If it
+   * overlaps a box from the start, the time is 0 and the normal is all zeros, unless it also moves into a box with a smaller
+   * id that it touches, which then comes first. Of several boxes hit at the same time, those hit on a face come before those
+   * hit at a corner, then the smallest id. A box that is in the space hits itself: name it in `ignore`. A box that stops at
    * `x + dx * time` touches, up to rounding, and never ends inside: see the guide to queries. 2D: `sweep(minX, minY, maxX,
    * maxY, dx, dy, options?)`, 3D: `sweep(minX, minY, minZ, maxX, maxY, maxZ, dx, dy, dz, options?)`.
    *
@@ -200,8 +200,7 @@ export interface Queries<D extends Dimensions> {
 
   /**
    * The ids of the `k` boxes nearest to a point, by the distance to the box, which is 0 inside, and then by id. 2D:
-   * `nearest(x, y, k, options?)`, 3D:
-   * `nearest(x, y, z, k, options?)`.
+   * `nearest(x, y, k, options?)`, 3D: `nearest(x, y, z, k, options?)`.
    *
    * @param query a point: finite coordinates; how many boxes: an integer from 1 on, or Infinity for all; then
    *   options, if any

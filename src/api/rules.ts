@@ -122,10 +122,9 @@ export interface Rules {
   groupOf(id: number): number | undefined;
 
   /**
-   * Sets how far box `id` reaches: it is in a pair while the two boxes overlap with each one enlarged by its reach on
-   * all sides. For contacts that a physics engine needs ahead of time. `get` and queries see the box itself. The
-   * setting belongs to the id, as filters do. While any box has a reach, the space keeps an enlarged copy of all
-   * boxes.
+   * Sets how far box `id` reaches: two boxes are a pair while they overlap with each enlarged by its own reach on all
+   * sides. For contacts that a physics engine needs ahead of time. `get` and queries see the box as it was given. The
+   * setting belongs to the id, as filters do. While any box has a reach, the space keeps an enlarged copy of all boxes.
    *
    * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param distance in units of the world: finite, at least 0. The sides of the enlarged box are sums, each rounded

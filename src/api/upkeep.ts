@@ -1,9 +1,9 @@
-// A space as a whole: how it searches and what that took, saved and restored, checked and let go of.
+// A space as a whole: its technique and counters, snapshots, checks, and its end.
 import type { Technique as LeanTechnique } from '../generated/kernel-lean.ts';
 import type { Stats } from '../stats.ts';
 import type { TechniqueName } from '../techniques.ts';
 
-/** A space as a whole: how it searches and what that took, saved and restored, checked and let go of. */
+/** A space as a whole: its technique and counters, snapshots, checks, and its end. */
 export interface Upkeep {
   /**
    * Counters of the last update, always in the same object.

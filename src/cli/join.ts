@@ -119,7 +119,7 @@ interface Facts {
 }
 
 function told(path: string, { pairs, boxes, dimensions, tiles, resumed, seconds, peak }: Facts): string {
-  const went = resumed > 0 ? `, ${resumed} of them done before` : '';
+  const went = resumed > 0 ? `, ${resumed} of them by an earlier run` : '';
   const [last] = boxes.slice(-1);
   const all = [...boxes.slice(0, -1).map(number), counted(last, 'box')].join(' and ');
   return (

@@ -8,14 +8,14 @@ import { leastText, list, paint } from './terminal.ts';
 const about =
   'Inspects and replays traces (recordings of the boxes of a game), and finds the best options for them. Joins files of boxes.';
 const codes = [
-  ['0', 'all well'],
+  ['0', 'success'],
   ['1', 'wrong pairs'],
   ['2', 'wrong command line'],
-  ['3', 'broken trace, or a row that is not a box'],
-  ['4', 'file trouble'],
+  ['3', 'damaged trace, or a row that is not a box'],
+  ['4', 'a file cannot be read or written'],
   ['5', 'a package is missing'],
-  ['6', 'too little memory'],
-  ['70', 'a fault here'],
+  ['6', 'not enough memory'],
+  ['70', 'a bug in the command'],
 ] as const;
 
 /** A following option is not its value; a negative number may be. */

@@ -92,7 +92,7 @@ export const nameOf = ({ technique, cellSize, margin }: Candidate): string =>
   (margin === undefined ? '' : `, margin of ${margin}`);
 
 /** How much larger 'broadphase/all' is than 'broadphase', in kB, gzipped. */
-export const moreOfAll = 20;
+export const moreOfAll = 18;
 
 /** The recommendation, its gain, and its cost in download size. */
 export function verdictOf({
@@ -110,9 +110,9 @@ export function verdictOf({
     if (saved <= 0) return `${fine} Nothing is faster.`;
     const other = `${nameOf(first)} took ${time(saved)} ms less`;
     if (saved <= timesNoise * noise * auto.ms.mean) {
-      return `${fine} ${other}, which is noise: \`auto\` differs from itself by ${percent(noise)}.`;
+      return `${fine} ${other}, which is noise: two runs of \`auto\` differ by ${percent(noise)}.`;
     }
-    return `${fine} ${other}: too little ${isLean(first.technique) ? 'for an option' : `for ${load}`}.`;
+    return `${fine} ${other}: not enough to justify ${isLean(first.technique) ? 'an option' : load}.`;
   }
   const saved = time(auto.ms.mean - best.ms.mean);
   const gain = `It takes ${time(best.ms.mean)} ms a frame, ${saved} less than \`auto\`: ${margin.toFixed(2)} times as fast.`;

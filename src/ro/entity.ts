@@ -1,18 +1,18 @@
 // One thing in the world: a box that moves by Verlet integration.
 //
-// There is no velocity property. The velocity is the way the entity came since the step before, pos - ppos, so whoever
-// moves pos (a collision response, say) changes the velocity with it, and nothing can get out of step with anything.
+// There is no velocity property. The velocity is how far the entity has moved since the previous step, pos - ppos, so
+// whoever moves pos (a collision response, say) changes the velocity with it, and the two cannot contradict each other.
 // It is a distance per step, not per second: the world's steps should all be equally long, and its loop sees to that.
 import type { AABB } from './aabb.ts';
 import * as ov3 from './ov3.ts';
 import type { Vector } from './vector.ts';
 import type { World } from './world.ts';
 
-/** What an entity is drawn in unless told otherwise: a blue that is seen on white and on black. */
+/** The default colour of an entity: a blue that is visible on white and on black. */
 const DEFAULT_COLOR = '#7f9cc0';
 
 /**
- * One thing in the world: a box that moves by Verlet integration. Its velocity is the way it came in the step before,
+ * One thing in the world: a box that moves by Verlet integration. Its velocity is how far it moved in the previous step,
  * `pos - ppos`.
  *
  * @example
@@ -56,7 +56,7 @@ export class Entity {
     this.updateAABB();
   }
 
-  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone objects whose name here is not `Object`. */
   get [Symbol.toStringTag](): string {
     return 'Entity';
   }

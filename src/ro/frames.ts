@@ -1,8 +1,8 @@
-// One frame from now: the display's own beat where there is a display, a timer where there is none.
+// One frame from now: the display's next refresh where there is a display, a timer where there is none.
 
 /**
  * Calls `callback` once, with the time in milliseconds, at the next frame.
- * @returns a function that calls it off
+ * @returns a function that cancels it
  */
 export function nextFrame(callback: (now: number) => void): () => void {
   if (typeof requestAnimationFrame === 'function') {

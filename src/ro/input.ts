@@ -4,9 +4,9 @@ import type { Vector } from './vector.ts';
 
 /** Where the pointer is, in world units, and what it does there. */
 export interface Pointer extends Vector {
-  /** Over the canvas. A finger is only while it touches. */
+  /** Whether it is over the canvas; a finger is only while it touches. */
   isOver: boolean;
-  /** A button is held, or a finger is down, since it was pressed on the canvas. */
+  /** Whether a button is held, or a finger is down, that was pressed on the canvas. */
   isDown: boolean;
 }
 
@@ -24,7 +24,7 @@ export class Input {
   readonly keys: ReadonlySet<string>;
   readonly #listening = new AbortController();
 
-  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone objects whose name here is not `Object`. */
   get [Symbol.toStringTag](): string {
     return 'Input';
   }
@@ -51,13 +51,13 @@ export class Input {
     onPointer('pointermove', { isOver: true });
     onPointer('pointerdown', { isOver: true, isDown: true });
     onPointer('pointerleave', { isOver: false });
-    // The button may be let go anywhere on the page.
+    // The button may be released anywhere on the page.
     onPointer('pointerup', { isDown: false }, canvas.ownerDocument);
     onPointer('pointercancel', { isDown: false, isOver: false }, canvas.ownerDocument);
 
     canvas.addEventListener('keydown', (event) => keys.add(event.code), { signal });
     canvas.addEventListener('keyup', (event) => keys.delete(event.code), { signal });
-    // Keys let go elsewhere are never heard of.
+    // The release of a key elsewhere is not reported.
     canvas.addEventListener('blur', () => keys.clear(), { signal });
   }
 

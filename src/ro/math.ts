@@ -28,7 +28,7 @@ export function toNearest(value: number, multiple: number): number {
 export function toNearestAlong(point: Vector, direction: Vector, multiple: number): Vector {
   const alongX = (toNearest(point.x, multiple) - point.x) / direction.x;
   const alongY = (toNearest(point.y, multiple) - point.y) / direction.y;
-  // A direction without an x never gets to another x: that way is not finite, and does not count.
+  // A direction without an x never reaches another x: that distance is not finite, and does not count.
   const ways = [alongX, alongY].filter(Number.isFinite);
   if (ways.length === 0) {
     throw new RangeError(

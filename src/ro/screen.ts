@@ -1,14 +1,14 @@
 // The canvas: a drawing context in world units, and nothing about the world's state.
 //
 // The canvas' width and height attributes, as they are when the screen is made, say how much of the world is seen.
-// How large that is shown is CSS's business (say `width: 100%`), and the number of pixels behind it follows from both
+// How large that is shown is up to CSS (say `width: 100%`), and the number of pixels behind it follows from both
 // and the display's density, so lines stay sharp on any display, at any size, at any zoom.
 import { checkFinite } from './checks.ts';
 import type { Vector } from './vector.ts';
 
 /**
  * A canvas to draw on in world units. The width and height attributes of the canvas, as they are when the screen is
- * made, say how much of the world is seen; how large it is shown is CSS's business. A world with a canvas has one.
+ * made, say how much of the world is seen; how large it is shown is up to CSS. A world with a canvas has one.
  *
  * @example
  * new World(null).screen; // → null
@@ -18,7 +18,7 @@ export class Screen {
   readonly canvas: HTMLCanvasElement;
   /** Draws in world units. */
   readonly ctx: CanvasRenderingContext2D;
-  /** World units are this many of the canvas' own pixels large. */
+  /** How many of the canvas's own pixels a world unit is. */
   readonly scale: number;
   /** The part of the world that is seen, from { x: 0, y: 0 }, in world units. */
   readonly size: Readonly<Vector>;

@@ -12,22 +12,22 @@ import { Screen } from './screen.ts';
 
 /** 60 steps per second. */
 const DEFAULT_TIME_STEP = 1000 / 60;
-/** After a pause of the page the world goes on from where it was, rather than catching up with all that was missed. */
+/** After a pause of the page the world goes on from where it was, instead of catching up with what it missed. */
 const MAX_STEPS_PER_FRAME = 5;
-/** Milliseconds a frame may come early and still get its step: a 60 Hz display beats almost, but not quite, evenly. */
+/** Milliseconds a frame may come early and still get its step: the frames of a 60 Hz display are not quite evenly spaced. */
 const EARLY = 1;
-/** What a technique's structure is drawn in: grey that is seen on white and on black. */
+/** The colour of a technique's structure: a grey that is visible on white and on black. */
 const STRUCTURE_COLOR = 'rgb(128 128 128 / 45%)';
 
 /** How a world is set up. Inside the functions, `this` is the world. */
 export interface WorldOptions<E extends Entity = Entity> {
-  /** Finds the colliding pairs; `new coltech.BruteForce()` when left out. Has to be without entities. */
+  /** Finds the colliding pairs; default `new coltech.BruteForce()`. It must have no entities. */
   coltech?: Technique<E> | undefined;
   /** Draws the structure that the technique searches. */
   debug?: boolean | undefined;
-  /** Canvas pixels per world unit; 1 when left out. */
+  /** Canvas pixels per world unit; default 1. */
   scale?: number | undefined;
-  /** The length of a step of the loop in milliseconds, above 0; a 60th of a second when left out. */
+  /** The length of a step of the loop in milliseconds, above 0; default a 60th of a second. */
   timeStep?: number | undefined;
   /** Called once, at the end of construction: the place to add the first entities. */
   init?(this: World<E>): void;
@@ -76,7 +76,7 @@ export class World<E extends Entity = Entity> {
   readonly #options: WorldOptions<E>;
   #broadPhase: Technique<E>;
   readonly #entities = new Set<E>();
-  /** They as an array, until one comes or goes. */
+  /** The entities as an array, until one is added or removed. */
   #list: readonly E[] | undefined;
   #running = false;
   #cancelFrame: (() => void) | null = null;
@@ -114,7 +114,7 @@ export class World<E extends Entity = Entity> {
     options.init?.call(this);
   }
 
-  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone objects whose name here is not `Object`. */
   get [Symbol.toStringTag](): string {
     return 'World';
   }
@@ -128,7 +128,7 @@ export class World<E extends Entity = Entity> {
     return this.#list;
   }
 
-  /** The collision technique. Set another, one without entities, and they move over from the one before. */
+  /** The collision technique. If you set another, which must have no entities, those of the previous one move to it. */
   get broadPhase(): Technique<E> {
     return this.#broadPhase;
   }
@@ -142,7 +142,7 @@ export class World<E extends Entity = Entity> {
     this.#broadPhase = technique;
   }
 
-  /** Whether `start` was called, and `stop` not since. */
+  /** Whether `start` was called, and `stop` was not called since. */
   get isRunning(): boolean {
     return this.#running;
   }

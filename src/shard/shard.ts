@@ -18,9 +18,8 @@ export interface ShardOptions {
    */
   entered?: ((id: number) => void) | undefined;
   /**
-   * The result of {@link Shard.state}: the shard continues from there, with the zones as of then. An old one needs that
-   * the others {@link Shard.resend} what they have for this zone, and it what it has for them; what they have replaces
-   * what is in the state.
+   * The result of {@link Shard.state}: the shard continues from there, with the zones as of then. If the state is old, the
+   * others have to {@link Shard.resend} to this zone, and it to them. What they send replaces what is in the state.
    */
   state?: Delta | undefined;
 }
@@ -45,9 +44,9 @@ interface Seen {
  * One zone of a world cut into {@link Zones}: boxes in, and those pairs out that this zone has to report. All zones
  * together report exactly the pairs of one space with all boxes, each once, and so for `began` and `ended`.
  *
- * Each tick, in every zone: `set` and `delete` the boxes it owns, `exchange`, send what that gives to the other zones,
- * and `update` with what they sent. Between two exchanges boxes may move, and `update` be called, as long as none moves
- * further than the margin; `set` then moves ghosts too. For contact distances, give boxes that are grown by them.
+ * In each tick, every zone calls `set` and `delete` for the boxes it owns and `exchange`, sends the result to the other
+ * zones, and calls `update` with what they sent. Between two exchanges boxes may move, and `update` may be called, as long
+ * as none moves further than the margin; `set` then moves ghosts too. For contacts ahead of time, enlarge the boxes.
  *
  * @example
  * const zones = new Zones({ borders: { x: [100] } });
@@ -132,7 +131,7 @@ export class Shard {
    * Adds or moves a box that this zone owns. Boxes may be added anywhere: at the exchange the zone that contains its
    * lower corner becomes the owner. An id is free again after an exchange in which it was deleted.
    *
-   * @throws as `set` of a BroadPhase does. All is as before.
+   * @throws as `set` of a BroadPhase does. The shard is as before.
    *
    * @example
    * const shard = new Shard(new Zones({ borders: {} }), 0, new BroadPhase({ events: true }));
@@ -238,8 +237,8 @@ export class Shard {
    *
    * @param deltas those that the exchanges of other zones returned for this one; if there are several of one zone, all in
    *   the order in which they were sent
-   * @throws RangeError or TypeError for what is no delta from another zone to this one. All is as before. Also throws
-   *   what `entered` throws: call it then again with the same deltas, which calls `entered` again for that box.
+   * @throws RangeError or TypeError for what is no delta from another zone to this one. The shard is as before. Also throws
+   *   what `entered` throws: then call `update` again with the same deltas, which calls `entered` again for that box.
    *
    * @example
    * const shard = new Shard(new Zones({ borders: { x: [100] } }), 1, new BroadPhase({ events: true }));

@@ -28,7 +28,7 @@ const slack = 2 ** -48;
 
 const optionNames: readonly (keyof ZonesOptions)[] = ['borders', 'dimensions', 'margin', 'wrap'];
 
-/** What a Shard has to know of zones, and no user. */
+/** What a Shard has to know of zones, hidden from users. */
 interface Inside {
   /** The size of the world, if it wraps around. */
   wrap: readonly number[] | undefined;

@@ -9,11 +9,11 @@ const idLimit = 2 ** 24;
 /**
  * The pairs of closed boxes that overlap and may meet. Box k has the id `ids[k]`, or k; `rules` are those of {@link
  * Frame.rules}, `own` has its groups and reaches, and says whether boxes that only touch are pairs. In a world that
- * wraps around every two boxes are compared.
+ * wraps around, all pairs of boxes are compared.
  *
  * @param given minima then maxima, box after box
- * @throws RangeError for other than 2 or 3 dimensions, for a box with NaN or a minimum above its maximum, for no size of a
- *   world, and if lengths do not fit; TypeError for no array
+ * @throws RangeError for dimensions other than 2 and 3, for a box with NaN or a minimum above its maximum, for a bad size
+ *   of the world, and if lengths do not fit; TypeError for anything but arrays
  * @returns the sorted set of pairs, one number for each: the smaller id times 2^24, plus the larger
  *
  * @example
@@ -155,7 +155,7 @@ export function differenceOf(found: Float64Array, expected: Float64Array): Diffe
   return missing + extra > 0 ? { missing, extra, pair: [Math.floor(first / idLimit), first % idLimit] } : undefined;
 }
 
-/** Whether each one's layer is in the other's mask, not both are static, and none is off. */
+/** Whether each one's layer is in the other's mask, at most one is static, and neither is off. */
 function mayMeet(rules: ArrayLike<number>, a: number, b: number): boolean {
   const filtered = (rules[a] & rules[b + 1]) !== 0 && (rules[b] & rules[a + 1]) !== 0;
   const off = (rules[a + 2] | rules[b + 2]) & marks.off;

@@ -144,7 +144,7 @@ export const openPlain = (bytes: Uint8Array, options?: OpenOptions): FrameSource
 
 /**
  * Opens a trace or a raw recording, gzipped or not.
- * @throws TraceError if it is damaged; TypeError if it is no bytes
+ * @throws TraceError if it is damaged; TypeError for anything but bytes
  *
  * @example
  * const space = new BroadPhase();

@@ -100,7 +100,7 @@ export class Trace implements FrameSource {
 
 /**
  * Opens a trace: checks the file, and gives its frames any number of times.
- * @throws TraceError if it is truncated, corrupted, newer than this reader, or not a trace; TypeError if it is no bytes
+ * @throws TraceError if it is truncated, corrupted, newer than this reader, or not a trace; TypeError for anything but bytes
  *
  * @example
  * const space = new BroadPhase();

@@ -24,8 +24,8 @@ const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
  * `setAll` if their ids are 0, 1, 2, …, otherwise by `set`. If the recorded space was given them in the same way from its
  * first update on, pairs come in the same order too; otherwise `auto` and `incremental` may give another order.
  *
- * @throws RangeError if the space has other dimensions, and if lengths do not fit; TypeError if it is no space. All is as
- * before.
+ * @throws RangeError if the space has other dimensions, and if lengths do not fit; TypeError for anything but a space. The
+ * space is as before.
  *
  * @example
  * const space = new BroadPhase();

@@ -34,7 +34,7 @@ export interface Survey {
   world: number[];
   /** The area (3D: volume) of its boxes divided by that of the world. */
   density: number;
-  /** Of that frame. */
+  /** Histograms of that frame. */
   histograms: {
     /** The longest side of each box. */
     side: Bin[];

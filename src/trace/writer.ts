@@ -51,8 +51,8 @@ export class TraceWriter {
   /**
    * @param wrap the size of the world along each axis, if it wraps around
    * @param touching whether boxes that only touch are pairs
-   * @throws RangeError for other than 2 or 3 dimensions, and for no size of a world; TypeError if that is no array, or
-   *   `touching` neither true nor false
+   * @throws RangeError for dimensions other than 2 and 3, and for a bad size of the world; TypeError if the size is not an
+   *   array, or if `touching` is neither true nor false
    */
   constructor(dimensions: 2 | 3, wrap?: readonly number[], touching = true) {
     if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
@@ -93,7 +93,7 @@ export class TraceWriter {
    * @param rules layer, mask, and marks of each box (2: it is off; any other: it is static); left out: no box has a
    * rule
    * @param own the group of each box, 0 if it is in none, and how far it reaches; left out: all are 0
-   * @throws RangeError for a bad box or reach, for an id that is out of range or there twice, and if lengths do not fit;
+   * @throws RangeError for a bad box or reach, for an id that is out of range or appears twice, and if lengths do not fit;
    * TypeError for another kind of array: nothing is written then
    *
    * @example
@@ -149,7 +149,7 @@ export class TraceWriter {
   }
 
   /**
-   * The end of the file, which shows that nothing is missing. More frames may still be written, in place of it.
+   * The end of the file, which shows that nothing is missing. Instead of it, more frames may still be written.
    *
    * @example
    * const writer = new TraceWriter(2);

@@ -122,7 +122,7 @@ test('PixiJS: what is drawn is what overlaps the view, and what is picked lies u
   expect(faults).toEqual([]);
 });
 
-test('three.js: the pairs of the cloud are those of a look at every two boxes, and what overlaps is hot', async ({
+test('three.js: the pairs of the cloud are those of a test of every pair of boxes, and what overlaps is hot', async ({
   page,
 }) => {
   test.slow();
@@ -162,7 +162,7 @@ test('three.js: the pairs of the cloud are those of a look at every two boxes, a
   expect(faults).toEqual([]);
 });
 
-/** How many pairs of boxes of the space overlap, by a look at every two. */
+/** How many pairs of boxes of the space overlap, by a test of every pair. */
 const plainPairCount = `(() => {
   const boxes = [...example.space].map(([, box]) => [...box]);
   const half = boxes[0].length / 2;
@@ -297,7 +297,7 @@ for (const [framework, folder, search] of [
     const faults = await openExample(page, folder, search);
     const notes = page.locator('.note');
     await expect(notes).toHaveCount(5);
-    /** What the page says of the notes, and what a look at every two says. */
+    /** What the page says of the notes, and what a test of every pair says. */
     const look = async () => {
       const boxes = await notes.evaluateAll((all) =>
         (all as HTMLElement[]).map(({ style }) => {

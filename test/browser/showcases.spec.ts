@@ -44,7 +44,7 @@ const nodeBoxes = (page: Page) =>
     }),
   );
 
-/** How many pairs overlap by more than half a pixel: a look at every two. */
+/** How many pairs overlap by more than half a pixel: a test of every pair. */
 const overlaps = (boxes: number[][]) =>
   boxes.reduce((sum, a, k) => {
     const over = (b: number[], axis: number) => Math.min(a[axis + 2], b[axis + 2]) - Math.max(a[axis], b[axis]);
@@ -55,7 +55,7 @@ test('nodes: untangled, by everyone, none overlaps another; a node that is moved
   page,
 }) => {
   const section = await open(page, 'nodes');
-  for (const name of ['broadphase', 'rbush', 'every two']) {
+  for (const name of ['broadphase', 'rbush', 'all pairs']) {
     await section.getByRole('button', { name: 'Start over' }).click();
     await expect(section.locator('p[role=status]')).toHaveText('40 nodes');
     await section.getByRole('radio', { name }).check();

@@ -26,7 +26,7 @@ test.each([
   ['docs/entries.md', /`broadphase` \|.*\| about (\d+) kB/, 'broadphase'],
   ['docs/entries.md', /`broadphase\/all` \|.*\| (\d+) kB more/, 'broadphase/all', 'broadphase'],
   ['docs/command.md', /costs (\d+) kB more to load/, 'broadphase/all', 'broadphase'],
-  ['docs/guides/worth-it.md', /It is about (\d+) kB gzipped/, 'broadphase'],
+  ['docs/guides/worth-it.md', /The library is about (\d+) kB gzipped/, 'broadphase'],
   ['docs/guides/worth-it.md', /or (\d+) kB with 2D alone/, 'broadphase/2d'],
   ['docs/guides/performance.md', /`broadphase\/ro` is (\d+) kB/, 'broadphase/ro, beside broadphase/all'],
   ['docs/guides/performance.md', /together about (\d+) kB gzipped/, 'broadphase/ro, with broadphase/all'],

@@ -1,4 +1,4 @@
-// The pairs of two spaces that are kept: those of a look at every two boxes, whatever came before. SEED=… runs a failure
+// The pairs of two spaces that are kept: those of a test of every pair of boxes, whatever came before. SEED=… runs a failure
 // again, RUNS=… runs more.
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';

@@ -5,7 +5,7 @@
 // A zone that starts or restarts joins the others. It asks all of them; each answers with its tick and the entities it
 // owns. Then it names the tick from which on it takes part. If a zone is silent, the others check whether its process
 // is alive. If it is not, they continue, and another process recreates its room. If it is, they wait, but not for
-// ever. A slow zone answers that it has not reached the tick yet; one that has left the asking zone out answers that.
+// ever. A slow zone answers that it has not reached the tick yet; one that has left out the zone that asks says so.
 // Entities turn back at the border of a zone that is missing.
 import { pack, packDelta, packEntities, unpack, unpackDelta, unpackEntities } from './wire.mjs';
 import { tickTime } from './world.mjs';

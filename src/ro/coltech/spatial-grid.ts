@@ -189,7 +189,7 @@ export class SpatialGrid<E extends Collidable = Entity> extends EntityList<E> {
     });
   }
 
-  /** `forEach` passes over the columns and cells that were never made. */
+  /** `forEach` skips the columns and cells that were never made. */
   #forEachCell(visit: (entities: E[], col: number, cell: number) => void): void {
     this.grid.forEach((column, col) => {
       column.forEach((entities, cell) => {

@@ -47,12 +47,12 @@ export abstract class EntityList<E extends Collidable = Entity> implements Techn
   /** Arrays the last update made, all of them garbage at the next one. */
   arraysCreated = 0;
   readonly #byId = new Map<number, E>();
-  /** They as an array, until one comes or goes. */
+  /** The entities as an array, until one is added or removed. */
   #list: readonly E[] | undefined;
   /** Whether the next query comes right after an update. */
   #fresh = false;
 
-  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone what is no plain object by this name. */
+  /** Frameworks that wrap what they hold in proxies, such as Vue, leave alone objects whose name here is not `Object`. */
   get [Symbol.toStringTag](): string {
     return 'EntityList';
   }
