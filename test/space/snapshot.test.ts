@@ -407,6 +407,31 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     expect([...new BroadPhase().restore(sealed(ordered.snapshot())).keys()]).toEqual([2, 3]);
   });
 
+  test('forged: as many boxes have come as there are numbers for their order', () => {
+    const ordered = new BroadPhase();
+    for (const id of [3, 1, 4, 5, 9, 2, 6]) ordered.set(id, 0, 0, 1, 1);
+    for (const id of [4, 3]) ordered.delete(id);
+    const [boxes, ids] = [ordered.size * 16, ordered.size * 4];
+    for (let left = 0; left < 4; left++) {
+      const bytes = ordered.snapshot();
+      const view = new DataView(bytes.buffer);
+      const more = 2 ** 32 - 1 - left - view.getUint32(24 + boxes + ids, true); // as if these had come before
+      for (let n = 0; n <= ordered.size; n++) {
+        const at = 24 + boxes + ids + 4 * n;
+        view.setUint32(at, view.getUint32(at, true) + more, true);
+      }
+      const space = new BroadPhase().restore(sealed(bytes));
+      const model = new Set(ordered.keys());
+      for (const id of [7, 3, 8, 0, 5, 6, 4, 1, 7, 10]) {
+        if (model.delete(id)) space.delete(id);
+        else space.set(id, 0, 0, 1, 1);
+        if (space.has(id)) model.add(id);
+        expect([...space.keys()], `${left} left, after ${id}`).toEqual([...model]);
+      }
+      space.validate();
+    }
+  });
+
   test('forged: right checksum, wrong content', () => {
     const plain = new BroadPhase().set(5, 0, 0, 1, 1).set(7, 0, 0, 1, 1);
     plain.setStatic(5);
