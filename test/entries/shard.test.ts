@@ -142,12 +142,24 @@ class Game {
     const deltas = this.#shards.flatMap((shard) => shard.exchange(this.#zones)).map((delta) => structuredClone(delta));
     this.counts.given += this.#shards.reduce((sum, { given }) => sum + given.length, 0);
     this.#compare(deltas);
+    this.#compareHandedOver();
     for (const id of this.boxes.keys()) {
       const owners = this.#shards.filter((shard) => shard.owns(id)).map(({ zone }) => zone);
       expect(owners).toEqual([this.#zones.ownerOf(this.boxes.get(id)!)]);
       this.#owner.set(id, owners[0]);
     }
     if (this.#random() < 0.1) this.#restart(Math.floor(this.#random() * this.#shards.length));
+  }
+
+  /** What was given and what was taken is what has another owner now. */
+  #compareHandedOver(): void {
+    const sorted = (ids: Iterable<number>) => [...ids].sort((a, b) => a - b);
+    const ownerNow = (id: number) => this.#zones.ownerOf(this.boxes.get(id)!);
+    const handedOver = [...this.boxes.keys()].filter((id) => ownerNow(id) !== this.#owner.get(id));
+    for (const { zone, given, taken } of this.#shards) {
+      expect(sorted(given)).toEqual(sorted(handedOver.filter((id) => this.#owner.get(id) === zone)));
+      expect(sorted(taken)).toEqual(sorted(handedOver.filter((id) => ownerNow(id) === zone)));
+    }
   }
 
   #restart(zone: number): void {
@@ -313,6 +325,49 @@ describe('two zones', () => {
     tick(shards);
     expect(keysOf(shards.flatMap(({ pairs }) => [...pairs]))).toEqual(keysOf([1, 10, 2, 10]));
     expect(shards.flatMap(({ began, ended }) => [...began, ...ended])).toEqual([]);
+  });
+
+  test('call `entered` once for each box that comes', () => {
+    const calls: string[] = [];
+    const shards = [0, 1].map((zone) => {
+      const entered = (id: number) => void calls.push(`${id} in ${zone}`);
+      return new Shard(zones, zone, new BroadPhase({ events: true }), { entered });
+    });
+    const move = (x: number) => {
+      shards[0]!.set(1, x, 0, x + 10, 10);
+      tick(shards);
+      return calls.splice(0);
+    };
+    expect(move(80)).toEqual(['1 in 0']);
+    expect(move(81)).toEqual([]);
+    expect(move(95)).toEqual(['1 in 1']); // where it was, and where it is
+    expect(move(96)).toEqual([]);
+    expect(move(80)).toEqual([]);
+    expect(move(97)).toEqual(['1 in 1']);
+  });
+
+  test('keep no box for which `entered` threw, and which is deleted then', () => {
+    const [left, right] = make((id) => {
+      if (id === 1) throw new Error('not this one');
+    }) as [Shard, Shard];
+    expect(() => left.set(1, 90, 0, 99, 10).update()).toThrow('not this one');
+    left.set(2, 91, 0, 99, 10).delete(1);
+    tick([left, right]);
+    expect([[...left.space.keys()], [...left.pairs]]).toEqual([[2], []]);
+  });
+
+  test('tell where a box was only if it comes into sight', () => {
+    const [left, right] = make() as [Shard, Shard];
+    left.set(1, 80, 0, 90, 10);
+    tick([left, right]);
+    const told = (x: number) => {
+      const deltas = left.set(1, x, 0, x + 10, 10).exchange();
+      for (const shard of [left, right]) shard.update(deltas.filter(({ to }) => to === shard.zone));
+      return deltas.map(({ changes, boxes }) => [[...changes], [...boxes]]);
+    };
+    expect(told(95)).toEqual([[[1], [95, 0, 105, 10, 80, 0, 90, 10]]]);
+    expect(told(96)).toEqual([[[0], [96, 0, 106, 10]]]);
+    expect(told(81)).toEqual([[[0], [81, 0, 91, 10]]]); // the last time
   });
 
   test('say what is wrong, and are as before', () => {
