@@ -356,6 +356,14 @@ describe('two zones', () => {
     expect([[...left.space.keys()], [...left.pairs]]).toEqual([[2], []]);
   });
 
+  test('refuse calls by `entered`, and a space with boxes', () => {
+    const [left] = make(() => void left!.delete(1));
+    expect(() => left!.set(1, 0, 0, 9, 9).update()).toThrow('delete: called by entered, expected only after update');
+    expect([left!.delete(1), left!.delete(1)]).toEqual([true, false]);
+    const space = new BroadPhase({ events: true }).set(1, 0, 0, 9, 9);
+    expect(() => new Shard(zones, 0, space)).toThrow('space.size: got 1, expected an empty space');
+  });
+
   test('tell where a box was only if it comes into sight', () => {
     const [left, right] = make() as [Shard, Shard];
     left.set(1, 80, 0, 90, 10);
