@@ -87,6 +87,18 @@ describe('an array that does not fit the boxes:', () => {
     expect(call).toThrow(message);
   });
 
+  test.each<[string, Uint32Array | undefined, object]>([
+    ['trace: rules.length: got 3, expected 6', Uint32Array.from(rule), {}],
+    ['trace: groups.length: got 1, expected 2', undefined, { groups: Uint32Array.of(1) }],
+    ['trace: groups: got [1, 2], expected a Uint32Array', undefined, { groups: [1, 2] }],
+    ['trace: reaches.length: got 3, expected 2', undefined, { reaches: Float64Array.of(1, 2, 3) }],
+    ['trace: reaches: got -1, expected finite numbers, 0 or more', undefined, { reaches: Float64Array.of(0, -1) }],
+  ])('%s, and nothing is written', (message, rules, own) => {
+    const [writer, other] = [new TraceWriter(2), new TraceWriter(2)];
+    expect(() => writer.frame(new Float32Array(boxes), undefined, rules, own)).toThrow(message);
+    expect(writer.frame(new Float32Array(boxes))).toEqual(other.frame(new Float32Array(boxes)));
+  });
+
   test.each<[string, Partial<Frame>]>([
     ['applyFrame: boxes.length: got 8, expected 0', { count: 0 }],
     ['applyFrame: ids.length: got 1, expected 2', { ids: Uint32Array.of(7) }],
