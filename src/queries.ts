@@ -53,14 +53,15 @@ export function rayCast(
 
 /** The first hit, or the first that is accepted. */
 function first(instance: KernelInstance, where: string, kind: typeof orderRay | typeof orderWay, asked: Asked) {
-  const far = kind === orderRay ? 'distance' : 'time';
+  const isRay = kind === orderRay;
   const { out, accept } = asked;
-  if (out !== undefined && !isHit(out)) badHit(`${where}: out`, out, far);
+  if (out !== undefined && !isHit(out)) badHit(`${where}: out`, out, isRay ? 'distance' : 'time');
   if (accept === undefined && order(instance, where, kind, asked, 1) === 0) return undefined;
-  const hit = (out ?? { id: 0, [far]: 0, normal: [] }) as RayHit & SweepHit;
+  const hit = (out ?? (isRay ? { id: 0, distance: 0, normal: [] } : { id: 0, time: 0, normal: [] })) as RayHit &
+    SweepHit;
   if (accept !== undefined) return walk(instance, where, kind, asked, everything, hit) ? hit : undefined;
   const rank = instance.doubleView()[readHit(instance, 0, hit)]!;
-  if (kind === orderRay) hit.distance = rank;
+  if (isRay) hit.distance = rank;
   else hit.time = rank; // not `hit[far]`, which would be garbage
   return hit;
 }

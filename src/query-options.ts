@@ -264,6 +264,17 @@ export function letGo(): void {
   asked.others = asked.out = asked.distances = asked.visit = asked.accept = undefined;
 }
 
+/** What holds without options. */
+function unasked(instance: KernelInstance): Asked {
+  letGo();
+  asked.mask = asked.ignored = everything | 0;
+  const io = instance.io();
+  io[touchingAt] = Number(instance.touching);
+  io[radiusAt] = noCircle;
+  io[limitAt] = Number.POSITIVE_INFINITY;
+  return asked;
+}
+
 /**
  * Reads each option once; then writes to the io array what concerns the kernel. A getter among them may have asked a
  * query itself. So callers write their own numbers to the io array after this call, and nothing of theirs runs before
@@ -275,6 +286,7 @@ export function heed(
   options: AnyOptions | undefined,
   names: readonly string[],
 ): Asked {
+  if (options === undefined) return unasked(instance);
   checkOptions(where, options, names);
   const {
     mask,
@@ -286,7 +298,7 @@ export function heed(
     distances,
     visit,
     accept,
-  }: AnyOptions = options ?? {};
+  }: AnyOptions = options;
   checkSwitch(where, 'touching', touching);
   checkSwitch(where, 'within', wholly);
   if (!isSize(maxDistance)) checkDistance(`${where}: maxDistance`, maxDistance);
