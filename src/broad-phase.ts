@@ -112,7 +112,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   /**
    * An empty space, ready at once: there is nothing to await.
    *
-   * @throws RangeError or TypeError that names the option
+   * @throws RangeError or TypeError that names the option; RangeError if a page holds too many spaces, about 100
    * @throws Error if WebAssembly with SIMD is missing or forbidden
    *
    * @example

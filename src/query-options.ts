@@ -267,7 +267,7 @@ export function letGo(): void {
 /** What holds without options. */
 function unasked(instance: KernelInstance): Asked {
   letGo();
-  asked.mask = asked.ignored = everything | 0;
+  asked.mask = asked.ignored = -1; // all bits
   const io = instance.io();
   io[touchingAt] = Number(instance.touching);
   io[radiusAt] = noCircle;

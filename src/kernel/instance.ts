@@ -28,7 +28,7 @@ export class KernelInstance {
   /** The kernel's memory, as of the last call of `wordView`. */
   words = new Uint32Array();
   private doubles = new Float64Array();
-  private ioView = new Float64Array();
+  private numbers = new Float64Array();
   /** The array that `boxes()` returned last, while it is in use. */
   exposed: Float32Array | undefined;
   /** Whether it may have been written since the last update: then detaching it by growing memory must be noticed. */
@@ -40,7 +40,7 @@ export class KernelInstance {
   private pairs: Uint32Array[][] = [];
   private staged: (Float32Array | Float64Array)[] = [];
   private counters = new Float64Array();
-  private readonly stackTop: number;
+  private readonly top: number;
 
   constructor(dimensions: Dimensions, wrap: readonly number[] | undefined, touching: boolean, events: boolean) {
     this.dimensions = dimensions;
@@ -51,7 +51,7 @@ export class KernelInstance {
     this.width = 2 * dimensions;
     this.exports = instantiate(dimensions);
     this.ring = new Ring(this);
-    this.stackTop = this.exports.__stack_pointer.value;
+    this.top = this.exports.__stack_pointer.value;
     this.exports.open_space(dimensions);
   }
 
@@ -75,7 +75,7 @@ export class KernelInstance {
     this.exports = disposed;
     this.ring.dispose();
     this.words = new Uint32Array();
-    this.doubles = this.ioView = this.counters = new Float64Array();
+    this.doubles = this.numbers = this.counters = new Float64Array();
     this.exposed = undefined;
     this.pairs = [];
     this.neighbours = [];
@@ -111,10 +111,10 @@ export class KernelInstance {
 
   /** The kernel's array for numbers in and out. */
   io(): Float64Array {
-    if (this.ioView.length === 0) {
-      this.ioView = new Float64Array(this.kernel.memory.buffer, this.kernel.io_address(), ioLength);
+    if (this.numbers.length === 0) {
+      this.numbers = new Float64Array(this.kernel.memory.buffer, this.kernel.io_address(), ioLength);
     }
-    return this.ioView;
+    return this.numbers;
   }
 
   /** The kernel's memory. */
@@ -165,7 +165,7 @@ export class KernelInstance {
 
   /** After an exception from the kernel: makes the space usable again, and throws an error that says what was wrong. */
   recover(error: unknown, where: string): never {
-    if (!this.isDisposed) this.exports.__stack_pointer.value = this.stackTop; // the end of the stack is no RuntimeError
+    if (!this.isDisposed) this.exports.__stack_pointer.value = this.top; // the end of the stack is no RuntimeError
     if ((error as Error | undefined)?.name !== 'RuntimeError') throw error;
     if (this.kernel.recover() === 0) throw error;
     throw new RangeError(

@@ -71,10 +71,17 @@ function notKernel(what: string): never {
 
 const inlinedBytes = (dimensions: Dimensions) => read(text, dimensions === 2 ? 3 : 2);
 
-/** A fresh kernel with memory of its own, for boxes of this many dimensions. */
+/**
+ * A fresh kernel with memory of its own, for boxes of this many dimensions. Browsers reserve gigabytes of addresses for
+ * each memory, so a page can hold few: about 125 in Chromium, 1,000 in Firefox.
+ */
 export function instantiate(dimensions: Dimensions): KernelExports {
   modules[dimensions] ??= compile(inlinedBytes(dimensions));
-  return new WebAssembly.Instance(modules[dimensions]).exports as unknown as KernelExports;
+  try {
+    return new WebAssembly.Instance(modules[dimensions]).exports as unknown as KernelExports;
+  } catch (cause) {
+    throw new RangeError('no memory for another space: a page holds about 100; dispose() of old ones', { cause });
+  }
 }
 
 /** The techniques of the kernel: a bit for each. */
