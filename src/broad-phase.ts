@@ -101,6 +101,8 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   readonly dimensions: D;
   /** @internal */
   declare readonly [inner]: KernelInstance;
+  /** @internal Its ring. With a symbol, `set` would be too long for V8 to inline it three times into one function. */
+  declare readonly '#ring': KernelInstance['ring'];
   /** The counters, once somebody has asked for them. */
   #stats: Stats | undefined;
   /** Spare hit objects, from answers that were shorter than the one before, to reuse in a longer one. */
@@ -122,7 +124,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   constructor(...options: ConstructorOptions<D>);
   constructor(options?: BroadPhaseOptions<D>) {
     const instance = open(options);
-    Object.defineProperty(this, inner, { value: instance });
+    Object.defineProperties(this, { [inner]: { value: instance }, '#ring': { value: instance.ring } });
     this.dimensions = instance.dimensions as D;
     given(this, 'new BroadPhase', arguments.length, 1);
   }
@@ -141,7 +143,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     // Short enough for V8 to inline three times into one function; otherwise each call would allocate its doubles on the
     // heap: docs/decisions/0003-ring.md. `arguments` may be passed on by `apply` alone, or each call would allocate it; and
     // Firefox does so unless its length is read by these very words.
-    const { ring } = this[inner];
+    const ring = this['#ring'];
     const length = arguments.length;
     if (
       length !== ring.step ||
@@ -162,8 +164,8 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     numbers[next + 2] = b;
     numbers[next + 3] = c;
     numbers[next + 4] = d;
-    if (length !== 5) {
-      numbers[next + 5] = e!;
+    if (e !== undefined) {
+      numbers[next + 5] = e;
       numbers[next + 6] = f!;
     }
     if (id >= ring.limit || next >= ring.last) ring.settle(id);
@@ -194,7 +196,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     ) {
       badSwept.apply(this, arguments as unknown as unknown[]);
     }
-    const { ring } = this[inner];
+    const ring = this['#ring'];
     const { way } = ring;
     way[0] = flat ? e : g!;
     way[1] = flat ? f : h!;
@@ -205,7 +207,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
 
   setCentred(...box: CentredBoxOfId<D>): this;
   setCentred(id: number, a: number, b: number, c: number, d: number, e?: number, f?: number): this {
-    const { ring } = this[inner];
+    const ring = this['#ring'];
     const flat = ring.step === 5;
     if (
       arguments.length !== ring.step ||
@@ -472,10 +474,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     return { dimensions: this.dimensions, technique: this.technique, size: this.size, pairs: this.pairCount };
   }
 
-  /**
-   * For Node's console.
-   * @internal
-   */
+  /** @internal For Node's console. */
   [Symbol.for('nodejs.util.inspect.custom')](_depth: number, options: unknown, inspect: Inspect): string {
     return `BroadPhase ${inspect(this.toJSON(), options)}`;
   }
