@@ -21,7 +21,11 @@ const inAscii = (code: string) =>
   code.replace(/[^\0-\x7f]/g, (character) => `\\u${character.charCodeAt(0).toString(16).padStart(4, '0')}`);
 
 const common: UserConfig = { format: 'esm', platform: 'neutral', target: 'es2022', clean: false, plugins: [ascii] };
-const types: UserConfig = { ...common, plugins: [], dts: { emitDtsOnly: true } };
+const types: UserConfig = {
+  ...common,
+  plugins: [],
+  dts: { emitDtsOnly: true, compilerOptions: { stripInternal: true } },
+};
 
 /** For entries that import others of this package by their names, and find them beside themselves. */
 const beside = (library: string): UserConfig => {

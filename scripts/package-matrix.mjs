@@ -78,8 +78,14 @@ const matrix = {
   TypeScript: {
     from: 'typescript',
     async try(at) {
-      const tsc = (...options) => at.run('tsc', '--ignoreConfig', '--strict', '--target', 'es2022', ...options);
-      await tsc('--noEmit', '--module', 'esnext', '--moduleResolution', 'bundler', 'main.mts');
+      // The oldest that the README promises, the one used here, and the newest.
+      const compiler = (version, ...options) =>
+        at.run('node', join(tools, version, 'bin/tsc'), '--strict', '--target', 'es2022', ...options);
+      for (const version of ['typescript5', 'typescript', 'typescript7']) {
+        await compiler(version, '--noEmit', '--module', 'esnext', '--moduleResolution', 'bundler', 'main.mts');
+        await compiler(version, '--noEmit', '--module', 'nodenext', '--skipLibCheck', 'held.mts');
+      }
+      const tsc = (...options) => compiler('typescript', ...options);
       await tsc('--noEmit', '--module', 'node16', '--exactOptionalPropertyTypes', 'main.mts', 'one.cts');
       await tsc('--module', 'nodenext', 'main.mts', 'main.cts');
       equal(await at.run('node', 'main.mjs'), 'index 7,9; 1 pair; 1 frame; 0,1 guess');

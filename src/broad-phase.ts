@@ -22,7 +22,7 @@ import type { Technique as LeanTechnique } from './generated/kernel-lean.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { type BroadPhaseOptions, type ConstructorOptions, open } from './options.ts';
 import { began, eachPair, ended, eventsIn, pairCount, pairsIn, update } from './pairs.ts';
-import { type Kept, pairsWith } from './pairs-between.ts';
+import { pairsWith } from './pairs-between.ts';
 import * as places from './place-queries.ts';
 import { queryPlanes } from './plane-queries.ts';
 import * as ahead from './queries.ts';
@@ -48,12 +48,15 @@ import type {
 } from './query-options.ts';
 import * as rules from './rules.ts';
 import { restore, snapshot } from './snapshot.ts';
-import { newStats, type Stats } from './stats.ts';
+import { type Stats, statsOf } from './stats.ts';
 import { builtNames, checkTechnique, type TechniqueName, techniques } from './techniques.ts';
 import { structure, validate } from './validate.ts';
 import { show, type Watcher, type World, watch } from './watch.ts';
 
-/** The key of a space's instance. A private name would be slow where tools for older engines make it a weak map. */
+/**
+ * The key of a space's instance, which has all that a space keeps. Private names would be slow where tools for older
+ * engines make them weak maps, and the types of Vue and Immer, which list the members of what they hold, leave them out.
+ */
 const inner = Symbol('instance');
 
 /** The instance, for a call: it is refused if it has too many arguments, undefined ones too, as `set` is. */
@@ -103,13 +106,6 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   declare readonly [inner]: KernelInstance;
   /** @internal Its ring. With a symbol, `set` would be too long for V8 to inline it three times into one function. */
   declare readonly '#ring': KernelInstance['ring'];
-  /** The counters, once somebody has asked for them. */
-  #stats: Stats | undefined;
-  /** Spare hit objects, from answers that were shorter than the one before, to reuse in a longer one. */
-  readonly #spareHits: RayHit[] = [];
-  /** Pairs with other spaces. */
-  readonly #kept = new WeakMap<KernelInstance, Kept>();
-  #watcher: Watcher | undefined;
 
   /**
    * An empty space, ready at once: there is nothing to await.
@@ -324,8 +320,9 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
 
   update(): this {
-    update(this[inner], this.#stats);
-    if (this.#watcher !== undefined) show(this[inner], this.#watcher);
+    const instance = this[inner];
+    update(instance);
+    if (instance.watcher !== undefined) show(instance, instance.watcher);
     return this;
   }
   get pairs(): Uint32Array {
@@ -352,7 +349,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   pairsWith(other: BroadPhase<D>): Uint32Array {
     if (!(Object(other) === other && inner in other))
       badValue('pairsWith', other, 'another BroadPhase, of the same import', true);
-    return pairsWith(this[inner], other[inner], this.#kept);
+    return pairsWith(this[inner], other[inner]);
   }
 
   queryBox(...query: BoxQuery<D, BoxOptions>): number[];
@@ -382,7 +379,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   rayCastAll(...query: RayQuery<D, RayAllOptions>): RayHit[];
   rayCastAll(a: number, b: number, c: number, d: number, e?: unknown, f?: unknown, options?: RayAllOptions): RayHit[] {
     const instance = given(this, 'rayCastAll', arguments.length, 1 + 2 * this.dimensions);
-    return ahead.rayCastAll(instance, this.#spareHits, a, b, c, d, e, f, options);
+    return ahead.rayCastAll(instance, a, b, c, d, e, f, options);
   }
   sweep(...query: SweepQuery<D, SweepOptions>): SweepHit | undefined;
   sweep(
@@ -428,8 +425,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
 
   get stats(): Readonly<Stats> {
-    this.#stats ??= newStats(this[inner]);
-    return this.#stats;
+    return statsOf(this[inner]);
   }
   get technique(): TechniqueName {
     return techniques[this[inner].technique]!;
@@ -444,7 +440,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     return snapshot(this[inner]);
   }
   restore(bytes: Uint8Array | ArrayBuffer): this {
-    restore(this[inner], bytes, this.#stats);
+    restore(this[inner], bytes);
     return this;
   }
 
@@ -492,8 +488,9 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
    * @internal
    */
   [watch](watcher?: Watcher | null): World {
-    if (watcher && this.#watcher) throw new Error('this BroadPhase is being recorded already');
-    if (watcher !== null) this.#watcher = watcher;
-    return { wrap: this[inner].wrap, touching: this[inner].touching };
+    const instance = this[inner];
+    if (watcher && instance.watcher) throw new Error('this BroadPhase is being recorded already');
+    if (watcher !== null) instance.watcher = watcher;
+    return { wrap: instance.wrap, touching: instance.touching };
   }
 }

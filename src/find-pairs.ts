@@ -100,7 +100,7 @@ export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOp
 
 /** The pairs of the boxes in a space, as an independent array. */
 function search(space: KernelInstance, where: string): Uint32Array {
-  update(space, undefined, where);
+  update(space, where);
   return pairsIn(space).slice();
 }
 

@@ -63,17 +63,12 @@ export class Kept {
 
 let calls = 0;
 
-/** `keptOf`: what is retained for each other space. */
-export function pairsWith(
-  instance: KernelInstance,
-  other: KernelInstance,
-  keptOf: WeakMap<KernelInstance, Kept>,
-): Uint32Array {
+export function pairsWith(instance: KernelInstance, other: KernelInstance): Uint32Array {
   checkOther(instance, other);
-  let kept = keptOf.get(other);
+  let kept = instance.kept.get(other);
   if (kept === undefined) {
     kept = new Kept();
-    keptOf.set(other, kept);
+    instance.kept.set(other, kept);
   }
   const mine = instance.size;
   const others = other.size;

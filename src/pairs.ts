@@ -2,10 +2,10 @@
 import { badInPlace, checkExposed } from './boxes.ts';
 import { addressStat, pairsStat } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-import { readStats, type Stats } from './stats.ts';
+import { readStats } from './stats.ts';
 
 /** Finds the pairs of the present boxes, and updates the counters if there are any. */
-export function update(instance: KernelInstance, stats: Stats | undefined, where = 'update'): void {
+export function update(instance: KernelInstance, where = 'update'): void {
   checkExposed(instance, where);
   let bad = -1;
   try {
@@ -14,12 +14,12 @@ export function update(instance: KernelInstance, stats: Stats | undefined, where
     try {
       instance.recover(error, where);
     } finally {
-      readStats(instance, stats);
+      readStats(instance);
     }
   }
   if (bad >= 0) badInPlace(instance, where, bad);
   instance.exposedIsOpen = false;
-  readStats(instance, stats);
+  readStats(instance);
 }
 
 // The three lists of pairs.

@@ -4,7 +4,7 @@ import type { Dimensions } from './dimensions.ts';
 import { badValue } from './errors.ts';
 import { boxesAt, snapshotFaults, techniques } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-import { readStats, type Stats } from './stats.ts';
+import { readStats } from './stats.ts';
 import { bytesOf } from './values.ts';
 
 /** Bytes of the header, and the version that this library writes. */
@@ -25,7 +25,7 @@ export function snapshot(instance: KernelInstance): Uint8Array<ArrayBuffer> {
   badInPlace(instance, 'snapshot', bad);
 }
 
-export function restore(instance: KernelInstance, bytes: Uint8Array | ArrayBuffer, stats: Stats | undefined): void {
+export function restore(instance: KernelInstance, bytes: Uint8Array | ArrayBuffer): void {
   const source = snapshotBytes(bytes);
   const place = placeOf(instance);
   const io = instance.io();
@@ -46,17 +46,17 @@ export function restore(instance: KernelInstance, bytes: Uint8Array | ArrayBuffe
     try {
       instance.recover(error, 'restore');
     } finally {
-      if (placeOf(instance) !== place) restored(instance, source, stats); // memory ran out while finding the pairs
+      if (placeOf(instance) !== place) restored(instance, source); // memory ran out while finding the pairs
     }
   }
   if (fault !== 0) badSnapshot(fault, source, instance.dimensions);
-  restored(instance, source, stats);
+  restored(instance, source);
 }
 
-function restored(instance: KernelInstance, source: Uint8Array, stats: Stats | undefined): void {
+function restored(instance: KernelInstance, source: Uint8Array): void {
   instance.technique = Math.min(source[7]!, techniques.length - 1); // 255 stands for `auto`, the last one
   instance.exposed = undefined;
-  readStats(instance, stats);
+  readStats(instance);
 }
 
 /** The address of the boxes, which changes when others are restored. */

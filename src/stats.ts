@@ -38,8 +38,9 @@ export interface Stats {
 }
 
 /** The counters of the last update, in an object for all updates to come, to make no garbage. */
-export function newStats(instance: KernelInstance): Stats {
-  const stats: Stats = {
+export function statsOf(instance: KernelInstance): Stats {
+  if (instance.stats !== undefined) return instance.stats;
+  instance.stats = {
     technique: 'auto',
     reason: 'asked for',
     tests: 0,
@@ -49,12 +50,13 @@ export function newStats(instance: KernelInstance): Stats {
     entries: 0,
     bytes: 0,
   };
-  if (instance.exports.updates() > 0) readStats(instance, stats);
-  return stats;
+  if (instance.exports.updates() > 0) readStats(instance);
+  return instance.stats;
 }
 
 /** Reads the counters of the last update, if somebody has asked for them: it takes a tenth of a small update. */
-export function readStats(instance: KernelInstance, stats: Stats | undefined): void {
+export function readStats(instance: KernelInstance): void {
+  const { stats } = instance;
   if (stats === undefined) return;
   const from = instance.statsView();
   stats.tests = from[testsStat]!;

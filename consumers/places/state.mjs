@@ -48,10 +48,11 @@ const cases = {
     });
     return { ...next, made };
   },
-  'valtio, with ref': () => {
+  'valtio, worlds with ref': () => {
     const { space, world, entity } = fresh();
-    return proxy({ space: keep(space), world: keep(world), entity: keep(entity), boxes: [] });
+    return proxy({ space, world: keep(world), entity: keep(entity), boxes: [] });
   },
+  'valtio, of a space': () => Object.assign(fresh(), { space: proxy(new BroadPhase()) }),
 };
 // Svelte's runes are compiled.
 const { js } = compileModule('export const hold = (value) => { const state = $state(value); return state; };', {

@@ -2,6 +2,10 @@
 // out. Growing memory detaches views: their length is then 0, and they are made again.
 import type { Dimensions } from '../dimensions.ts';
 import { ioLength, type KernelExports, statsLength } from '../generated/abi.ts';
+import type { Kept } from '../pairs-between.ts';
+import type { RayHit } from '../query-options.ts';
+import type { Stats } from '../stats.ts';
+import type { Watcher } from '../watch.ts';
 import { instantiate } from './load.ts';
 import { Ring } from './ring.ts';
 
@@ -36,6 +40,14 @@ export class KernelInstance {
   /** The number of the selected technique. */
   technique = 0;
   readonly events: boolean;
+  /** The counters, once somebody has asked for them. */
+  stats: Stats | undefined;
+  /** Called after each update: see watch.ts. */
+  watcher: Watcher | undefined;
+  /** Spare hit objects, from answers that were shorter than the one before, to reuse in a longer one. */
+  readonly spareHits: RayHit[] = [];
+  /** Pairs with other spaces: see pairs-between.ts. */
+  readonly kept = new WeakMap<KernelInstance, Kept>();
   // Cached views: of pairs by their count, of the two arrays in which boxes are staged in turns, of the counters.
   private pairs: Uint32Array[][] = [];
   private staged: (Float32Array | Float64Array)[] = [];

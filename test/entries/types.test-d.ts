@@ -84,6 +84,10 @@ space3.sweep(0, 0, 1, 1, 5, 5);
 // @ts-expect-error: how many is missing
 space3.nearest(0, 0, 0);
 
+// Types that list the members of what they hold, as those of Vue and Immer do, leave it a space.
+type Held<T> = { [Key in keyof T]: T[Key] };
+const held: BroadPhase<3> = {} as Held<BroadPhase<3>>;
+
 // A space is not of other dimensions than its variable says.
 // @ts-expect-error: it has two
 const notSolid: BroadPhase<3> = new BroadPhase();
@@ -168,4 +172,4 @@ space2.setStatic(1, undefined);
 // @ts-expect-error: it may be undefined, which is refused
 space2.setEnabled(1, undefined);
 
-export const used = [notSolid, notSolidEither, notFlat, anySpaces, lean, back, asBoth, asFlat];
+export const used = [held, notSolid, notSolidEither, notFlat, anySpaces, lean, back, asBoth, asFlat];
