@@ -9,7 +9,7 @@ export type Box<D extends Dimensions> = D extends 2
   : [minX: number, minY: number, minZ: number, maxX: number, maxY: number, maxZ: number];
 
 /** An id and the numbers of its box. */
-export type BoxOfId<D extends Dimensions> = D extends 2 ? [id: number, ...Box<2>] : [id: number, ...Box<3>];
+export type BoxOfId<D extends Dimensions> = [id: number, ...Box<D>];
 
 /** An id, the centre of its box, and half the size along each axis. */
 export type CentredBoxOfId<D extends Dimensions> = D extends 2
@@ -22,9 +22,7 @@ export type MovingBox<D extends Dimensions> = D extends 2
   : [...Box<3>, dx: number, dy: number, dz: number];
 
 /** An id, the numbers of its box, and how far it moves along each axis. */
-export type MovingBoxOfId<D extends Dimensions> = D extends 2
-  ? [id: number, ...MovingBox<2>]
-  : [id: number, ...MovingBox<3>];
+export type MovingBoxOfId<D extends Dimensions> = [id: number, ...MovingBox<D>];
 
 /** The coordinates of a point. */
 export type Point<D extends Dimensions> = D extends 2 ? [x: number, y: number] : [x: number, y: number, z: number];

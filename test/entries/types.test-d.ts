@@ -4,7 +4,15 @@ import type { BroadPhase as Flat } from '../../src/2d.ts';
 import * as flat from '../../src/2d.ts';
 import * as solid from '../../src/3d.ts';
 import * as all from '../../src/all.ts';
-import { BroadPhase, type BroadPhaseOptions, findPairs, type TechniqueName } from '../../src/index.ts';
+import {
+  type Box,
+  type BoxOfId,
+  BroadPhase,
+  type BroadPhaseOptions,
+  findPairs,
+  type MovingBox,
+  type TechniqueName,
+} from '../../src/index.ts';
 import { record } from '../../src/trace/index.ts';
 
 /** Compiles where both types are the same. */
@@ -83,6 +91,16 @@ space2.rayCastAll(0, 0, 0, 1, 0, 0);
 space3.sweep(0, 0, 1, 1, 5, 5);
 // @ts-expect-error: how many is missing
 space3.nearest(0, 0, 0);
+
+// Functions for a space of any dimension pass on a box, or all that a call takes.
+export function place<D extends 2 | 3>(space: BroadPhase<D>, id: number, box: Box<D>, way: MovingBox<D>): void {
+  space.set(id, ...box).setSwept(id, ...way);
+}
+export function placeAll<D extends 2 | 3>(space: BroadPhase<D>, ...boxes: BoxOfId<D>[]): void {
+  for (const box of boxes) space.set(...box);
+}
+place(space2, 1, [0, 0, 1, 1], [0, 0, 1, 1, 5, 5]);
+placeAll(space3, [1, 0, 0, 0, 1, 1, 1], [2, 0, 0, 0, 1, 1, 1]);
 
 // Types that list the members of what they hold, as those of Vue and Immer do, leave it a space.
 type Held<T> = { [Key in keyof T]: T[Key] };
