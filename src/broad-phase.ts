@@ -56,8 +56,9 @@ import { show, type Watcher, type World, watch } from './watch.ts';
 /**
  * The key of a space's instance, which has all that a space keeps. Private names would be slow where tools for older
  * engines make them weak maps, and the types of Vue and Immer, which list the members of what they hold, leave them out.
+ * The property is not enumerable; Jest would compare that of a symbol nevertheless, and take no two spaces for equal.
  */
-const inner = Symbol('instance');
+const inner = '#inner';
 
 /** The instance, for a call: it is refused if it has too many arguments, undefined ones too, as `set` is. */
 function given({ [inner]: instance }: { [inner]: KernelInstance }, where: string, got: number, most: number) {
@@ -320,9 +321,8 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   }
 
   update(): this {
-    const instance = this[inner];
-    update(instance);
-    if (instance.watcher !== undefined) show(instance, instance.watcher);
+    update(this[inner]);
+    show(this[inner]);
     return this;
   }
   get pairs(): Uint32Array {
@@ -347,8 +347,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     return places.collisionsOf(given(this, 'collisionsOf', arguments.length, 2), id, out);
   }
   pairsWith(other: BroadPhase<D>): Uint32Array {
-    if (!(Object(other) === other && inner in other))
-      badValue('pairsWith', other, 'another BroadPhase, of the same import', true);
+    if (!(other instanceof BroadPhase)) badValue('pairsWith', other, 'another BroadPhase, of the same import', true);
     return pairsWith(this[inner], other[inner]);
   }
 

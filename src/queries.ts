@@ -82,16 +82,16 @@ export function rayCastAll(
     return none as RayHit[];
   }
   const isGiven = asked.out !== undefined;
-  const { spareHits } = instance;
+  const { spare } = instance;
   const out = checkOut('rayCastAll', asked.out as RayHit[] | undefined);
   for (let k = 0; k < out.length; k++) if (!isHit(out[k])) badHit(`rayCastAll: out[${k}]`, out[k], 'distance');
   const count = order(instance, 'rayCastAll', orderRay, asked, everything);
   for (let k = 0; k < count; k++) {
-    const hit = out[k] ?? (isGiven ? spareHits.pop() : undefined) ?? { id: 0, distance: 0, normal: [] };
+    const hit = out[k] ?? (isGiven ? spare.pop() : undefined) ?? { id: 0, distance: 0, normal: [] };
     hit.distance = instance.doubleView()[readHit(instance, k, hit)]!;
     out[k] = hit;
   }
-  while (out.length > count) spareHits.push(out.pop()!);
+  while (out.length > count) spare.push(out.pop()!);
   return out;
 }
 

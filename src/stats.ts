@@ -39,18 +39,19 @@ export interface Stats {
 
 /** The counters of the last update, in an object for all updates to come, to make no garbage. */
 export function statsOf(instance: KernelInstance): Stats {
-  if (instance.stats !== undefined) return instance.stats;
-  instance.stats = {
-    technique: 'auto',
-    reason: 'asked for',
-    tests: 0,
-    candidates: 0,
-    pairs: 0,
-    cells: 0,
-    entries: 0,
-    bytes: 0,
-  };
-  if (instance.exports.updates() > 0) readStats(instance);
+  if (instance.stats === undefined) {
+    instance.stats = {
+      technique: 'auto',
+      reason: 'asked for',
+      tests: 0,
+      candidates: 0,
+      pairs: 0,
+      cells: 0,
+      entries: 0,
+      bytes: 0,
+    };
+    if (instance.exports.updates() > 0) readStats(instance);
+  }
   return instance.stats;
 }
 

@@ -42,8 +42,9 @@ export type Watcher = (
   own: Own,
 ) => void;
 
-/** Calls a watcher with the contents of a space. */
-export function show(instance: KernelInstance, watcher: Watcher): void {
+/** Calls the watcher of a space, if any, with its contents. */
+export function show(instance: KernelInstance): void {
+  if (instance.watcher === undefined) return;
   instance.kernel.contents();
   const io = instance.io();
   const { size } = instance;
@@ -52,7 +53,7 @@ export function show(instance: KernelInstance, watcher: Watcher): void {
   const words = (place: number, count: number) => (io[place] ? new Uint32Array(buffer, io[place], count) : undefined);
   const doubles = (place: number, count: number) =>
     io[place] ? new Float64Array(buffer, io[place], count) : undefined;
-  watcher(
+  instance.watcher(
     doubles(doublesAt, length) ?? new Float32Array(buffer, io[boxesAt], length),
     words(idsAt, size),
     words(rulesAt, 3 * size),

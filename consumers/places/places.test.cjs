@@ -8,6 +8,13 @@ test('the library starts', () => {
   expect(() => space.set(1, 2, 2, 1, 3)).toThrow(RangeError);
 });
 
+test('spaces are equal that have the same boxes', () => {
+  const make = (id) => new library.BroadPhase().set(id, 0, 0, 10, 10);
+  expect(make(7)).toEqual(make(7));
+  expect({ space: make(7) }).toStrictEqual({ space: make(7).update() });
+  expect(make(7)).not.toEqual(make(9));
+});
+
 test('what structuredClone gives is of the realm outside', () => {
   const foreign = Object.fromEntries(
     ['Array', 'Float32Array', 'Float64Array', 'Uint8Array'].map((name) => {

@@ -17,6 +17,13 @@ test('the library starts, records, and draws nothing', async () => {
   world.step();
 });
 
+test('spaces are equal that have the same boxes', () => {
+  const make = (id) => new library.BroadPhase().set(id, 0, 0, 10, 10);
+  expect(make(7)).toEqual(make(7));
+  expect({ space: make(7) }).toStrictEqual({ space: make(7).update() });
+  expect(make(7)).not.toEqual(make(9));
+});
+
 test('what structuredClone gives', () => {
   const foreign = Object.fromEntries(
     ['Array', 'Float32Array', 'Float64Array', 'Uint8Array'].map((name) => [

@@ -45,7 +45,7 @@ export class KernelInstance {
   /** Called after each update: see watch.ts. */
   watcher: Watcher | undefined;
   /** Spare hit objects, from answers that were shorter than the one before, to reuse in a longer one. */
-  readonly spareHits: RayHit[] = [];
+  readonly spare: RayHit[] = [];
   /** Pairs with other spaces: see pairs-between.ts. */
   readonly kept = new WeakMap<KernelInstance, Kept>();
   // Cached views: of pairs by their count, of the two arrays in which boxes are staged in turns, of the counters.
