@@ -105,7 +105,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   readonly dimensions: D;
   /** @internal */
   declare readonly [inner]: KernelInstance;
-  /** @internal Its ring. With a symbol, `set` would be too long for V8 to inline it three times into one function. */
+  /** @internal Its ring. By a key in a variable, `set` would be too long for V8 to inline it three times. */
   declare readonly '#ring': KernelInstance['ring'];
 
   /**
