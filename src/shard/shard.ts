@@ -394,7 +394,8 @@ export class Shard {
         const [id, box, before] = one;
         if (before && !isBack && !this.#seen.has(id)) this.#entering.set(id, before);
         if (box) this.#receive(id, box, from);
-        else if (!done.has(one)) this.#remove(id);
+        // Another zone has added this id if `entered` threw after these messages were heard.
+        else if (!done.has(one) && this.#seen.get(id)?.owner === from) this.#remove(id);
       }
     }
   }

@@ -60,7 +60,7 @@ function aZones(random: Random, { dimensions, size, wraps, cuts, margin }: World
 
 /** All that is played: the zones, and the one space with the same boxes. */
 class Game {
-  readonly counts = { pairs: 0, began: 0, ended: 0, given: 0, restarts: 0, borders: 0 };
+  readonly counts = { pairs: 0, began: 0, ended: 0, given: 0, restarts: 0, borders: 0, thrown: 0 };
   readonly boxes = new Map<number, number[]>();
   readonly #owner = new Map<number, number>();
   readonly #whole: BroadPhase<2 | 3>;
@@ -68,13 +68,36 @@ class Game {
   readonly #world: World;
   #zones: Zones;
   #shards: Shard[];
+  #mayThrow = false;
 
   constructor(world: World, random: Random) {
     this.#world = world;
     this.#random = random;
     this.#whole = this.#space();
     this.#zones = aZones(random, world);
-    this.#shards = Array.from({ length: this.#zones.count }, (_, zone) => new Shard(this.#zones, zone, this.#space()));
+    this.#shards = Array.from({ length: this.#zones.count }, (_, zone) => this.#shard(zone));
+  }
+
+  #shard(zone: number, state?: Delta): Shard {
+    const entered = () => {
+      if (this.#mayThrow && this.#random() < 0.1) throw new Error('not yet');
+    };
+    return new Shard(this.#zones, zone, this.#space(), { entered, state });
+  }
+
+  /** Updates a shard, again and again while `entered` throws. */
+  #update(shard: Shard, deltas: readonly Delta[]): void {
+    this.#mayThrow = true;
+    for (let done = false; !done; ) {
+      try {
+        shard.update(deltas);
+        done = true;
+      } catch (error) {
+        if ((error as Error).message !== 'not yet') throw error;
+        this.counts.thrown++;
+      }
+    }
+    this.#mayThrow = false;
   }
 
   #space(): BroadPhase<2 | 3> {
@@ -165,14 +188,20 @@ class Game {
   #restart(zone: number): void {
     const state = structuredClone(this.#shards[zone].state());
     const { pairs } = this.#shards[zone];
-    this.#shards[zone] = new Shard(this.#zones, zone, this.#space(), { state });
+    this.#shards[zone] = this.#shard(zone, state);
     expect(keysOf(this.#shards[zone].pairs).sort()).toEqual(keysOf(pairs).sort());
     this.counts.restarts++;
   }
 
   #compare(deltas: readonly Delta[]): void {
     this.#whole.update();
-    for (const shard of this.#shards) shard.update(deltas.filter(({ to }) => to === shard.zone));
+    const ordered = this.#random() < 0.5 ? deltas : [...deltas].reverse();
+    for (const shard of this.#shards) {
+      this.#update(
+        shard,
+        ordered.filter(({ to }) => to === shard.zone),
+      );
+    }
     for (const kind of ['pairs', 'began', 'ended'] as const) {
       const union = keysOf(this.#shards.flatMap((shard) => [...shard[kind]])).sort();
       expect(union, kind).toEqual(keysOf(this.#whole[kind]).sort());
@@ -354,6 +383,24 @@ describe('two zones', () => {
     left.set(2, 91, 0, 99, 10).delete(1);
     tick([left, right]);
     expect([[...left.space.keys()], [...left.pairs]]).toEqual([[2], []]);
+  });
+
+  test('keep a box whose id another zone has deleted in the same tick, when `entered` throws', () => {
+    let mayThrow = false;
+    const entered = () => {
+      if (mayThrow) throw new Error('not yet');
+    };
+    const cut = new Zones({ borders: { x: [100, 200] } });
+    const shards = [0, 1, 2].map((zone) => new Shard(cut, zone, new BroadPhase({ events: true }), { entered }));
+    shards[0]!.set(1, 90, 0, 110, 10);
+    tick(shards);
+    shards[0]!.delete(1);
+    shards[2]!.set(1, 150, 0, 250, 10).set(2, 160, 0, 250, 10);
+    const deltas = [2, 0].flatMap((zone) => shards[zone]!.exchange()).filter(({ to }) => to === 1);
+    mayThrow = true;
+    expect(() => shards[1]!.update(deltas)).toThrow('not yet');
+    mayThrow = false;
+    expect([...shards[1]!.update(deltas).ids()].sort()).toEqual([1, 2]);
   });
 
   test('refuse calls by `entered`, and a space with boxes', () => {
