@@ -99,6 +99,11 @@ class World {
     return this.events.find(({ text, at }) => at >= since && pattern.test(text ?? ''));
   }
 
+  /** That a zone began, since a time. */
+  began(zone, since) {
+    return this.events.find(({ begins, at }) => at >= since && begins?.zone === zone);
+  }
+
   /** Waits for a tick after this one that all zones report. */
   wholeAfter = (tick) => this.until(`all zones after tick ${tick}`, () => this.whole?.[0].tick > tick && this.whole);
 
@@ -125,8 +130,6 @@ async function freePort() {
     if ((await Promise.all(free)).every(Boolean)) return String(first);
   }
 }
-
-const tickIn = ({ text }) => Number(/tick (\d+)/.exec(text)[1]);
 
 /** All three zones run, each in its process, and entities and clients go from one to another. */
 async function begins(world) {
@@ -155,11 +158,10 @@ async function isKilled(world) {
   process.kill(victim.process, 'SIGKILL');
   let took = 0;
   for (const zone of zonesLost) {
-    const begun = new RegExp(`^zone ${zone}: begins`);
-    const anew = await world.until(`zone ${zone} begins anew`, () => world.said(begun, killed));
+    const anew = await world.until(`zone ${zone} begins anew`, () => world.began(zone, killed));
     const here = new RegExp(`: zone ${zone} is here`);
     const back = await world.until(`others count with zone ${zone}`, () => world.said(here, killed));
-    await world.wholeAfter(tickIn(anew));
+    await world.wholeAfter(anew.begins.tick);
     took = Math.max(took, back.at - killed);
     console.log(`killed: "${anew.text}", taken over after ${back.at - killed} ms`);
   }
@@ -187,9 +189,8 @@ async function isSilent(world) {
   } finally {
     process.kill(silent, 'SIGCONT');
   }
-  const begun = new RegExp(`^zone ${zone}: begins`);
-  const back = await world.until(`zone ${zone} is back`, () => world.said(begun, stopped));
-  await world.wholeAfter(tickIn(back));
+  const back = await world.until(`zone ${zone} is back`, () => world.began(zone, stopped));
+  await world.wholeAfter(back.begins.tick);
   console.log(`silent: the others went on without zone ${zone}; "${back.text}"`);
 }
 

@@ -123,10 +123,9 @@ async function mustBeFree(at) {
 const begun = new Set();
 
 /** Starts the clients once all zones have begun: before, no entity is free. */
-function startClients({ text }) {
-  const [, zone] = /^zone (\d+): begins/.exec(text ?? '') ?? [];
-  if (zone === undefined || begun.size === zones) return;
-  if (begun.add(zone).size < zones || clients === 0) return;
+function startClients({ begins }) {
+  if (begins === undefined || begun.size === zones) return;
+  if (begun.add(begins.zone).size < zones || clients === 0) return;
   start('clients.mjs', { ports: redis ? all.map((each) => port + each) : [port], zones, clients });
 }
 

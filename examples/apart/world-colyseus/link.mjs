@@ -59,7 +59,8 @@ export class Link {
   /**
    * @param info what other zones have to know about this one: its room and its process
    * @param calls `begin()` returns { tick, entities, isLive, peers } to begin with; `ticked(given)` after each tick;
-   *   `restarted()`; `lost(zone, info)` if a zone has to be recreated; `replaced()` if this one was; `log(text)`
+   *   `restarted()`; `lost(zone, info)` if a zone has to be recreated; `replaced()` if this one was; `log(text,
+   *   event)`, where `event` has the same for programs, if there is anything to wait for
    */
   constructor({ presence, isConnected, simulation, info, calls }) {
     this.#presence = presence;
@@ -297,16 +298,19 @@ export class Link {
     // Never back to a tick that this zone has passed: it may have run alone, further than the others. A snapshot from
     // then would count as newer than what they hand to it from now on.
     const start = Math.max(tick + 1, ...ticks.map((tick) => tick + ahead));
-    const others = new Set(welcomes.flatMap(({ owned }) => [...unpack(owned, Uint32Array)]));
+    const owners = new Map(
+      welcomes.flatMap(({ from, owned }) => [...unpack(owned, Uint32Array)].map((id) => [id, from])),
+    );
     // Nobody's, as its new zone answered before it arrived there, and its old one after it had left.
     for (const [id, to, given] of welcomes.flatMap(({ given }) => given)) {
-      if (this.#welcomes.get(to)?.tick <= given) others.add(id);
+      if (this.#welcomes.get(to)?.tick <= given) owners.set(id, to);
     }
     // What others handed over since the snapshot is newer than it; live entities are newer than what was handed over.
     const offers = welcomes.flatMap((welcome) => unpackEntities(welcome.offers));
-    const all = isLive ? [...offers, ...entities] : [...entities, ...offers];
+    const left = welcomes.flatMap((welcome) => unpackEntities(welcome.left));
+    const all = isLive ? [...left, ...offers, ...entities] : [...left, ...entities, ...offers];
     const mine = new Map(all.map((entity) => [entity.id, entity]));
-    this.#simulation.restart([...mine.values()].filter(({ id }) => !others.has(id)));
+    this.#simulation.restart([...mine.values()], owners, start);
     this.tick = start;
     this.running = true;
     for (const { from, epoch, info } of welcomes) {
@@ -324,6 +328,7 @@ export class Link {
     this.#calls.restarted();
     this.#calls.log(
       `begins at tick ${start} with ${this.#simulation.entities.size} entities, beside ${welcomes.length} zones`,
+      { begins: { zone: this.#zone, tick: start } },
     );
   }
 
@@ -391,6 +396,7 @@ export class Link {
       owned: pack(Uint32Array.from(this.#simulation.entities.keys())),
       given: this.#simulation.handedToOthersThan(from),
       offers: packEntities(this.#simulation.handedTo(from, since)),
+      left: packEntities(this.#simulation.leftTo(from)),
     });
   }
 

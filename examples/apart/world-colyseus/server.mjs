@@ -10,7 +10,7 @@ import { ZoneRoom } from './zone-room.mjs';
 
 const options = JSON.parse(process.argv[2]);
 const { port, redis, rooms, zones } = options;
-const log = (text) => console.log(JSON.stringify({ at: Date.now(), process: process.pid, text }));
+const log = (text, event) => console.log(JSON.stringify({ at: Date.now(), process: process.pid, text, ...event }));
 const path = (file) => fileURLToPath(new URL(file, import.meta.url));
 
 // A restarted Redis knows no rooms.

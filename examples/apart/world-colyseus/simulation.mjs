@@ -9,6 +9,9 @@ import { boxOf, isAvatar, move, sight, xInZone } from './world.mjs';
  */
 const remembered = 60;
 
+/** The tick of a hand-over that took place at some time before a restart. */
+const before = -1;
+
 export class Simulation {
   /** The entities that this zone owns, by id. */
   entities = new Map();
@@ -30,10 +33,20 @@ export class Simulation {
     this.shard = new Shard(this.#zones, this.zone, space, { entered });
   }
 
-  /** Restarts with these entities, as after an interruption. */
-  restart(entities) {
+  /**
+   * Restarts with those of these entities that other zones do not own, as after an interruption. `owners` has the zone of
+   * each that is owned. These are remembered too, in case their zone is lost before its next snapshot: it may not be
+   * known here any more that they were handed over.
+   */
+  restart(entities, owners = new Map(), tick = 0) {
     this.#begin();
-    this.entities = new Map(entities.map((entity) => [entity.id, entity]));
+    this.entities = new Map(entities.filter(({ id }) => !owners.has(id)).map((entity) => [entity.id, entity]));
+    const known = new Set(this.#handedOver.map(({ entity }) => entity.id));
+    for (const entity of entities) {
+      const to = owners.get(entity.id);
+      if (to !== undefined && !known.has(entity.id))
+        this.#handedOver.push({ entity, to, tick: before, until: tick + remembered });
+    }
   }
 
   /** Moves all entities, and finds out what to send to the other zones. */
@@ -75,6 +88,11 @@ export class Simulation {
   /** The entities handed to a zone after a tick. */
   handedTo(zone, since) {
     return this.#handedOver.filter(({ to, tick }) => to === zone && tick > since).map(({ entity }) => entity);
+  }
+
+  /** The entities that a zone owned when this one restarted. What that zone knows of them is newer. */
+  leftTo(zone) {
+    return this.#handedOver.filter(({ to, tick }) => to === zone && tick === before).map(({ entity }) => entity);
   }
 
   /** Recent hand-overs to zones other than this: for each the entity's id, its new zone, and when. */

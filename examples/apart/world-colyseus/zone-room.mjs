@@ -51,7 +51,7 @@ export class ZoneRoom extends Room {
         },
         lost: (lost, info) => this.#makeAnew(lost, info),
         replaced: () => this.disconnect(),
-        log: (text) => log(`zone ${zone}: ${text}`),
+        log: (text, event) => log(`zone ${zone}: ${text}`, event),
       },
     });
     // Not awaited: the caller has to learn that the room is being created; until it runs, no client finds its entity.
