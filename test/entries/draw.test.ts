@@ -83,12 +83,14 @@ describe('Lines', () => {
     const space = new BroadPhase().set(7, 10, -1, 12, 1).update();
     const [x, y, toX, toY, , , normalX, normalY] = pointsOf(new Lines().addRay(space, [0, 0, 2, 0]));
     expect([x, y, toX, toY]).toEqual([0, 0, 10, 0]);
-    expect(normalX).toBeLessThan(10);
     expect(normalY).toBe(0);
     expect(pointsOf(new Lines().addRay(space, [0, 0, 2, 0, 4]))).toEqual([0, 0, 4, 0]);
+    // The bounds of the box and the ray's origin have this diameter.
+    const reach = Math.hypot(12, 2);
+    expect(normalX).toBeCloseTo(10 - 0.03 * reach, 5);
     const away = pointsOf(new Lines().addRay(space, [0, 0, -1, 0]));
     expect(away.length).toBe(4);
-    expect(away[2]).toBeLessThan(-10);
+    expect(away[2]).toBeCloseTo(-2 * reach, 5);
     expect(pointsOf(new Lines().addRay(space, [3, 4, 0, 0]))).toEqual([3, 4, 3, 4]);
   });
 
@@ -188,7 +190,7 @@ function fakeContext() {
     rect: note('rect'),
     moveTo: note('moveTo'),
     lineTo: note('lineTo'),
-    fill: note('fill'),
+    fill: () => calls.push(`fill ${context.globalAlpha}`),
     stroke: () => calls.push(`stroke ${context.strokeStyle}`),
     save: () => {
       const { strokeStyle, fillStyle, globalAlpha, lineWidth } = context;
@@ -217,6 +219,14 @@ describe('drawSpace', () => {
     expect(calls.filter((call) => call === 'stroke red').length).toBe(2);
   });
 
+  test('draws lines as wide as they are on the screen, whatever the transform', () => {
+    const { calls, ctx } = fakeContext();
+    drawSpace(ctx, space());
+    const strokes = calls.flatMap((call, k) => (call.startsWith('stroke') ? [[calls[k - 1], calls[k + 1]]] : []));
+    expect(strokes).toHaveLength(4);
+    for (const around of strokes) expect(around).toEqual(['setTransform 1,0,0,1,0,0', 'setTransform world']);
+  });
+
   test('draws only what the options ask for', () => {
     const { calls, ctx } = fakeContext();
     drawSpace(ctx, space(), { boxes: false, pairs: false });
@@ -226,9 +236,24 @@ describe('drawSpace', () => {
   test('fills the fullest cells', () => {
     const { calls, ctx } = fakeContext();
     drawSpace(ctx, crowd(2, 'spatial-grid'), { boxes: false, pairs: false, hot: true });
-    const filled = calls.filter((call) => call === 'fill').length;
-    expect(filled).toBeGreaterThan(0);
-    expect(calls.filter((call) => call.startsWith('rect')).length).toBe(filled);
+    const held = [...boxesInCells(crowd(2, 'spatial-grid'))];
+    const most = Math.max(...held);
+    const full = held.filter((boxes) => boxes >= Math.max(2, most / 2));
+    expect(full.length).toBeLessThan(held.length);
+    expect(calls.filter((call) => call.startsWith('fill'))).toEqual(
+      full.map((boxes) => `fill ${(0.5 * boxes) / most}`),
+    );
+    expect(calls.filter((call) => call.startsWith('rect')).length).toBe(full.length);
+  });
+
+  test('fills no cell with a single box', () => {
+    const { calls, ctx } = fakeContext();
+    const apart = new BroadPhase({ technique: 'spatial-grid', cellSize: 10 })
+      .set(1, 2, 2, 3, 3)
+      .set(2, 92, 92, 93, 93)
+      .update();
+    drawSpace(ctx, apart, { boxes: false, pairs: false, hot: true });
+    expect(calls.filter((call) => call.startsWith('fill'))).toEqual([]);
   });
 
   test('leaves the context as it was, also where it throws', () => {
