@@ -97,6 +97,13 @@ describe('findPairsBetween', () => {
     expect(() => findPairsBetween([0, 0, 1], [])).toThrow('3');
   });
 
+  test('rounds nothing if one of the two is float32', () => {
+    const single = Float32Array.of(0, 0, 1, 1);
+    for (const double of [Float64Array.of(1 + 2 ** -40, 0, 2, 1), [1 + 2 ** -40, 0, 2, 1]]) {
+      expect([...findPairsBetween(single, double), ...findPairsBetween(double, single)]).toEqual([]);
+    }
+  });
+
   test('takes an ordinary array beside a typed one, and converts nothing in it', () => {
     const typed = Float32Array.of(0, 0, 1, 1);
     expect([...findPairsBetween([5, 5, 6, 6, 1, 1, 2, 2.1], typed)]).toEqual([1, 0]);
@@ -186,5 +193,11 @@ describe('the spare space', () => {
     expect(makes(few)).toBe(1);
     expect(makes(() => findPairs([0, 0, 1, 1], { technique: 'brute-force' }))).toBe(1);
     expect(makes(few)).toBe(0);
+    for (const dimensions of [2, 3] as const) {
+      const boxes = Array(2 * dimensions).fill(0);
+      findPairs(boxes, { dimensions });
+      expect(makes(() => findPairs(boxes, { dimensions }))).toBe(0);
+      expect(makes(() => findPairs(boxes, { dimensions, touching: false }))).toBe(1);
+    }
   });
 });
