@@ -206,8 +206,9 @@ class Copies {
   /// By how many worlds the n-th turn shifts along an axis.
   static f64 number_of(u32 n) { return n == 2 ? -1.0 : f64(n); }
 
+  /// At most a world: so far away that it would be more, nothing is exact, but a path must not take turns without end.
   static f64 slack_of(f64 lo, f64 hi, f64 world) {
-    return rounding_share * (world + __builtin_fabs(lo) + __builtin_fabs(hi));
+    return smaller(world, rounding_share * (world + __builtin_fabs(lo) + __builtin_fabs(hi)));
   }
 
   SMALL static f64 worlds_of(f64 lo, const Span& span, f64 world) {

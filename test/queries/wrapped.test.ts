@@ -390,3 +390,17 @@ test.each([2, 3] as const)('a view of many boxes comes in parts, each box once, 
     expect(ascending(visited)).toEqual(all);
   }
 });
+
+test.each([2, 3] as const)('a ray or a sweep from however far away ends, in %iD', (dimensions) => {
+  const wrap = Array.from({ length: dimensions }, () => 100);
+  const ask = new BroadPhase({ dimensions, wrap } as never)
+    .setAll(Array(2 * dimensions).fill(5))
+    .update() as never as Loose;
+  for (const far of [1e15, 1e25, 1e300, -1e300]) {
+    const at = wrap.map(() => far);
+    const along = wrap.map(() => 50);
+    // So far away, numbers are too coarse to say what is met.
+    for (const hit of ask.rayCastAll(...at, ...along) as { id: number }[]) expect(hit.id).toBe(0);
+    ask.sweep(...at, ...at, ...along, { visit: (id: number) => expect(id).toBe(0) });
+  }
+});
