@@ -43,14 +43,12 @@ template <int D> class Calls {
     trial_.update();
     trial_.compare();
     questions_.look();
-    if (!trial_.wraps()) questions_.ask_area();
+    questions_.ask_area();
   }
 
  private:
   void step() {
     u32 what = bytes_.below(32);
-    // No queries are made in a world that wraps around.
-    if (trial_.wraps() && (what == 23 || (what >= 27 && what <= 29))) return trial_.update();
     switch (what) {
       default: return changes_.set(trial_.id(), any_box<D>(bytes_));
       case 7: return changes_.give();
@@ -75,7 +73,7 @@ template <int D> class Calls {
       case 26: return updates_.restore();
       case 27: return questions_.ask_area();
       case 28: return bytes_.below(3) ? questions_.ask_near() : questions_.ask_many();
-      case 29: return questions_.ask_sweep();
+      case 29: return questions_.ask_cast();
       case 30: return questions_.ask_partners();
       case 31: return updates_.let_time_pass();
     }

@@ -1,7 +1,7 @@
 // The pairs of two spaces are those of their models, whatever changes, and after memory ran out in either. The test
 // takes queries and answers from one space to the other, as src/pairs-between.ts does.
 #pragma once
-#include "model.hpp"
+#include "around.hpp"
 #include "random.hpp"
 #include "scenes.hpp"
 
@@ -110,8 +110,14 @@ template <int D> class PairsBetween {
       for (u32 a : few_.seen.ids()) {
         Rule one = few_.seen.rule(a), its = many_.seen.rule(b);
         bool meets = (one.layer & its.mask) && (its.layer & one.mask);
-        if (meets && overlap(few_.seen.grown(a).data(), many_.seen.grown(b).data(), D, few_.seen.touching))
-          expected.push_back(a | u64(b) << 32);
+        Box<D> mine = few_.seen.grown(a), other = many_.seen.grown(b);
+        Question<D> asks;
+        std::copy_n(mine.begin(), D, asks.lo);
+        std::copy_n(mine.begin() + D, D, asks.hi);
+        asks.touching = few_.seen.touching;
+        Around<D> around(asks, few_.instance->settings.wrap);
+        CHECK(around.can_decide() && around.can_decide(other.data()));
+        if (meets && around.touches(other.data(), false)) expected.push_back(a | u64(b) << 32);
       }
     }
     CHECK(found == expected);
@@ -125,7 +131,10 @@ template <int D> void check_pairs_between() {
     Random random(40 + round);
     Side<D> few, many;
     PairsBetween<D> pairs(few, many);
-    for (Side<D>* side : {&few, &many}) side->instance->settings.touching = side->model.touching = round % 3 > 0;
+    for (Side<D>* side : {&few, &many}) {
+      side->instance->settings.touching = side->model.touching = round % 3 > 0;
+      for (u32 a = 0; a < D && round % 5 > 2; a++) side->instance->settings.wrap[a] = 20.1 + 3 * a;
+    }
     for (u32 frame = 0; frame < 40; frame++) {
       for (Side<D>* side : {&few, &many}) {
         for (u32 n = frame == 0 ? 60 : random.below(4) * random.below(5); n > 0; n--) side->change(random);
