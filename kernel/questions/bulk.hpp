@@ -204,7 +204,7 @@ template <int D> class Bulk {
   }
 
   /// Appends the answers of one query; returns how many there are then.
-  u32 ask(const Index<D>& index, const Question<D>& asked, Asks kind, u32 most, u32 found, Hits& best) {
+  SMALL u32 ask(const Index<D>& index, const Question<D>& asked, Asks kind, u32 most, u32 found, Hits& best) {
     Queries<D> queries(index, asked);
     if (kind == Asks::nearest || kind == Asks::others || moves(kind)) {
       best.begin(most, asked.limit, nullptr);

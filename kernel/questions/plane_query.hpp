@@ -43,7 +43,7 @@ template <int D> class PlaneQuery {
   /// A flag on the ids of boxes that are in front of all planes.
   static constexpr u32 inside = 0x80000000;
 
-  PlaneQuery(const Index<D>& index, const Question<D>& asked, const Planes<D>& planes)
+  SMALL PlaneQuery(const Index<D>& index, const Question<D>& asked, const Planes<D>& planes)
       : index_(index),
         planes_(planes),
         world_(index.world()),

@@ -23,7 +23,8 @@ template <int D> class Queries {
   AreaAim<D> area_;  // what is searched; of a moving box, all that it may get to
   f32x4 above_[D], below_[D];  // the point, rounded outward
   CastAim<D> aim_;  // the moving box
-  f64 squared_;  // the circle's radius, squared
+  f64 unit_ = 1;  // of a circle: what distances are multiplied by, so that their squares fit
+  f64 squared_ = 0;  // its radius in that unit, squared
   f64 scale_ = 1;  // from ranks to estimated times
   bool is_tame_ = true;  // whether times may be estimated
   const u32* const names_;  // what answers consist of: ids, or slots if another space asks
@@ -33,11 +34,10 @@ template <int D> class Queries {
   u32 from_ = 0, most_ = 0, found_ = 0, looks_ = 0;
 
  public:
-  Queries(const Index<D>& index, const Question<D>& asked)
+  SMALL Queries(const Index<D>& index, const Question<D>& asked)
       : index_(index),
         asked_(asked),
         world_(index.world()),
-        squared_(asked.radius * asked.radius),
         names_(asked.layer ? index.slots() : index.ids()),
         wanted_(index, asked),
         all_wanted_(wanted_.all()) {
@@ -53,6 +53,10 @@ template <int D> class Queries {
   SMALL u32 area(u32& from, u32 most, Buffer<u32>& answers, u32 found = 0) {
     most_ = most;
     found_ = found;
+    if (is_circle()) {
+      unit_ = unit_of(asked_.radius * asked_.radius);
+      squared_ = asked_.radius * unit_ * (asked_.radius * unit_);
+    }
     // In a world that wraps around, each turn counts its places on from those of the turn before.
     u32 places = index_.places(), turn = world_ ? from / places : 0;
     for (from_ = from - turn * places; turn < turns(); turn++, from_ = 0) {
@@ -116,9 +120,9 @@ template <int D> class Queries {
     for (int a = 0; a < D; a++) {
       f64 lo = low(a), hi = high(a);
       if (is_circle()) {
-        // Differences to the edge may have been rounded, and the squares of very small ones are 0.
-        lo -= asked_.radius + (asked_.radius + __builtin_fabs(lo)) * 1e-15 + 1e-160;
-        hi += asked_.radius + (asked_.radius + __builtin_fabs(hi)) * 1e-15 + 1e-160;
+        // Differences to the edge may have been rounded.
+        lo -= asked_.radius + (asked_.radius + __builtin_fabs(lo)) * 0x1p-49;
+        hi += asked_.radius + (asked_.radius + __builtin_fabs(hi)) * 0x1p-49;
       }
       area_.set(a, lo, hi, asked_.touching || is_circle());
     }
@@ -136,66 +140,51 @@ template <int D> class Queries {
     is_tame_ = aim_.take(lo, hi, asked_.along) && asked_.length > 0;
   }
 
-  /// In a world that wraps around: whether the area touches a box in this turn, and in no earlier one.
-  SMALL bool touches_around(const f64* box) const {
-    if (!is_circle()) return copies_.touches(box, asked_.radius == Question<D>::within, asked_.touching);
-    f64 away[D], squared = 0;
-    if (!copies_.away(box, away)) return false;
-    for (int a = 0; a < D; a++) squared += away[a] * away[a];
-    return is_in(squared_ < 1e300 ? squared : length_of(away));
+  /// Whether a box at this distance, squared, is in the circle.
+  bool is_in(f64 squared) const { return asked_.touching ? squared <= squared_ : squared < squared_; }
+
+  /// Whether a square is neither so large nor so small that digits are lost: from 2^-930 to 2^996, by its exponent.
+  static bool is_plain(f64 squared) { return (bits<u64>(squared) >> 52) - (1023 - 930) < 930 + 996; }
+
+  /// A power of two: if distances are multiplied by it, their squares have all digits.
+  static f64 unit_of(f64 squared) { return is_plain(squared) ? 1 : squared < 1 ? 0x1p600 : 0x1p-600; }
+
+  SMALL static f64 squared(const f64 (&away)[D], f64 unit) {
+    f64 sum = 0;
+    for (int a = 0; a < D; a++) sum += away[a] * unit * (away[a] * unit);
+    return sum;
   }
 
-  /// Whether a box at this distance is in the circle; compares squares unless they overflow.
-  bool is_in(f64 away) const {
-    f64 most = squared_ < 1e300 ? squared_ : asked_.radius;
-    return asked_.touching ? away <= most : away < most;
+  SMALL static f64 length_of(const f64 (&away)[D]) {
+    f64 unit = unit_of(squared(away, 1));
+    return __builtin_sqrt(squared(away, unit)) / unit;
   }
 
-  /// Without overflow.
-  static f64 length_of(const f64 (&away)[D]) {
-    f64 most = 0, squared = 0, sum = 0;
-    for (int a = 0; a < D; a++) {
-      most = larger(most, away[a]);
-      squared += away[a] * away[a];
-    }
-    if (squared < 1e300) return __builtin_sqrt(squared);
-    if (!(most < __builtin_inf())) return most;
-    for (int a = 0; a < D; a++) sum += (away[a] / most) * (away[a] / most);
-    return most * __builtin_sqrt(sum);
-  }
-
-  /// A circle of radius 0 at the side of a box touches it. If touching does not count, it is treated as a point, and so is
-  /// one whose squared radius is 0.
-  bool is_circle() const { return asked_.radius >= 0 && (squared_ > 0 || asked_.touching); }
+  /// A circle of radius 0 at the side of a box touches it. If touching does not count, it is treated as a point.
+  bool is_circle() const { return asked_.radius > 0 || (asked_.radius == 0 && asked_.touching); }
 
   bool wanted(u32 place) const { return all_wanted_ || wanted_(place); }
 
-  /// Of eight boxes that touch in float32, those that touch in the numbers given.
+  /// Of eight boxes that touch in float32, those that touch in the numbers given; in a world that wraps around, in this
+  /// turn and in no earlier one.
   SMALL u32 touching(u32 number, u32 left) const {
     f64 ranks[8];
-    if (world_) {
-      u32 touching = 0;
-      for (; left; left &= left - 1) {
-        u32 lane = u32(__builtin_ctz(left));
-        f64 box[2 * D];
-        index_.box(number * 8 + lane, box);
-        touching |= u32(touches_around(box)) << lane;
-      }
-      return touching;
-    }
-    if (is_circle()) left &= distances(number, squared_, ranks);
-    bool whole = asked_.radius == Question<D>::within;
-    if (whole && !index_.rounded()) return left & area_.within(index_.block(0, number));
-    if (!index_.rounded() && squared_ < 1e300 && (asked_.touching || !is_circle())) return left;
+    const bool circle = is_circle(), whole = asked_.radius == Question<D>::within, plain = unit_ == 1 && !world_;
+    if (circle && !world_) left &= distances(number, plain ? squared_ : squared_limit(asked_.radius), ranks);
+    if (!index_.rounded() && whole) return left & area_.within(index_.block(0, number));
+    if (!index_.rounded() && (!circle || (plain && asked_.touching))) return left;
     for (u32 all = left; all; all &= all - 1) {
       u32 lane = u32(__builtin_ctz(all));
-      f64 box[2 * D];
-      index_.box(number * 8 + lane, box);
-      bool touch = is_circle() ? is_in(squared_ < 1e300 ? ranks[lane] : distance(number * 8 + lane, ranks[lane]))
-                               : asked_.touches(box, whole);
-      if (!touch) left &= ~(1u << lane);
+      if (!(circle && plain ? is_in(ranks[lane]) : touches(number * 8 + lane, circle, whole))) left &= ~(1u << lane);
     }
     return left;
+  }
+
+  bool touches(u32 place, bool circle, bool whole) const {
+    f64 box[2 * D], to[D];
+    if (circle) return away(place, to) && is_in(squared(to, unit_));
+    index_.box(place, box);
+    return world_ ? copies_.touches(box, whole, asked_.touching) : asked_.touches(box, whole);
   }
 
   /// Adds the answers from place `from_` on; false if there are more than `most_`: `from_` is then where to resume.
@@ -293,16 +282,25 @@ template <int D> class Queries {
     if (!moving) most_rank_ = round_up(squared_limit(limit));
     else aim_.most = most_rank_ = is_tame_ ? round_up(limit * scale_) : __builtin_inff();
   }
-  /// An upper bound for the square of every distance within the limit.
-  static f64 squared_limit(f64 limit) { return limit * limit * (1 + 1e-15) + 1e-300; }
+  /// An upper bound for the square of every distance within the limit, in float32 too, where the smallest squares are
+  /// rounded to multiples of 2^-149.
+  static f64 squared_limit(f64 limit) { return limit * limit * (1 + 0x1p-49) + 0x1p-145; }
 
-  /// The distance to a box, given its square, which may have overflowed.
-  f64 distance(u32 place, f64 squared) const { return squared < 1e300 ? __builtin_sqrt(squared) : far_distance(place); }
+  /// The distance to a box, given its square, which may have lost digits.
+  f64 distance(u32 place, f64 squared) const { return is_plain(squared) ? __builtin_sqrt(squared) : far_distance(place); }
   SMALL f64 far_distance(u32 place) const {
-    f64 box[2 * D], away[D];
+    f64 to[D];
+    away(place, to);
+    return length_of(to);
+  }
+
+  /// The distance to a box along each axis; false if it is nearer in another turn.
+  SMALL bool away(u32 place, f64 (&to)[D]) const {
+    f64 box[2 * D];
     index_.box(place, box);
-    for (int a = 0; a < D; a++) away[a] = larger(0.0, larger(box[a] - asked_.hi[a], asked_.lo[a] - box[D + a]));
-    return length_of(away);
+    if (world_) return copies_.away(box, to);
+    for (int a = 0; a < D; a++) to[a] = larger(0.0, larger(box[a] - asked_.hi[a], asked_.lo[a] - box[D + a]));
+    return true;
   }
 
   /// Writes the squared distances to eight boxes. Returns one bit for each within the limit, and perhaps more.
@@ -351,9 +349,8 @@ template <int D> class Queries {
     rank_by_distance(index_.block(0, number), ranks);
     for (u32 lane; (lane = ranks.take(most_rank_)) < 8;) {
       u32 place = number * 8 + lane;
-      f64 box[2 * D], away[D];
-      index_.box(place, box);
-      if (wanted(place) && copies_.away(box, away)) hits.offer({length_of(away), index_.id(place), 0});
+      f64 to[D];
+      if (wanted(place) && away(place, to)) hits.offer({length_of(to), index_.id(place), 0});
     }
   }
 

@@ -34,12 +34,16 @@ template <int D> struct Question {
   /// Sets `length`. A ray ranks by distance, and its direction is scaled by a power of two, which is exact, so that no
   /// time overflows.
   SMALL void measure_way(bool is_ray) {
-    f64 most = 0, sum = 0;
-    for (int a = 0; a < D; a++) most = larger(most, __builtin_fabs(along[a]));
-    u64 exponent = smaller(bits<u64>(most) >> 52, u64(2045));
-    f64 scale = is_ray ? bits<f64>((2046 - exponent) << 52) : 1;
-    for (int a = 0; a < D; a++) along[a] *= scale;
-    most *= scale;
+    f64 most, sum = 0;
+    // The second time for the smallest doubles, which no double could scale up to 1.
+    ROLLED for (int n = 0; n < 2; n++) {
+      most = 0;
+      for (int a = 0; a < D; a++) most = larger(most, __builtin_fabs(along[a]));
+      u64 exponent = smaller(bits<u64>(most) >> 52, u64(2045));
+      f64 scale = is_ray ? bits<f64>((2046 - exponent) << 52) : 1;
+      for (int a = 0; a < D; a++) along[a] *= scale;
+      most *= scale;
+    }
     for (int a = 0; a < D && most > 0; a++) sum += (along[a] / most) * (along[a] / most);
     length = is_ray ? most * __builtin_sqrt(sum) : 1;
     stops = !is_ray;
@@ -66,9 +70,12 @@ template <int D> struct Question {
     return touch;
   }
 
-  /// In a world that wraps around, after `measure_way`. A ray without a limit ends after going around once.
+  /// In a world that wraps around, after `measure_way`. A ray without a limit ends after going around once. An infinite
+  /// circle is an infinite box, which needs no copies: far away, their numbers overflow.
   SMALL void wrap(const f64* world) {
-    Copies::reach_around(world, D, lo, hi, along);
+    bool endless = radius == __builtin_inf();
+    if (endless) radius = no_circle;
+    Copies::reach_around(world, D, lo, hi, along, endless);
     f64 once = __builtin_inf();
     for (int a = 0; a < D; a++) once = smaller(once, world[a] / __builtin_fabs(along[a]));
     if (!stops && limit == __builtin_inf() && once < limit) limit = once * length;

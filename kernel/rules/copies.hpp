@@ -31,10 +31,11 @@ class Copies {
   /// The number of turns for areas and nearest boxes.
   static constexpr u32 turns(int axes) { return axes == 2 ? 9 : 27; }
 
-  /// A query as long as the world along an axis covers the axis, and moving along it has no effect.
-  SMALL static void reach_around(const f64* world, int axes, f64* lo, f64* hi, f64* along) {
+  /// A query as long as the world along an axis covers the axis, and moving along it has no effect. `endless`: it is on
+  /// all axes.
+  SMALL static void reach_around(const f64* world, int axes, f64* lo, f64* hi, f64* along, bool endless) {
     for (int a = 0; a < axes; a++) {
-      if (!Span::of(lo[a], hi[a], world[a]).full) continue;
+      if (!endless && !Span::of(lo[a], hi[a], world[a]).full) continue;
       lo[a] = -__builtin_inf();
       hi[a] = __builtin_inf();
       along[a] = 0;

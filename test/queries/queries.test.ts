@@ -122,14 +122,19 @@ describe('at the edges', () => {
     expect(exact.nearest(0.2 + 2 ** -51, 0.5, 2)).toEqual([0, 1]);
     expect(exact.queryCircle(0, 0.5, 0.1)).toEqual([0]);
     expect(exact.queryCircle(0, 0.5, 0.1 - 2 ** -54)).toEqual([]);
-    // The square of a distance so small is 0.
+    // The squares of distances so small are 0.
     exact.set(0, -2, 0, 0, 0).update();
-    expect(exact.queryCircle(5e-324, 0, 0)).toEqual([0]);
-    // So is that of a radius so small: the circle still overlaps what its centre is inside of.
-    expect(exact.queryCircle(-1, -0, 1e-170, { touching: false })).toEqual([]);
-    exact.set(0, -2, -1, 0, 1).update();
-    expect(exact.queryCircle(-1, 0, 1e-170, { touching: false })).toEqual([0]);
-    expect(exact.queryCircle(0, 0, 1e-170, { touching: false })).toEqual([]);
+    expect(exact.queryCircle(5e-324, 0, 0)).toEqual([]);
+    expect(exact.queryCircle(0, 0, 0)).toEqual([0]);
+    for (const radius of [1, 1e-150, 1e-170, 5e-324]) {
+      expect(exact.set(0, -2, 0, 0, 0).update().queryCircle(-1, -0, radius, { touching: false })).toEqual([0]);
+      exact.set(0, -2, -1, 0, 1).update();
+      expect(exact.queryCircle(-1, 0, radius, { touching: false })).toContain(0);
+      expect(exact.queryCircle(0, 0, radius, { touching: false })).toContain(0);
+      expect(exact.queryCircle(radius, 0, radius)).toContain(0);
+      expect(exact.queryCircle(radius, 0, radius, { touching: false })).not.toContain(0);
+      expect(exact.queryCircle(2 * radius, 0, radius)).not.toContain(0);
+    }
   });
 
   test('before the first update there is nothing', () => {

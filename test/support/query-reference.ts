@@ -69,13 +69,18 @@ function gaps(box: readonly number[], entry: Entry): number[] {
   });
 }
 
-const squared = (away: readonly number[]) => away.reduce((sum, x) => sum + x * x, 0);
+const squared = (away: readonly number[], unit = 1) => away.reduce((sum, x) => sum + x * unit * (x * unit), 0);
+
+/** A power of two: if numbers are multiplied by it, their squares neither overflow nor lose digits. */
+function unitOf(square: number): number {
+  if (square > 1e-280 && square < 1e300) return 1;
+  return square < 1 ? 2 ** 600 : 2 ** -600;
+}
 
 export function inCircle(entries: Entries, centre: readonly number[], radius: number, asked: Asked): number[] {
-  const near = [...wanted(entries, asked)].filter(([, entry]) =>
-    radius * radius < 1e300
-      ? squared(gaps([...centre, ...centre], entry)) <= radius * radius
-      : distance(centre, entry) <= radius,
+  const unit = unitOf(radius * radius);
+  const near = [...wanted(entries, asked)].filter(
+    ([, entry]) => squared(gaps([...centre, ...centre], entry), unit) <= squared([radius], unit),
   );
   return ascending(near.map(([id]) => id));
 }
@@ -85,13 +90,11 @@ export function distance(point: readonly number[], entry: Entry): number {
   return apart([...point, ...point], entry);
 }
 
-/** The distance from a box. Its square may be too large for a double. */
+/** The distance from a box. Its square may be too large for a double, or too small. */
 export function apart(box: readonly number[], entry: Entry): number {
   const away = gaps(box, entry);
-  const square = squared(away);
-  if (square < 1e300) return Math.sqrt(square);
-  const most = Math.max(...away);
-  return most === Infinity ? most : most * Math.sqrt(away.reduce((sum, x) => sum + (x / most) ** 2, 0));
+  const unit = unitOf(squared(away));
+  return Math.sqrt(squared(away, unit)) / unit;
 }
 
 export function near(entries: Entries, point: readonly number[], k: number, asked: Asked): Ranked[] {

@@ -1,15 +1,7 @@
 // The exact answer in a wrapped world, in integers of any size: two boxes are a pair if, along each axis, one can be
 // moved by a whole number of worlds so that they overlap or touch.
+import { exactly } from './extreme.ts';
 import { keyOf } from './reference.ts';
-
-/** A double, as a multiple of the smallest double. */
-function exactly(value: number): bigint {
-  const bits = new BigUint64Array(Float64Array.of(value).buffer)[0];
-  const exponent = (bits >> 52n) & 0x7ffn;
-  const fraction = bits & 0xfffffffffffffn;
-  const size = exponent === 0n ? fraction : (fraction | 0x10000000000000n) << (exponent - 1n);
-  return value < 0 ? -size : size;
-}
 
 const floor = (a: bigint, b: bigint): bigint => (a >= 0n || a % b === 0n ? a / b : a / b - 1n);
 
