@@ -276,8 +276,8 @@ export function readHit(instance: KernelInstance, k: number, hit: { id: number; 
 export function known(where: string, count: number): number {
   if (count !== -1) return count;
   throw new Error(
-    `${where}: boxes have changed since the last update, and no copy of the previous ones was kept, since the space is large ` +
-      'and was never queried, or memory ran out; make its first query right after an update',
+    `${where}: boxes have changed since the last update, and no copy was kept: the space is large and was never queried, ` +
+      'or memory ran out; query it right after an update',
   );
 }
 

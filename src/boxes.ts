@@ -25,13 +25,11 @@ export function setAll(instance: KernelInstance, boxes: Boxes, count: number | u
   try {
     const { kernel } = instance;
     const at = (single ? kernel.stage(count) : kernel.stage_exact(count)) >>> 0;
-    if (boxes.length < length) checkNumberArray(where, boxes); // it was this space's memory, which has grown
     const view = instance.stagedView(at, count * width, single);
-    if (length === view.length) view.set(boxes);
-    else
-      view.set(Array.isArray(boxes) ? boxes.slice(0, view.length) : (boxes as Float64Array).subarray(0, view.length));
+    instance.copyIn(where, view, 0, boxes, count * width);
+    const { replace } = instance.kernel; // takes what a getter has set
     instance.ring.forget();
-    const bad = instance.kernel.replace(count, single ? 0 : 1);
+    const bad = replace(count, single ? 0 : 1);
     if (bad >= 0) badBox(where, bad, view.slice(bad * width, (bad + 1) * width), dimensions);
   } catch (error) {
     instance.recover(error, where);
@@ -63,7 +61,7 @@ export function expose(instance: KernelInstance, count: number): Float32Array {
 export function checkExposed(instance: KernelInstance, where: string): void {
   if (instance.exposed?.byteOffset !== 0) return; // the offset is 0 only for detached views
   throw new Error(
-    `${where}: the array of boxes() was detached when memory grew, and anything written to it since is lost: ` +
+    `${where}: the array of boxes() was detached when memory grew, and what was written to it since is lost: ` +
       'call boxes(count) again before you write',
   );
 }

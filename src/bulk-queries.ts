@@ -136,11 +136,10 @@ export function askMany(
   const ignored = kept(instance, ignoreEach);
   try {
     const at = instance.kernel.stage_questions(length + count) >>> 3;
-    if (numbers.length < length) checkNumberArray(where, numbers); // it was this space's memory, which has grown
     const doubles = instance.doubleView();
-    doubles.set(numbers, at);
+    instance.copyIn(where, doubles, at, numbers, length);
     if (ignored === undefined) doubles.fill(nobody, at + length, at + length + count);
-    else doubles.set(ignored, at + length);
+    else instance.copyIn(where, doubles, at + length, ignored, count);
     const bad = instance.kernel.bad_question(kind, count);
     if (bad >= 0) badNumbers(where, numbers, bad, names);
     const io = instance.io(); // only now: a getter among the options may have asked a query itself

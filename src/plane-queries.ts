@@ -17,10 +17,11 @@ export function queryPlanes(
   const where = 'queryPlanes';
   checkNumberArray(where, planes);
   const width = instance.dimensions + 1;
-  if (planes.length % width !== 0 || planes.length > most * width) {
-    badValue(`${where}: planes.length`, planes.length, `${names[width - 3]} of at most ${most} planes`);
+  const { length } = planes;
+  if (length % width !== 0 || length > most * width) {
+    badValue(`${where}: planes.length`, length, `${names[width - 3]} of at most ${most} planes`);
   }
-  for (let k = 0; k < planes.length; k++) {
+  for (let k = 0; k < length; k++) {
     const value: unknown = planes[k];
     if (!Number.isFinite(value)) {
       badValue(`${where}: planes[${k}]`, value, 'a finite number', typeof value !== 'number');
@@ -28,6 +29,6 @@ export function queryPlanes(
   }
   const asked = heed(instance, where, options, idsOptions);
   const io = instance.io();
-  for (let k = 0; k < planes.length; k++) io[planesAt + k] = planes[k]!;
-  return area(instance, where, asked, (planes.length / width) | 0); // as an integer: a double would be garbage
+  instance.copyIn(where, io, planesAt, planes, length);
+  return area(instance, where, asked, (length / width) | 0); // as an integer: a double would be garbage
 }

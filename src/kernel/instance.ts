@@ -1,6 +1,7 @@
 // One instance of the kernel, which is one space: its functions, views of its memory, and recovery when memory runs
 // out. Growing memory detaches views: their length is then 0, and they are made again.
 import type { Dimensions } from '../dimensions.ts';
+import { badValue, checkNumberArray } from '../errors.ts';
 import { ioLength, type KernelExports, statsLength } from '../generated/abi.ts';
 import type { Kept } from '../pairs-between.ts';
 import type { RayHit } from '../query-options.ts';
@@ -147,6 +148,26 @@ export class KernelInstance {
     return this.counters;
   }
 
+  /**
+   * Copies the first `length` numbers of an array into the kernel's memory. Getters of it may not use the space, which
+   * could move that memory.
+   */
+  copyIn(where: string, to: Float32Array | Float64Array, at: number, numbers: ArrayLike<number>, length: number): void {
+    if (numbers.length < length) {
+      checkNumberArray(where, numbers); // it was this space's memory, which has grown
+      badValue(`${where}: length`, numbers.length, `${length}`);
+    }
+    const { exports } = this;
+    this.exports = busy;
+    try {
+      if (numbers.length > length)
+        numbers = Array.isArray(numbers) ? numbers.slice(0, length) : (numbers as Float64Array).subarray(0, length);
+      to.set(numbers, at);
+    } finally {
+      if (this.exports === busy) this.exports = exports; // else it was disposed
+    }
+  }
+
   /** A view of staged boxes. Three arrays take turns in the kernel, so the last three views are kept. */
   stagedView(at: number, length: number, single: boolean): Float32Array | Float64Array {
     const views = this.staged;
@@ -181,16 +202,19 @@ export class KernelInstance {
     if ((error as Error | undefined)?.name !== 'RuntimeError') throw error;
     if (this.kernel.recover() === 0) throw error;
     throw new RangeError(
-      `${where}: out of memory: ${this.io()[0]} more bytes are needed for ${this.size} boxes and their pairs, which is ` +
+      `${where}: out of memory: ${this.io()[0]} more bytes are needed for ${this.size} boxes and their pairs, ` +
         'more than WebAssembly (4 GiB) or this host allows',
       { cause: error },
     );
   }
 }
 
-/** Stands in for the kernel of a disposed space. */
-const disposed = new Proxy({} as KernelExports, {
-  get() {
-    throw new Error('this BroadPhase was disposed and can no longer be used');
-  },
-});
+/** Stands in for a kernel that cannot be used. */
+const refuse = (why: string) =>
+  new Proxy({} as KernelExports, {
+    get() {
+      throw new Error(`this BroadPhase was ${why}`);
+    },
+  });
+const disposed = refuse('disposed and can no longer be used');
+const busy = refuse('used by a getter of its input');

@@ -22,7 +22,9 @@ const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
  * Replaces the boxes and rules of a space by those of a frame, in their recorded order. The caller calls `update()`.
  * Nothing else may change the space between two frames: of the rules, only differences are set. Boxes are given by
  * `setAll` if their ids are 0, 1, 2, …, otherwise by `set`. If the recorded space was given them in the same way from its
- * first update on, pairs come in the same order too; otherwise `auto` and `incremental` may give another order.
+ * first update on, pairs come in the same order too; otherwise `auto` and `incremental` may give another order. After a
+ * `snapshot()` of both spaces, each before its first update, the order is always the same, and updates are slower. If ids
+ * change, the space is filled again: all its pairs end and begin.
  *
  * @throws RangeError if the space has other dimensions, and if lengths do not fit; TypeError for anything but a space. The
  * space is as before.
