@@ -217,11 +217,12 @@ class NeighbourLists {
     widen(box, most * growth_);
   }
 
-  /// Enlarges a box by `more` on each side, rounded outward. Bounds may be infinite.
+  /// Enlarges a box by `more` on each side, rounded outward. Bounds may be infinite: what lies at infinity comes back to
+  /// the largest double, since the bound of another box may overflow when that reaches out.
   SMALL void widen(f64* box, f64 more) const {
     for (u32 k = 0; k < width(); k++) {
-      f64 far = __builtin_fabs(box[k]);
-      if (far < __builtin_inf()) box[k] -= more + (far + more) * sum_rounding;
+      f64 from = smaller(box[k], __DBL_MAX__);
+      box[k] = from - (more + (__builtin_fabs(from) + more) * sum_rounding);
     }
   }
 

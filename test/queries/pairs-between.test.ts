@@ -35,6 +35,15 @@ function expected(here: Entries, there: Entries, wrap?: readonly number[], touch
   return found.sort();
 }
 
+/** The boxes of a space, none of which has a filter. */
+const seenOf = (space: BroadPhase): Entries =>
+  new Map(
+    [...space].map(([id, box]) => [
+      id,
+      { box: [...box], layer: 1, mask: 1, isStatic: false, reach: space.reachOf(id) ?? 0 },
+    ]),
+  );
+
 /** A space with its model, and what its last update saw. */
 class Side extends Modelled {
   seen: Entries = new Map();
@@ -188,6 +197,22 @@ describe(`pairs with another space (SEED=${seed})`, () => {
     const there = new BroadPhase(options).set(2, 30, y, 32, y).setReach(2, 3).update();
     expect([...here.pairsWith(there)]).toEqual([1, 2]);
     expect([...there.pairsWith(here)]).toEqual([2, 1]);
+  });
+
+  test('a bound that overflows when its box reaches out meets what lies at infinity, as within one space', () => {
+    const most = Number.MAX_VALUE;
+    for (const side of [1, -1]) {
+      const far = side > 0 ? [0, 0, most, 1] : [-most, 0, 0, 1];
+      const end = side * Infinity;
+      const one = new BroadPhase().set(0, far[0]!, far[1]!, far[2]!, far[3]!).setReach(0, 1e308);
+      one.set(1, end, 0, end, 1).update();
+      expect([...one.pairs]).toEqual([0, 1]);
+      const other = new BroadPhase().set(7, end, 0, end, 1).update();
+      expect(keys(one.pairsWith(other))).toEqual(['0 7', '1 7']);
+      expect(keys(other.pairsWith(one))).toEqual(['7 0', '7 1']);
+      other.set(7, end, 0, end, 0.5).set(8, end, 5, end, 6).update();
+      expect(keys(one.pairsWith(other))).toEqual(expected(seenOf(one), seenOf(other)));
+    }
   });
 
   test('a restored snapshot is recorded', () => {
