@@ -158,7 +158,7 @@ export class KernelInstance {
       badValue(`${where}: length`, numbers.length, `${length}`);
     }
     const { exports } = this;
-    this.exports = busy;
+    if (!ArrayBuffer.isView(numbers)) this.exports = busy;
     try {
       if (numbers.length > length)
         numbers = Array.isArray(numbers) ? numbers.slice(0, length) : (numbers as Float64Array).subarray(0, length);
