@@ -1,7 +1,7 @@
 // Times are those of a game: each frame is measured after the one before it, never twice in a row, since techniques
 // that keep their structure have nothing to do where nothing has moved.
 import { BroadPhase } from 'broadphase';
-import { compare, type Frame, type FrameSource, replay, tune } from 'broadphase/trace';
+import { compare, type Frame, type FrameSource, replay, survey, tune } from 'broadphase/trace';
 import { afterEach, beforeEach, expect, test } from 'vitest';
 import { lean } from '../../scripts/compile.mjs';
 import { codeOf } from '../../src/trace/tune.ts';
@@ -69,4 +69,24 @@ test.each(BroadPhase.techniques)('code to paste for %s imports the build that ha
   expect(code).toMatch(
     new RegExp(`^import \\{ BroadPhase \\} from '${library}';\\n\\nconst space = new BroadPhase\\(`),
   );
+});
+
+test('the histogram of sizes has a bin for each doubling in between, and one for zeros', () => {
+  const boxes = Float32Array.from([0, 1, 1, 5, 40, Infinity].flatMap((size) => [0, 0, size, 0]));
+  const source: FrameSource = {
+    dimensions: 2,
+    frames: 1,
+    *[Symbol.iterator](): Generator<Frame> {
+      yield { index: 0, count: 6, ids: undefined, boxes, changed: 6 };
+    },
+  };
+  expect(survey(source).histograms.side.map(({ from, to, count }) => [from, to, count])).toEqual([
+    [0, 0, 1],
+    [1, 2, 2],
+    [2, 4, 0],
+    [4, 8, 1],
+    [8, 16, 0],
+    [16, 32, 0],
+    [32, 64, 1],
+  ]);
 });

@@ -255,3 +255,27 @@ test('a stream that fails ends the recording, not the game', async () => {
   await expect(webRecording.stop()).rejects.toBe(full);
   await expect(nodeRecording.stop()).rejects.toBe(full);
 });
+
+test('groups and reaches come and go from frame to frame, also those of boxes that had none', () => {
+  const space = new BroadPhase();
+  const recording = record(space);
+  for (const id of [0, 1, 2]) space.set(id, id, 0, id + 1, 1);
+  const frames: unknown[] = [];
+  const told = (from: BroadPhase) => [0, 1, 2].flatMap((id) => [from.groupOf(id), from.reachOf(id)]);
+  for (const [group, reach] of [
+    [0, 0],
+    [1, 1],
+    [2, 0.5],
+    [0, 1],
+    [1, 0],
+    [0, 0],
+  ] as const) {
+    space.setGroup(0, group).setReach(1, reach).update();
+    frames.push(told(space));
+  }
+  const twin = new BroadPhase();
+  for (const frame of openTrace(recording.bytes())) {
+    applyFrame(twin, frame);
+    expect(told(twin.update())).toEqual(frames[frame.index]);
+  }
+});
