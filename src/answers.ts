@@ -287,7 +287,7 @@ function ends(instance: KernelInstance, where: string, updates: number, told: un
   if (told && (into ? told !== true : told instanceof Promise)) checkBoolean(`${where}: ${by} returned`, told);
   if (told === !!into) return true;
   if (instance.kernel.updates() === updates) return false;
-  throw new Error(`${where}: update or restore was called by ${by}, expected it to wait until the search has ended`);
+  throw new Error(`${where}: update or restore was called by ${by}, expected after the search has ended`);
 }
 
 /** Refuses a path or a distance that is too long in a world that wraps around. */

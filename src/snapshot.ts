@@ -81,7 +81,7 @@ function badSnapshot(fault: number, bytes: Uint8Array, dimensions: Dimensions): 
     foreign: `got ${bytes.length} bytes that are not a snapshot, expected those of snapshot()`,
     newer: `got a snapshot of format ${bytes[4]}, expected at most ${newest}: it was made by a newer version`,
     length: `got ${bytes.length} bytes, which is not the snapshot's length: it was cut off, or more follows it`,
-    damaged: 'the snapshot is damaged: its checksum or its header is wrong',
+    damaged: 'the snapshot is damaged: its checksum or header is wrong',
     dimensions: `got a snapshot of a space with ${bytes[5]! & 15} dimensions, expected ${dimensions}`,
     technique: `got a snapshot of a space with the technique ${technique}, which is not available here: 'broadphase/all' has all`,
     content: 'the snapshot has contents that no space can have: it is forged',

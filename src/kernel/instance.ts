@@ -157,6 +157,7 @@ export class KernelInstance {
       checkNumberArray(where, numbers); // it was this space's memory, which has grown
       badValue(`${where}: length`, numbers.length, `${length}`);
     }
+    this.ring.view(); // a getter may set a box, which waits there
     const { exports } = this;
     if (!ArrayBuffer.isView(numbers)) this.exports = busy;
     try {

@@ -235,7 +235,7 @@ export class Ring {
   }
 
   /** The ring in the kernel's memory. */
-  private view(): Float64Array {
+  view(): Float64Array {
     if (this.entries.length === 0) {
       const { exports } = this.instance;
       this.entries = new Float64Array(
