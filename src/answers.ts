@@ -276,7 +276,7 @@ export function readHit(instance: KernelInstance, k: number, hit: { id: number; 
 export function known(where: string, count: number): number {
   if (count !== -1) return count;
   throw new Error(
-    `${where}: boxes have changed since the last update, and no copy was kept: the space is large and was never queried, ` +
+    `${where}: boxes have changed since the last update, and a large space that was never queried has no copy, ` +
       'or memory ran out; query it right after an update',
   );
 }

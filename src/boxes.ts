@@ -61,7 +61,7 @@ export function expose(instance: KernelInstance, count: number): Float32Array {
 export function checkExposed(instance: KernelInstance, where: string): void {
   if (instance.exposed?.byteOffset !== 0) return; // the offset is 0 only for detached views
   throw new Error(
-    `${where}: the array of boxes() was detached when memory grew, and what was written since is lost: ` +
+    `${where}: the array of boxes() was detached when memory grew, and writes since are lost: ` +
       'call boxes(count) again before you write',
   );
 }

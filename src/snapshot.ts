@@ -83,7 +83,7 @@ function badSnapshot(fault: number, bytes: Uint8Array, dimensions: Dimensions): 
     length: `got ${bytes.length} bytes, which is not the snapshot's length: it was cut off, or more follows it`,
     damaged: 'the snapshot is damaged: its checksum or header is wrong',
     dimensions: `got a snapshot of a space with ${bytes[5]! & 15} dimensions, expected ${dimensions}`,
-    technique: `got a snapshot of a space with the technique ${technique}, which is not available here: 'broadphase/all' has all`,
+    technique: `got a snapshot of a space with the technique ${technique}, which is only in 'broadphase/all'`,
     content: 'the snapshot has contents that no space can have: it is forged',
   };
   throw new RangeError(`restore: ${reasons[snapshotFaults[fault]!]}`);
