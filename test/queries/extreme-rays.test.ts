@@ -29,8 +29,11 @@ function compare(one: Ratio, other: Ratio): -1 | 1 | undefined {
   const is = below(one[0] * other[1], other[0] * one[1]);
   return is === undefined ? undefined : is ? -1 : 1;
 }
-/** Smaller than the doubles that have all digits. */
-const isTiny = (time: Ratio) => time[0] * 2n ** 970n < time[1];
+/** Whether it is smaller than the doubles that have all digits. A ray has distances instead of times: see `scaleOf`. */
+const isTiny = (time: Ratio, scale: bigint) => time[0] * scale * 2n ** 970n < time[1] * unit;
+/** What times are multiplied by, in the unit of `exactly`: for a ray, the longest part of its direction. */
+const scaleOf = (way: readonly number[], isRay: boolean) =>
+  isRay ? way.map((x) => abs(exactly(x))).reduce(larger, 0n) : unit;
 const ratio = ([a, b]: Ratio) => Number((a << 60n) / b) / 2 ** 60;
 
 class Ahead extends Extreme {
@@ -47,6 +50,7 @@ class Ahead extends Extreme {
     let enter: Ratio | undefined;
     const axes: number[] = [];
     const leaves: Ratio[] = [];
+    const tiny = (time: Ratio) => isTiny(time, scaleOf(way, isRay));
     for (let a = 0; a < d; a++) {
       const [lo, hi, least, most, along] = [
         big(from[a]!),
@@ -78,7 +82,7 @@ class Ahead extends Extreme {
       const gap = forth ? least - hi : lo - most;
       if (gap >= limit / 2n) return null; // at infinity
       const time: Ratio = [gap, abs(along)];
-      const bothTiny = enter && isTiny(time) && isTiny(enter);
+      const bothTiny = enter && tiny(time) && tiny(enter);
       const order = bothTiny ? undefined : enter ? compare(time, enter) : 1;
       if (order === undefined) {
         unclear ||= enter![0] * time[1] !== time[0] * enter![1];
@@ -93,11 +97,11 @@ class Ahead extends Extreme {
     for (let a = 0; a < d; a++) {
       if (axes.includes(a)) continue;
       const order = compare(leaves[a]!, enter);
-      if (order === undefined || (isTiny(leaves[a]!) && isTiny(enter))) return undefined;
+      if (order === undefined || (tiny(leaves[a]!) && tiny(enter))) return undefined;
       if (order < 0) return null;
     }
     // Faces met at once: the box, if it has a size, leaves one when it meets the other.
-    if (axes.length > 1 && axes.some((a) => compare(leaves[a]!, enter!) !== 1 || isTiny(leaves[a]!))) return undefined;
+    if (axes.length > 1 && axes.some((a) => compare(leaves[a]!, enter!) !== 1 || tiny(leaves[a]!))) return undefined;
     return { time: enter, axes };
   }
 
@@ -138,7 +142,12 @@ class Ahead extends Extreme {
       if (order === 1 && !isLast) expect.fail(`${about}: is hit beyond the limit`);
       const got = limitOf(Math.min(hit.rank, Number.MAX_VALUE)); // which may be rounded up to infinity
       const isClose = this.isClose(hit.rank, from, way, box, met, isRay);
-      if (compare(rank, got) !== undefined && !isLast && !(hit.rank < 1e-290 && isTiny(met.time)) && !isClose)
+      if (
+        compare(rank, got) !== undefined &&
+        !isLast &&
+        !(hit.rank < 1e-290 && isTiny(met.time, scaleOf(way, isRay))) &&
+        !isClose
+      )
         expect.fail(`${about}: got ${hit.rank}`);
       if (met.axes.length === 1) {
         const normal = way.map((x, a) => (a === met.axes[0] ? -Math.sign(x) : 0));
