@@ -87,7 +87,10 @@ EXPORT(reserve)(u32 count) -> void {
   with_space([&](auto& space) { space.store.reserve(count); });
 }
 EXPORT(ring_address)() -> f64* {
-  return with_ring([](auto&, auto& ring) { return &ring.dense; });
+  return with_ring([](auto&, auto& ring) {
+    if (!ring.address) ring.place(nullptr);
+    return &ring.dense;
+  });
 }
 /// Adds or moves the boxes that wait in the ring.
 EXPORT(take)(u32 count) -> void {
@@ -379,7 +382,10 @@ EXPORT(recover)() -> u32 {
 SMALL EXPORT(begin_anew)() -> size_t {
   new (&ids) Ids;
   options = Settings{};
-  with_space([]<int D>(Space<D>& space) { __builtin_memcpy(static_cast<void*>(&space), initial<D>, sizeof space); });
+  with_ring([]<int D>(Space<D>& space, Ring<D>& ring) {
+    __builtin_memcpy(static_cast<void*>(&space), initial<D>, sizeof space);
+    ring.address = 0;
+  });
   return heap::forget_all();
 }
 #endif

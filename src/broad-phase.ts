@@ -155,7 +155,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
       badSet.apply(this, arguments as unknown as unknown[]);
     }
     const { numbers } = ring;
-    const next = ring.next & 16383; // no other number, but engines know that its sums cannot overflow
+    const next = (ring.next << 12) >>> 12; // no other number, but engines know that its sums cannot overflow
     numbers[next] = id;
     numbers[next + 1] = a;
     numbers[next + 2] = b;

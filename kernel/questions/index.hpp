@@ -8,8 +8,8 @@
 // while boxes in one block are still close together, and while the blocks visited since the last sort have cost less
 // than a sort. So one query per frame, among boxes that all move, does not pay for an order it hardly uses.
 // Cost: about 27 (2D) or 30 (3D) ns per box to build, less than half of it with the previous order; 0.1 us for each box
-// updated in place; 28 (2D) or 38 (3D) bytes per box, plus a copy of the boxes, so that queries see those of the last
-// update.
+// updated in place; 28 (2D) or 38 (3D) bytes per box, and 16 or 24 more for boxes in doubles. If boxes change after the
+// update, also a copy of them, so that queries see those of the last update.
 // From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993.
 #pragma once
 #include "questions/seen_boxes.hpp"
@@ -102,7 +102,7 @@ template <int D> class Index {
   /// The numbers the box was given with.
   NOINLINE void box(u32 place, f64* to) const {
     if (seen_.rounded) {
-      __builtin_memcpy(to, seen_.exact.data() + u64(slots_[place]) * width, width * sizeof(f64));
+      __builtin_memcpy(to, seen_.exact.at + u64(slots_[place]) * width, width * sizeof(f64));
       return;
     }
     const Block& block = blocks_[place / 8];
@@ -113,24 +113,30 @@ template <int D> class Index {
   }
 
   /// Whether there is memory for a copy of the boxes of a space.
-  bool fits(const PresentBoxes<D>& now) const { return seen_.fits(now); }
+  bool fits(const PresentBoxes& now) const { return seen_.fits(now); }
 
-  /// Copies the boxes of a space.
-  SMALL void see(const PresentBoxes<D>& now) {
-    seen_.count = 0;
+  /// Whether the boxes are read where the space has them: it must call `keep` before they change, and `find` after they
+  /// may have moved in memory.
+  bool lent() const { return seen_.lent; }
+  void find(const PresentBoxes& now) { seen_.find(now); }
+
+  /// Reads the boxes of a space where they are.
+  SMALL void see(const PresentBoxes& now) {
     know(now.ids.count());
     built_ = false;
     seen_.see(now);
   }
 
-  /// After `see` without boxes: takes the memory that they are in.
-  template <class Numbers> void take(Numbers& numbers) { numbers.give(seen_.boxes, seen_.exact); }
+  /// Copies them.
+  void keep(const PresentBoxes& now) { seen_.keep(now); }
+  /// After `keep` without boxes: takes the memory that they are in.
+  template <class Numbers> void take(Numbers& numbers) { seen_.take(numbers); }
 
-  /// Copies the slots that have changed, new ones included; false if everything has to be copied again.
-  SMALL bool follow(const PresentBoxes<D>& now, const Changes& changes) {
+  /// Follows the slots that have changed, new ones included; false if everything has to be seen again.
+  SMALL bool follow(const PresentBoxes& now, const Changes& changes) {
     if (!seen_.is_like(now)) return false;
     u32 n = now.ids.count(), had = seen_.count;
-    seen_.grow(n, built_);
+    seen_.grow(now, built_);
     if (built_) {
       places_.grow(larger(n, 1u), had);
       for (u32 s = n; s < had; s++) vacate(places_[s]);
@@ -276,7 +282,7 @@ template <int D> class Index {
 
   /// The blocks of boxes.
   NOINLINE void fill() {
-    const f32* boxes = seen_.boxes.data();
+    const f32* boxes = seen_.boxes.at;
     for (u32 k = 0; k < sorted_; k += 4) {
       // Boxes as rows; in 3D the second half begins with the last minimum.
       f32x4 rows[D - 1][4];
@@ -305,7 +311,7 @@ template <int D> class Index {
     looks_ = sorted_ = 0;
     make_room(0);
     if (n == 0) return;
-    SceneItems<D> items{{seen_.boxes.data(), n, nullptr}, AxisOrder<D>::make(0)};
+    SceneItems<D> items{{seen_.boxes.at, n, nullptr}, AxisOrder<D>::make(0)};
     HilbertCurve<D>(measure<D>(items, n)).sort(items, n, sort_, [](u32, u32 place) { return place; });
     for (u32 k = 0; k < n; k++) {
       u32 slot = sort_.index(k);

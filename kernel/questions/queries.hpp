@@ -287,7 +287,9 @@ template <int D> class Queries {
   static f64 squared_limit(f64 limit) { return limit * limit * (1 + 0x1p-49) + 0x1p-145; }
 
   /// The distance to a box, given its square, which may have lost digits.
-  f64 distance(u32 place, f64 squared) const { return is_plain(squared) ? __builtin_sqrt(squared) : far_distance(place); }
+  f64 distance(u32 place, f64 squared) const {
+    return is_plain(squared) ? __builtin_sqrt(squared) : far_distance(place);
+  }
   SMALL f64 far_distance(u32 place) const {
     f64 to[D];
     away(place, to);

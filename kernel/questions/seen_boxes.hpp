@@ -1,5 +1,7 @@
-// A copy of what an update saw, by slot: boxes, ids, rules and reaches, for queries made after changes. Most copies are
-// never queried, so doubles are rounded only when an index is built over them, and reaches measured when they are needed.
+// What an update saw, by slot: boxes, ids, rules and reaches.
+// Idea: these are read where the space has them, until it is about to change; only then are they copied. There is no
+// copy if the space gives up their memory, as when it replaces all boxes, or if an update takes all changes at once.
+// Doubles are rounded only when an index is built over them, and reaches measured when they are needed.
 #pragma once
 #include "base/rounding.hpp"
 #include "boxes/ids.hpp"
@@ -7,88 +9,138 @@
 #include "rules/filters.hpp"
 
 /// The present contents of a space.
-template <int D> struct PresentBoxes {
-  const f32* boxes;  // null: the copy gets their memory, see Index::take
+struct PresentBoxes {
+  const f32* boxes;  // null: the copy gets their memory, see SeenArrays::take
   const f64* exact;  // null: all numbers are exact in float32
   const Ids& ids;
   const Rule* rules;  // null: none
   const f64* reaches;  // null: none
   const f64* world;  // its size if it wraps around; else null
+  bool in_place;  // boxes may be written without notice
 
   bool rounded() const { return exact || world; }
 };
 
-template <int D> struct SeenBoxes {
-  static constexpr u32 width = 2 * D;
+/// An array that is read where a space has it, or a copy of it.
+template <class T> struct Lent {
+  const T* at = nullptr;
+  Buffer<T> own;
 
-  Buffer<f32> boxes;  // if `rounded`: rounded outward, once `round_all` was called
-  Buffer<f64> exact;
-  Buffer<u32> ids;
-  Buffer<Rule> rules;
-  Buffer<f64> reaches;
+  const T& operator[](size_t k) const { return at[k]; }
+  /// Copies n values; there is room for `padding` more.
+  void keep(u64 n, u64 padding = 0) {
+    own.reserve(n + padding);
+    if (n) __builtin_memcpy(own.data(), at, n * sizeof(T));
+    at = own.data();
+  }
+  /// Room for n values in the copy, of which it has `had`.
+  void grow(u64 n, u64 had) { at = own.grow(n, had); }
+};
+
+/// What does not depend on the dimension, except for the numbers per box: one copy of this code serves both.
+struct SeenArrays {
+  const u32 width;
+
+  Lent<f32> boxes;  // if `rounded`: a copy rounded outward, once `round_all` was called
+  Lent<f64> exact;
+  Lent<u32> ids;
+  Lent<Rule> rules;
+  Lent<f64> reaches;
   u32 count = 0;
   const f64* world = nullptr;  // if it wraps around: boxes are then in `exact`, and moved into it when rounded
   bool rounded = false, named = false, filtered = false, reached = false;
+  bool lent = false;  // all but rounded boxes is read where the space has it
+
+  constexpr explicit SeenArrays(u32 numbers) : width(numbers) {}
 
   /// Whether there is memory for a copy.
-  SMALL bool fits(const PresentBoxes<D>& now) const {
-    u64 n = now.ids.count(), more = now.rounded() ? exact.missing(n * width) : boxes.missing(n * width + 4);
-    if (now.rules) more += rules.missing(n);
-    if (now.reaches) more += reaches.missing(n);
-    if (!now.ids.same()) more += ids.missing(n);
+  SMALL bool fits(const PresentBoxes& now) const {
+    u64 n = now.ids.count(), more = now.rounded() ? exact.own.missing(n * width) : boxes.own.missing(n * width + 4);
+    if (now.rules) more += rules.own.missing(n);
+    if (now.reaches) more += reaches.own.missing(n);
+    if (!now.ids.same()) more += ids.own.missing(n);
     return more == 0 || heap::can_spare(more);
   }
 
-  /// Copies the boxes of a space.
-  SMALL void see(const PresentBoxes<D>& now) {
-    u32 n = now.ids.count();
+  /// Reads the boxes of a space where they are. If they may change without notice, or have to be converted to doubles,
+  /// they are copied.
+  SMALL void see(const PresentBoxes& now) {
+    count = 0;
     world = now.world;
     rounded = now.rounded();
+    named = !now.ids.same();
+    filtered = now.rules;
+    reached = now.reaches;
+    most_reach_ = unmeasured;
+    lent = true;
+    find(now);
+    if (now.in_place || (rounded && !now.exact)) keep(now);
+    count = now.ids.count();
+  }
+
+  /// Finds what is lent again, which may have moved in memory.
+  SMALL void find(const PresentBoxes& now) {
+    if (!lent) return;
+    if (!rounded) boxes.at = now.boxes;
+    exact.at = now.exact;
+    ids.at = now.ids.names();
+    rules.at = now.rules;
+    reaches.at = now.reaches;
+  }
+
+  /// Copies what is lent, before it changes.
+  SMALL void keep(const PresentBoxes& now) {
+    if (!lent) return;
+    find(now);
+    u64 n = now.ids.count();
     if (!now.boxes) {
       // The numbers are swapped in.
-    } else if (world && !now.exact) {
-      exact.reserve(u64(n) * width);
-      for (u64 k = 0; k < u64(n) * width; k++) exact[k] = now.boxes[k];
-    } else if (rounded) copy(exact, now.exact, u64(n) * width, 0);
-    else copy(boxes, now.boxes, u64(n) * width, 4);
-    filtered = now.rules;
-    if (filtered) copy(rules, now.rules, n, 0);
-    reached = now.reaches;
-    if (reached) copy(reaches, now.reaches, n, 0);
-    most_reach_ = unmeasured;
-    named = !now.ids.same();
-    if (named) copy(ids, now.ids.names(), n, 0);
-    count = n;
+    } else if (rounded && !now.exact) {
+      exact.at = exact.own.reserve(n * width);
+      for (u64 k = 0; k < n * width; k++) exact.own[k] = now.boxes[k];
+    } else if (rounded) exact.keep(n * width);
+    else boxes.keep(n * width, 4);
+    if (filtered) rules.keep(n);
+    if (reached) reaches.keep(n);
+    if (named) ids.keep(n);
+    lent = false;
+  }
+
+  /// After `keep` without boxes: takes the memory that they are in.
+  template <class Numbers> void take(Numbers& numbers) {
+    numbers.give(boxes.own, exact.own);
+    if (rounded) exact.at = exact.own.data();
+    else boxes.at = boxes.own.data();
   }
 
   /// Whether a space has the same kinds of data as this copy.
-  bool is_like(const PresentBoxes<D>& now) const {
+  bool is_like(const PresentBoxes& now) const {
     return reached == !!now.reaches && world == now.world && rounded == now.rounded() && named == !now.ids.same() &&
            filtered == !!now.rules;
   }
 
-  /// Room for n boxes. `both`: in float32 too if they are rounded.
-  SMALL void grow(u32 n, bool both) {
-    if (both || !rounded) boxes.grow(u64(n) * width + 4, u64(count) * width);
-    if (rounded) exact.grow(u64(n) * width, u64(count) * width);
+  /// Makes room for the boxes that a space has now. `both`: in float32 too if they are rounded.
+  SMALL void grow(const PresentBoxes& now, bool both) {
+    u64 n = now.ids.count();
+    if (rounded && both) boxes.grow(n * width + 4, u64(count) * width);
+    if (lent) return find(now);
+    if (rounded) exact.grow(n * width, u64(count) * width);
+    else boxes.grow(n * width + 4, u64(count) * width);
     if (named) ids.grow(n, count);
     if (filtered) rules.grow(n, count);
     if (reached) reaches.grow(n, count);
   }
 
-  /// Copies one slot.
-  SMALL void take(u32 s, const PresentBoxes<D>& now) {
-    u64 from = u64(s) * width;
-    if (rounded) {
-      for (u64 k = from; k < from + width; k++) exact[k] = now.exact ? now.exact[k] : f64(now.boxes[k]);
-    } else {
-      __builtin_memcpy(&boxes[from], now.boxes + from, width * sizeof(f32));
+  /// Copies one slot, unless it is lent.
+  SMALL void take(u32 s, const PresentBoxes& now) {
+    for (u64 k = u64(s) * width; !lent && k < (u64(s) + 1) * width; k++) {
+      if (!rounded) boxes.own[k] = now.boxes[k];
+      else exact.own[k] = now.exact ? now.exact[k] : f64(now.boxes[k]);
     }
-    if (named) ids[s] = now.ids.id(s);
-    if (filtered) rules[s] = now.rules[s];
-    if (!reached) return;
-    reaches[s] = now.reaches[s];
-    if (most_reach_ != unmeasured) most_reach_ = larger(most_reach_, reach_of(s));
+    if (named && !lent) ids.own[s] = now.ids.id(s);
+    if (filtered && !lent) rules.own[s] = now.rules[s];
+    if (reached && !lent) reaches.own[s] = now.reaches[s];
+    if (reached && most_reach_ != unmeasured) most_reach_ = larger(most_reach_, reach_of(s));
   }
 
   /// How far the bounds of a box, with its reach, are at most from its own, rounding included.
@@ -98,24 +150,6 @@ template <int D> struct SeenBoxes {
     most_reach_ = 0;
     for (u32 s = 0; s < count; s++) most_reach_ = larger(most_reach_, reach_of(s));
     return most_reach_;
-  }
-
-  /// Rounds boxes outward; if the world wraps around, moves them into the world first.
-  NOINLINE void round(u32 from, u32 end) {
-    for (u32 s = from; s < end; s++) {
-      const f64* box = &exact[u64(s) * width];
-      f32* to = &boxes[u64(s) * width];
-      if (world) Copies::place(world, D, box, to);
-      else round_outward<D>(box, to);
-    }
-  }
-  /// All of them. `nearest`: they have been rounded to the nearest there, which takes less time to read; null if not.
-  NOINLINE void round_all(const f32* nearest) {
-    if (!rounded) return;
-    f32* to = boxes.reserve(u64(count) * width + 4);
-    if (!nearest || world) return round(0, count);
-    for (const f32* end = to + u64(count) * width; to < end; to += width, nearest += width)
-      loosen<D>(load<f32x4>(nearest), load<f32x4>(nearest + width - 4), to);
   }
 
   bool is_off(u32 slot) const { return filtered && rules[slot].is_off(); }
@@ -135,9 +169,29 @@ template <int D> struct SeenBoxes {
     }
     return reach + 2 * most * sum_rounding;
   }
+};
 
-  template <class T> static void copy(Buffer<T>& to, const T* from, u64 n, u64 padding) {
-    to.reserve(n + padding);
-    if (n) __builtin_memcpy(to.data(), from, n * sizeof(T));
+template <int D> struct SeenBoxes : SeenArrays {
+  static constexpr u32 width = 2 * D;
+
+  constexpr SeenBoxes() : SeenArrays(width) {}
+
+  /// Rounds boxes outward; if the world wraps around, moves them into the world first.
+  NOINLINE void round(u32 from, u32 end) {
+    for (u32 s = from; s < end; s++) {
+      const f64* box = &exact[u64(s) * width];
+      f32* to = &boxes.own[u64(s) * width];
+      if (world) Copies::place(world, D, box, to);
+      else round_outward<D>(box, to);
+    }
+  }
+  /// All of them. `nearest`: they have been rounded to the nearest there, which takes less time to read; null if not.
+  NOINLINE void round_all(const f32* nearest) {
+    if (!rounded) return;
+    f32* to = boxes.own.reserve(u64(count) * width + 4);
+    boxes.at = to;
+    if (!nearest || world) return round(0, count);
+    for (const f32* end = to + u64(count) * width; to < end; to += width, nearest += width)
+      loosen<D>(load<f32x4>(nearest), load<f32x4>(nearest + width - 4), to);
   }
 };

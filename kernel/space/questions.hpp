@@ -125,12 +125,12 @@ template <int D> class Questions {
   }
 
  private:
-  /// Copies the boxes of the last update, if necessary. Returns these if they are still in the space, rounded to the
-  /// nearest; else null.
+  /// Sees the boxes of the last update. Returns these if they are still in the space, rounded to the nearest; else null.
   SMALL const f32* look() {
-    if (store_.seen.ask()) return nullptr;
-    store_.seen.see(store_.present());
-    return store_.numbers.nearest();
+    Seen<D>& seen = store_.seen;
+    seen.ask();
+    if (seen.is_open()) seen.see(store_.present());
+    return index().lent() ? store_.numbers.nearest() : nullptr;
   }
 
   /// Whether there are any boxes that are not off; if there are any at all, builds the index.

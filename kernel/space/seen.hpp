@@ -1,6 +1,6 @@
-// What queries see: the boxes of the last update. While nothing has changed since, these are the boxes themselves; the
-// index takes a copy before the first change. Large spaces that were never queried skip the copy, and so do those with
-// no memory for it; they then cannot answer.
+// What queries see: the boxes of the last update. They are read where the space has them until these change; the index
+// copies them before. Large spaces that were never queried skip the copy, and so do those with no memory for it; they
+// then cannot answer.
 #pragma once
 #include "boxes/changes.hpp"
 #include "questions/index.hpp"
@@ -11,8 +11,8 @@ template <int D> class Seen {
   static constexpr u32 follow_share = 32, follow_least = 8;
 
   bool asked_ = false;  // there has been a query
-  bool holds_ = true;  // the index has what the last update saw: at first, nothing
-  bool lost_ = false;  // no copy was kept of it
+  bool holds_ = true;  // the index has what the last update saw, or reads it: at first, nothing
+  bool lost_ = false;  // it has changed, and was not copied
 
  public:
   // Up to this many boxes, a copy is made even before the first query; fewer if boxes are written in place, when each
@@ -21,49 +21,45 @@ template <int D> class Seen {
 
   Index<D> index;
 
-  bool holds() const { return holds_; }
   bool lost() const { return lost_; }
+  /// Whether `hold` has to be called before a change.
+  bool is_open() const { return !lost_ && (!holds_ || index.lent()); }
 
-  /// Copies the present boxes into the index.
-  void see(const PresentBoxes<D>& now) {
+  /// Sees the present boxes, or where they are now.
+  void see(const PresentBoxes& now) {
+    if (holds_) return index.find(now);
     index.see(now);
     holds_ = true;
   }
 
   /// Before the first change since an update: keeps what that update saw. `most`: up to this many boxes are copied even
   /// before the first query. If there is no memory for a copy, there is none: the change itself may make room.
-  void hold(const PresentBoxes<D>& now, u32 most) {
-    if ((asked_ || now.ids.count() <= most) && index.fits(now)) see(now);
-    else lost_ = holds_ = true;  // holds_: so that this is not called again
+  void hold(const PresentBoxes& now, u32 most) {
+    if ((asked_ || now.ids.count() <= most) && index.fits(now)) {
+      see(now);
+      index.keep(now);
+    } else lost_ = true;
   }
 
-  /// An update is about to take changes, and will see them: nobody can ask for what the last one saw, unless an index is
-  /// in use, which follows.
-  void pass() {
-    if (!asked_ && !holds_) lost_ = holds_ = true;
-  }
+  /// An update is about to take changes, and will see them: until it has, nobody can ask.
+  void pass() { lost_ |= is_open(); }
 
-  /// An update begins: it sees the present boxes, so an earlier loss no longer matters.
-  void begin() {
-    if (lost_) holds_ = lost_ = false;
-  }
+  /// An update has seen the present boxes, so an earlier loss no longer matters.
+  void end() { lost_ = false; }
 
   /// Whether the index can be updated in place by these changes; if not, it is out of date.
   bool can_follow(const Changes& changes, u32 boxes) {
     holds_ = holds_ && !changes.all() && changes.count() <= larger(boxes / follow_share, follow_least);
     return holds_;
   }
-  void follow(const PresentBoxes<D>& now, const Changes& changes) { holds_ = index.follow(now, changes); }
+  void follow(const PresentBoxes& now, const Changes& changes) { holds_ = index.follow(now, changes); }
   /// After an update of boxes that are written in place: a later write is not announced, so they are copied now.
-  void see_in_place(const PresentBoxes<D>& now) {
+  void see_in_place(const PresentBoxes& now) {
     if (!holds_ && (asked_ || now.ids.count() <= spared_in_place)) see(now);
   }
 
-  /// A query begins; false if the present boxes have to be copied first.
-  bool ask() {
-    asked_ = true;
-    return holds_;
-  }
+  /// A query begins.
+  void ask() { asked_ = true; }
 
   /// Forgets what was seen, and the order of boxes in the index.
   SMALL void restart() {

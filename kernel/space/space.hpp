@@ -173,7 +173,6 @@ template <int D> class Space {
     store.numbers.take_written(store.ids.count());
     look_for_map();
     if (store.numbers.written.in_place()) store.changes().note_all();
-    store.seen.begin();
   }
 
   void look_for_map() {
@@ -234,6 +233,7 @@ template <int D> class Space {
     Changes& changes = store.changes();
     u32 n = store.ids.count();
     store.changed.note(changes.all(), changes.list(), changes.count(), n, [&](u32 slot) { return store.ids.id(slot); });
+    store.seen.end();
     if (store.seen.can_follow(changes, n)) store.seen.follow(store.present(), changes);
     if (store.numbers.written.in_place()) store.seen.see_in_place(store.present());
     if (followed) changes.clear(n);
@@ -266,6 +266,7 @@ template <int D> class Space {
 
   /// An update in which nothing has changed.
   i32 rest() {
+    store.seen.end();
     store.events.began.count = store.events.ended.count = 0;
     stats.tests = 0;
     stats.reason = f64(u32(Reason::kept));

@@ -1,5 +1,5 @@
-// The contents of a space: boxes by id, and their settings. Two parts are notified before a change: the index, which
-// copies the boxes of the last update, and the events, which record deleted boxes. Every change allocates before it
+// The contents of a space: boxes by id, and their settings. Two parts are notified before a change: what queries see,
+// which is then copied, and the events, which record deleted boxes. Every change allocates before it
 // writes: if memory runs out, the store is as it was.
 #pragma once
 #include "boxes/changed_ids.hpp"
@@ -21,6 +21,8 @@ template <int D> class Store {
 
   const Settings& options_;
   bool tight_ = false;  // there may be no memory to start storing doubles
+  bool full_ = false;  // the ring has been full since the last update
+  Buffer<f64> waiting_;  // a larger ring
 
  public:
   Ids& ids;
@@ -36,10 +38,11 @@ template <int D> class Store {
   Changes& changes() { return numbers.written.changes; }
   /// The size of the world if it wraps around; else null.
   const f64* world() const { return options_.wrap[0] > 0 ? options_.wrap : nullptr; }
-  /// For the index to copy.
-  PresentBoxes<D> present() {
+  /// For the index.
+  PresentBoxes present() {
     see_written();
-    return {numbers.boxes(), numbers.exact(), ids, own.rules(), own.reaches.data(), world()};
+    return {numbers.boxes(), numbers.exact(),           ids, own.rules(), own.reaches.data(),
+            world(),         numbers.written.in_place()};
   }
   /// Copies what was written in place to where the boxes are.
   SMALL void see_written() { numbers.written.see(numbers.boxes(), ids.count()); }
@@ -52,32 +55,27 @@ template <int D> class Store {
   /// Adds or moves the first `count` boxes of the ring, in order, and updates what may wait in it. All ids are in the
   /// space, or there is room for them; only a box that comes alone may need more.
   NOINLINE void take(Ring<D>& ring, u32 count) {
-    if (count) before_change();
-    u32 slots[Ring<D>::batch];
-    for (u32 from = 0; from < count; from += Ring<D>::batch) {
-      const f64* entries = ring.entries + from * Ring<D>::step;
-      u32 many = smaller(count - from, Ring<D>::batch);
-      // Whatever can fail comes first.
-      if (!numbers.exact() && !numbers.are_floats(entries + 1, many, Ring<D>::step)) numbers.keep_doubles(ids.count());
-      find_slots(entries, many, slots);
-      if (ids.count() > near_boxes) numbers.read_ahead(slots, many);
-      if (changes().most(ids.count())) changes().note_all();  // a list of most boxes is not used
-      numbers.template put<Ring<D>::step>(entries + 1, slots, many);
-    }
+    full_ |= count >= Ring<D>::usual_entries;
+    put(ring.first(), count);
     tell(ring);
   }
 
-  /// The same, right before an update.
-  void take_for_update(Ring<D>& ring, u32 count) {
+  /// The same, right before an update. If the ring was full before, it is enlarged: when all boxes of a frame wait until
+  /// its update, what the last update saw need not be copied (see Seen::pass).
+  SMALL void take_for_update(Ring<D>& ring, u32 count) {
     seen.pass();
-    take(ring, count);
+    put(ring.first(), count);
+    if (full_ && ids.count() >= Ring<D>::usual_entries && ids.count() <= Seen<D>::spared) enlarge(ring);
+    full_ = false;
+    tell(ring);
   }
 
   /// Tells JavaScript which boxes may wait in the ring.
   NOINLINE void tell(Ring<D>& ring) {
-    const u32 n = ids.count(), usual = Ring<D>::usual_entries, most = Ring<D>::most_entries;
-    const u32 usable = n >= usual && n < most ? most : usual;
+    const u32 n = ids.count(), usual = Ring<D>::usual_entries;
+    const u32 usable = n > Seen<D>::spared ? usual : larger(usual + 1, u32(waiting_.capacity()) / Ring<D>::step) - 1;
     ring.usable = usable;
+    ring.place(waiting_.data());
     ring.dense = ring.room = ring.pages = 0;
     heap::kept = 0;
     if (numbers.written.in_place()) return;
@@ -153,7 +151,7 @@ template <int D> class Store {
     bool keeps_ids = ids.same() && ids.count() == count;
     if (!keeps_ids) prepare_ids(count);  // may fail, so before the numbers are given away
     // The numbers that are replaced need not be copied, unless JavaScript may still write to where they are.
-    if (!seen.holds()) hold(Seen<D>::spared, !world() && !numbers.written.in_place());
+    if (seen.is_open()) hold(Seen<D>::spared, !world() && !numbers.written.in_place());
     if (keeps_ids) changes().note_all();
     else renumber(count);
     numbers.take_staged(rounded);
@@ -233,16 +231,42 @@ template <int D> class Store {
   }
 
  private:
-  void before_change(u32 most = Seen<D>::spared) {
-    if (!seen.holds()) hold(most);
+  SMALL void before_change(u32 most = Seen<D>::spared) {
+    if (seen.is_open()) hold(most);
   }
 
   /// Keeps what the last update saw. `gives`: the memory of its numbers, which will be written to no more.
   SMALL void hold(u32 most, bool gives = false) {
-    PresentBoxes<D> last = present();
+    PresentBoxes last = present();
     if (gives) last.boxes = nullptr;
     seen.hold(last, most);
     if (gives && !seen.lost()) seen.index.take(numbers);
+  }
+
+  /// Makes room for all boxes in the ring, and one more: it is flushed when the last entry is written. Its entries stay,
+  /// since JavaScript still counts on them: the stack may end before the update does.
+  SMALL void enlarge(Ring<D>& ring) {
+    u64 had = waiting_.capacity(), numbers = (u64(ids.count()) + 2) * Ring<D>::step;
+    if (!heap::can_spare(2 * waiting_.missing(numbers))) return;
+    waiting_.grow(numbers, had);
+    if (had == 0) __builtin_memcpy(waiting_.data(), ring.few, sizeof(ring.few));
+    ring.place(waiting_.data());
+  }
+
+  /// Adds or moves boxes.
+  NOINLINE void put(const f64* entries, u32 count) {
+    if (count) before_change();
+    u32 slots[Ring<D>::batch];
+    for (; count > 0; entries += Ring<D>::batch * Ring<D>::step) {
+      u32 many = smaller(count, Ring<D>::batch);
+      count -= many;
+      // Whatever can fail comes first.
+      if (!numbers.exact() && !numbers.are_floats(entries + 1, many, Ring<D>::step)) numbers.keep_doubles(ids.count());
+      find_slots(entries, many, slots);
+      if (ids.count() > near_boxes) numbers.read_ahead(slots, many);
+      if (changes().most(ids.count())) changes().note_all();  // a list of most boxes is not used
+      numbers.template put<Ring<D>::step>(entries + 1, slots, many);
+    }
   }
 
   /// Room for `count` boxes in every array with one entry per box.

@@ -236,6 +236,7 @@ template <int D> void check_waiting() {
     if (settings) f.space.store.set_reach(4, 0), f.space.store.put_in_group(5, 9), f.space.store.put_in_group(5, 0);
     if (state & 2) CHECK(f.space.store.remove(name(gaps ? 8 : 1199))), f.model.remove(name(gaps ? 8 : 1199));
     auto ring = std::make_unique<Ring<D>>();
+    ring->place(nullptr);
     for (u32 k = 0; k < 60; k++) f.works();
     f.space.store.take(*ring, 0);
     u32 known = gaps ? 1200 : u32(ring->dense), room = u32(gaps ? ring->usable : ring->room);
@@ -247,8 +248,9 @@ template <int D> void check_waiting() {
     for (u32 k = 0; k < count; k++) {
       u32 number = known - 100 + k;
       const Box<D>& box = doubles ? boxes[number] : floats[number];
-      ring->entries[k * Ring<D>::step] = name(number);
-      std::copy(box.begin(), box.end(), ring->entries + k * Ring<D>::step + 1);
+      f64* entry = ring->first() + k * Ring<D>::step;
+      entry[0] = name(number);
+      std::copy(box.begin(), box.end(), entry + 1);
       f.model.set(name(number), box);
     }
     f.space.store.take(*ring, count);

@@ -181,8 +181,9 @@ template <int D> PairList sorted_pairs(const Space<D>& space) {
 /// Adds or moves a box, as JavaScript does if a box may not wait.
 template <int D> void set(Space<D>& space, u32 id, const f64* box) {
   Ring<D> ring;
-  ring.entries[0] = id;
-  __builtin_memcpy(ring.entries + 1, box, 2 * D * sizeof(f64));
+  ring.place(nullptr);
+  ring.first()[0] = id;
+  __builtin_memcpy(ring.first() + 1, box, 2 * D * sizeof(f64));
   space.store.take(ring, 1);
 }
 

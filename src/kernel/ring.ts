@@ -5,7 +5,7 @@
 // call of the kernel may grow its memory, which detaches the ring, the ring is closed before each: the next box is
 // written aside and opens it again.
 import { badId, maxId } from '../errors.ts';
-import { ringCapacity, ringHead } from '../generated/abi.ts';
+import { ringHead } from '../generated/abi.ts';
 import type { KernelInstance } from './instance.ts';
 
 /** An index beyond the last word of any memory. */
@@ -26,7 +26,8 @@ export class Ring {
   readonly step: number;
   /** Where the next box goes while the ring is closed. */
   private readonly aside: Float64Array;
-  /** The ring in the kernel's memory. */
+  /** What the kernel tells about the ring, and the ring, in the kernel's memory. */
+  private told = new Float64Array();
   private entries = new Float64Array();
   /** Where boxes are written: for each its id, then its numbers. */
   numbers: Float64Array;
@@ -37,7 +38,7 @@ export class Ring {
   /** Boxes of ids below this may wait. */
   limit = 0;
   /** The index of the last box that may wait. */
-  last: number;
+  last = 0;
   /** All ids below this are in the space, once waiting boxes are taken; 0 if that is not known. */
   dense = 0;
   private room = 0;
@@ -49,7 +50,6 @@ export class Ring {
   constructor(instance: KernelInstance) {
     this.instance = instance;
     this.step = instance.width + 1;
-    this.last = ringHead + (ringCapacity - 1) * this.step;
     this.numbers = this.aside = new Float64Array(7);
   }
 
@@ -116,7 +116,7 @@ export class Ring {
       if (id > maxId) badId('set', id);
       const isNext = id === this.dense && this.room > 0;
       const mayWait = isNext || id < this.dense || this.page(id) > 0;
-      if (!mayWait && end > ringHead) {
+      if (!mayWait && end > step) {
         // Adding it may fail, or an open view of the boxes has to show it: it is flushed after all others.
         const { numbers } = this;
         aside[0] = numbers[end]!;
@@ -131,15 +131,15 @@ export class Ring {
       }
       if (this.numbers === aside) {
         const ring = this.view();
-        ring[ringHead] = aside[0]!;
-        ring[ringHead + 1] = aside[1]!;
-        ring[ringHead + 2] = aside[2]!;
-        ring[ringHead + 3] = aside[3]!;
-        ring[ringHead + 4] = aside[4]!;
-        ring[ringHead + 5] = aside[5]!; // a box in 2D has two numbers fewer: the next one replaces these
-        ring[ringHead + 6] = aside[6]!;
+        ring[step] = aside[0]!;
+        ring[step + 1] = aside[1]!;
+        ring[step + 2] = aside[2]!;
+        ring[step + 3] = aside[3]!;
+        ring[step + 4] = aside[4]!;
+        ring[step + 5] = aside[5]!; // a box in 2D has two numbers fewer: the next one replaces these
+        ring[step + 6] = aside[6]!;
         this.numbers = ring;
-        this.next = ringHead;
+        this.next = step;
       }
       end = this.next + step;
       if (mayWait && this.next < this.last) {
@@ -154,7 +154,7 @@ export class Ring {
       if (!mayWait && !instance.exposedIsOpen) instance.exposed = undefined;
     }
     try {
-      instance.exports.take((end - ringHead) / step);
+      instance.exports.take(end / step - 1);
     } catch (error) {
       this.fail(error);
       instance.recover(error, 'set');
@@ -164,7 +164,7 @@ export class Ring {
 
   /** Flushes the ring and closes it, as the kernel is about to be called. */
   close(): void {
-    if (this.next > ringHead) this.settle(none);
+    if (this.next > this.step) this.settle(none);
     this.shut();
   }
 
@@ -172,7 +172,7 @@ export class Ring {
   dispose(): void {
     this.shut();
     this.forget();
-    this.entries = new Float64Array();
+    this.told = this.entries = new Float64Array();
   }
 
   /** Forgets which boxes may wait: called after anything that adds or removes boxes. */
@@ -183,10 +183,10 @@ export class Ring {
 
   /** Lets an update of the kernel take the boxes that wait. Returns what it returns. */
   update(): number {
-    const waiting = this.next - ringHead;
+    const waiting = this.next / this.step - 1;
     if (waiting <= 0) this.shut();
     try {
-      const bad = this.instance.exports.update(waiting > 0 ? waiting / this.step : 0);
+      const bad = this.instance.exports.update(Math.max(waiting, 0));
       if (waiting > 0) this.reopen();
       return bad;
     } catch (error) {
@@ -208,7 +208,8 @@ export class Ring {
   /** Hears from the kernel, which has emptied the ring, which boxes may wait in it. */
   private reopen(): void {
     this.forget();
-    const told = this.view();
+    const ring = this.view();
+    const { told } = this;
     // As integers: doubles would be garbage.
     this.dense = told[0]! | 0;
     this.room = told[1]! | 0;
@@ -217,9 +218,9 @@ export class Ring {
       this.instance.wordView();
       while (this.paged <= maxId && this.page(this.paged) > 0) this.paged += pageLength;
     }
-    this.last = ringHead + ((told[3]! | 0) - 1) * this.step;
-    this.numbers = told;
-    this.next = ringHead;
+    this.last = (told[3]! | 0) * this.step;
+    this.numbers = ring;
+    this.next = this.step;
     this.limit = Math.max(this.dense, this.paged);
   }
 
@@ -236,14 +237,10 @@ export class Ring {
 
   /** The ring in the kernel's memory. */
   view(): Float64Array {
-    if (this.entries.length === 0) {
-      const { exports } = this.instance;
-      this.entries = new Float64Array(
-        exports.memory.buffer,
-        exports.ring_address(),
-        ringHead + ringCapacity * this.step,
-      );
-    }
+    const { exports } = this.instance;
+    if (this.told.length === 0) this.told = new Float64Array(exports.memory.buffer, exports.ring_address(), ringHead);
+    const at = this.told[4]! >>> 0;
+    if (this.entries.byteOffset !== at) this.entries = new Float64Array(exports.memory.buffer, at);
     return this.entries;
   }
 }

@@ -83,8 +83,9 @@ template <int D> class Player {
 
   void set() {
     u32 id = whole();
-    ring_.entries[0] = id;
-    __builtin_memcpy(ring_.entries + 1, at_, width * sizeof(f64));
+    ring_.place(nullptr);
+    ring_.first()[0] = id;
+    __builtin_memcpy(ring_.first() + 1, at_, width * sizeof(f64));
     space_.store.take(ring_, 1);
     at_ += width;
   }
