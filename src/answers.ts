@@ -21,6 +21,7 @@ type Accept = (id: number, hit: Hit) => unknown;
 
 /** The state of a query, saved while its visitor is called, which may make other queries. */
 class Visit {
+  turn = 0;
   readonly query = new Float64Array(ioLength);
   readonly ids = new Uint32Array(part);
   readonly ranks = new Float64Array(part);
@@ -149,12 +150,11 @@ function visitArea(instance: KernelInstance, where: string, planes: number, aske
       const first = instance.kernel.answers_address() >>> 2;
       const words = instance.wordView();
       for (let k = 0; k < count; k++) visit.ids[k] = words[first + k]!;
-      const updates = instance.kernel.updates();
       for (let k = 0; k < count; k++) {
         const id = visit.ids[k]!; // for planes, the bits above it say whether it is in front of all
         if (others?.includes(id & maxId)) continue;
         const told = planes === shape ? (visitor as (id: number) => unknown)(id) : visitor(id & maxId, id > maxId);
-        if (ends(instance, where, updates, told)) return;
+        if (ends(instance, where, visit, told)) return;
       }
     }
   } catch (error) {
@@ -186,14 +186,13 @@ export function walk(
       instance.io().set(visit.query);
       const count = known(where, instance.kernel.ask_order(kind, mask, ignored, after, wanted));
       keepHits(instance, visit, count);
-      const updates = instance.kernel.updates();
       for (let k = 0; k < count && left > 0; k++) {
         const id = visit.ids[k]! & maxId;
         if (others?.includes(id)) continue;
         left--;
         if (hit !== undefined) writeHit(instance, visit, k, kind, hit);
         const told = into ? call(id, into) : call(id, visit.ranks[k]!, hit);
-        if (ends(instance, where, updates, told, into)) return true;
+        if (ends(instance, where, visit, told, into)) return true;
       }
       if (count < wanted) return false;
       after = visit.ids[count - 1]!;
@@ -246,6 +245,7 @@ function startVisit(instance: KernelInstance): Visit {
     visits.push(visit);
   }
   visit.query.set(instance.io());
+  visit.turn = instance.turn;
   return visit;
 }
 
@@ -282,12 +282,12 @@ export function known(where: string, count: number): number {
 }
 
 /** Whether what a visitor, or an `accept` with its hit, has returned ends the search. */
-function ends(instance: KernelInstance, where: string, updates: number, told: unknown, into?: Hit): boolean {
+function ends(instance: KernelInstance, where: string, visit: Visit, told: unknown, into?: Hit): boolean {
   const by = into ? 'accept' : 'visit';
   if (told && (into ? told !== true : told instanceof Promise)) checkBoolean(`${where}: ${by} returned`, told);
   if (told === !!into) return true;
-  if (instance.kernel.updates() === updates) return false;
-  throw new Error(`${where}: update or restore was called by ${by}, expected after the search has ended`);
+  if (instance.turn === visit.turn) return false;
+  throw new Error(`${where}: update or restore was called by ${by}, or memory ran out: expected after the search`);
 }
 
 /** Refuses a path or a distance that is too long in a world that wraps around. */

@@ -66,16 +66,14 @@ export function badBox(where: string, id: number, box: ArrayLike<unknown>, dimen
     }
     if (Number.isNaN(value)) throw new RangeError(`${where}: ${names[k]} of box ${id} is NaN, expected a number`);
   }
-  for (let a = 0; a < dimensions; a++) {
+  for (let a = 0; ; a++) {
     const low = box[a] as number;
     const high = box[a + dimensions] as number;
-    if (low > high) {
-      throw new RangeError(
-        `${where}: box ${id} has ${names[a]} ${low} above ${names[a + dimensions]} ${high}, expected minima not above maxima`,
-      );
-    }
+    if (low <= high) continue;
+    throw new RangeError(
+      `${where}: box ${id} has ${names[a]} ${low} above ${names[a + dimensions]} ${high}, expected minima not above maxima`,
+    );
   }
-  throw new Error(`${where}: box ${id} was refused: please report this`);
 }
 
 /** The id of a box, and the number of arguments of the call that sets it. */

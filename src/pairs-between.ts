@@ -2,7 +2,7 @@
 // them, and lists of the other's boxes: see kernel/questions/neighbours.hpp. The code here takes queries and answers from
 // one kernel to the other, and copies the pairs.
 import { known } from './answers.ts';
-import { badValue } from './errors.ts';
+import { badValue, show } from './errors.ts';
 import {
   asks,
   logAt,
@@ -20,6 +20,8 @@ import { everything } from './query-options.ts';
 
 const where = 'pairsWith';
 const ofOther = 'pairsWith: the other BroadPhase';
+/** What both spaces must have in common. */
+const shared = ['dimensions', 'wrap', 'touching'] as const;
 /** Numbers of a row besides the box: see `write_row` in kernel/questions/index.hpp. */
 const rowMore = 3;
 /** The number of views kept, so that a length seen recently makes no garbage. */
@@ -83,22 +85,14 @@ export function pairsWith(instance: KernelInstance, other: KernelInstance): Uint
 
 function checkOther(instance: KernelInstance, other: KernelInstance): void {
   if (other === instance) {
-    throw new TypeError(`${where}: got the space itself, expected another: the pairs within it are in its pairs`);
+    throw new TypeError(`${where}: got the space itself, expected another: its own pairs are in pairs`);
   }
   instance.exports.size(); // throws where this one was disposed of
   if (other.isDisposed) throw new Error(`${where}: the other BroadPhase was disposed and can no longer be used`);
-  if (other.dimensions !== instance.dimensions) {
-    badValue(`${where}: dimensions of the other`, other.dimensions, `${instance.dimensions} as here`);
-  }
-  if (String(other.wrap) !== String(instance.wrap)) {
-    badValue(
-      `${where}: wrap of the other`,
-      other.wrap,
-      `${instance.wrap ? `[${instance.wrap.join(', ')}]` : 'none'} as here`,
-    );
-  }
-  if (other.touching !== instance.touching) {
-    badValue(`${where}: touching of the other`, other.touching, `${instance.touching} as here`);
+  for (const name of shared) {
+    const mine = instance[name];
+    if (String(other[name]) === String(mine)) continue;
+    badValue(`${where}: ${name} of the other`, other[name], `${mine === undefined ? 'none' : show(mine)} as here`);
   }
 }
 

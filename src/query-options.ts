@@ -257,7 +257,7 @@ const asked = {
   visit: undefined as unknown,
   accept: undefined as unknown,
 };
-export type Asked = Readonly<typeof asked>;
+export type Asked = typeof asked;
 
 /** Called once all is known, so that nothing is kept from the garbage collector until the next query. */
 export function letGo(): void {

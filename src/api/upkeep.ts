@@ -76,7 +76,7 @@ export interface Upkeep {
    *
    * @param bytes the result of `snapshot`, in this version of the library or an older one
    * @throws RangeError that gives the reason for bytes that are damaged, truncated, of other dimensions, or not a
-   *   snapshot; TypeError for anything but bytes. The space is as before.
+   *   snapshot; TypeError for anything but bytes. The space is as before, but damaged bytes may detach the array of `boxes`.
    * @throws RangeError if memory runs out during the search: the boxes are restored, the pairs are empty
    *
    * @example

@@ -54,6 +54,7 @@ export class KernelInstance {
   private staged: (Float32Array | Float64Array)[] = [];
   private counters = new Float64Array();
   private readonly top: number;
+  private losses = 0; // how often memory has run out
 
   constructor(dimensions: Dimensions, wrap: readonly number[] | undefined, touching: boolean, events: boolean) {
     this.dimensions = dimensions;
@@ -140,6 +141,11 @@ export class KernelInstance {
     return this.doubles;
   }
 
+  /** Stays the same while the answers of a query do. */
+  get turn(): number {
+    return this.kernel.updates() + this.losses;
+  }
+
   /** The counters of the last update. */
   statsView(): Float64Array {
     if (this.counters.length === 0) {
@@ -202,6 +208,7 @@ export class KernelInstance {
     if (!this.isDisposed) this.exports.__stack_pointer.value = this.top; // the end of the stack is no RuntimeError
     if ((error as Error | undefined)?.name !== 'RuntimeError') throw error;
     if (this.kernel.recover() === 0) throw error;
+    this.losses++; // the index for queries is lost
     throw new RangeError(
       `${where}: out of memory: ${this.io()[0]} more bytes are needed for ${this.size} boxes and their pairs, ` +
         'more than WebAssembly (4 GiB) or this host allows',

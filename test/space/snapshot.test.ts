@@ -350,6 +350,17 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     fc.assert(property, { seed, numRuns: 20 * numRuns });
   });
 
+  test('damaged ones so long that memory grows detach the array of boxes(), but not what was written to it', () => {
+    const damaged = new BroadPhase().setAll(new Float32Array(800_000)).snapshot();
+    damaged[damaged.length - 1]! ^= 1;
+    const space = new BroadPhase();
+    space.boxes(2).set([0, 0, 2, 2, 1, 1, 3, 3]);
+    expect(() => space.restore(damaged)).toThrow('the snapshot is damaged');
+    expect(() => space.update()).toThrow('the array of boxes() was detached');
+    expect([...space.boxes(2)]).toEqual([0, 0, 2, 2, 1, 1, 3, 3]);
+    expect(space.update().pairCount).toBe(1);
+  });
+
   test('fewer of them, or more', () => {
     const saved = full(3).snapshot();
     const space = full(3);
