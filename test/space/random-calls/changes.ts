@@ -6,12 +6,12 @@ import { expectKeys } from '../../support/expect-pairs.ts';
 import { pairsOf } from '../../support/model.ts';
 import { pathOf } from '../../support/path-of.ts';
 import { setBox } from '../../support/set-box.ts';
-import { call, copy, expectEvents, type Model, on, put, type RandomCall, replace, update } from './model.ts';
-import { anId, bits, shapes, show } from './values.ts';
+import { all, call, copy, expectEvents, type Model, on, put, type RandomCall, replace, update } from './model.ts';
+import { anId, bits, shapes, show, tuple } from './values.ts';
 
 /** Boxes come, move and go. */
 export function changes(dimensions: 2 | 3): RandomCall[] {
-  const { aBox, aWay } = shapes(dimensions);
+  const { aBox, aPoint, aWay } = shapes(dimensions);
   const rowOf = (model: Model, id: number) => [...model.view!.subarray(id * 2 * dimensions, (id + 1) * 2 * dimensions)];
 
   return [
@@ -25,6 +25,20 @@ export function changes(dimensions: 2 | 3): RandomCall[] {
       call(`setSwept(${show([id, ...box, ...way])})`, (model, space) => {
         expect(on(space).setSwept(id, ...box, ...way)).toBe(space);
         put(model, id, pathOf(box, way));
+      }),
+    ),
+    fc.tuple(anId, aPoint, tuple(fc.constantFrom(0, 0.5, 1, 3), dimensions)).map(([id, centre, half]) =>
+      call(`setCentred(${show([id, ...centre, ...half])})`, (model, space) => {
+        expect(on(space).setCentred(id, ...centre, ...half)).toBe(space);
+        put(model, id, [...centre.map((x, a) => x - half[a]!), ...centre.map((x, a) => x + half[a]!)]);
+      }),
+    ),
+    fc.tuple(fc.array(aBox, { maxLength: 20 }), fc.nat(9)).map(([given, more]) =>
+      call(`setAll(${show([...given.flat(), `${more} more`])}, ${given.length})`, (model, space) => {
+        const rest = Array<number>(more).fill(Number.NaN);
+        expect(space.setAll([...given.flat(), ...rest], given.length)).toBe(space);
+        replace(model, given);
+        model.view = undefined;
       }),
     ),
     fc
@@ -53,7 +67,7 @@ export function changes(dimensions: 2 | 3): RandomCall[] {
           Array.from({ length: count }, (_, id) => (entries.get(id)?.box ?? nothing).map(Math.fround)),
         );
         model.view = space.boxes(count);
-        for (let id = 0; id < count; id++) expect(rowOf(model, id)).toEqual(entries.get(id)!.box);
+        for (let id = 0; id < count; id++) expect(rowOf(model, id)).toEqual(model.entries.get(id)!.box);
       }),
     ),
     ...[1, 2].map(() =>
@@ -87,6 +101,16 @@ export function changes(dimensions: 2 | 3): RandomCall[] {
         expect(space.has(id)).toBe(model.entries.has(id));
         expect(space.get(id, [])).toEqual(model.entries.get(id)?.box);
         expect(space.size).toBe(model.entries.size);
+      }),
+    ),
+    fc.constant(
+      call('keys(), and what belongs to them', (model, space) => {
+        expect([...space.keys()]).toEqual([...model.entries.keys()]);
+        for (const [id, { layer, mask, isStatic, isOff = false, group = 0, reach = 0 }] of model.entries) {
+          expect(space.filterOf(id)).toEqual({ layer, mask });
+          expect([space.isStatic(id), space.isEnabled(id)]).toEqual([isStatic, !isOff]);
+          expect([space.groupOf(id), space.reachOf(id)]).toEqual([group, reach]);
+        }
       }),
     ),
     fc.constant(
@@ -127,6 +151,22 @@ export function rules(): RandomCall[] {
         expect(space.isEnabled(id)).toBe(known !== undefined && enabled);
       }),
     ),
+    fc.tuple(anId, fc.constantFrom(0, 1, 2, all)).map(([id, group]) =>
+      call(`setGroup(${id}, ${group})`, (model, space) => {
+        const known = model.entries.get(id);
+        if (known) known.group = group;
+        if (known) expect(space.setGroup(id, group)).toBe(space);
+        else expect(() => space.setGroup(id, group)).toThrow(`setGroup: there is no box ${id}`);
+      }),
+    ),
+    fc.tuple(anId, fc.constantFrom(0, 1, 0.1, 2.5)).map(([id, reach]) =>
+      call(`setReach(${id}, ${reach})`, (model, space) => {
+        const known = model.entries.get(id);
+        if (known) known.reach = reach;
+        if (known) expect(space.setReach(id, reach)).toBe(space);
+        else expect(() => space.setReach(id, reach)).toThrow(`setReach: there is no box ${id}`);
+      }),
+    ),
     fc.constantFrom(...BroadPhase.techniques).map((technique) =>
       call(`technique = ${technique}`, (_, space) => {
         space.technique = technique;
@@ -165,7 +205,7 @@ export function saves(dimensions: 2 | 3): RandomCall[] {
         model.began = saved.began;
         model.ended = saved.ended;
         model.seen = copy(saved.entries);
-        const keys = pairsOf(model.entries, dimensions);
+        const keys = pairsOf(model.entries, dimensions, model.touching);
         expectKeys(space, keys);
         expectEvents(model, space);
         model.shown = new Set(keys);

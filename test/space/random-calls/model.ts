@@ -1,5 +1,6 @@
 // The model that random calls are compared with: a Map of what each box was given, and what the last update saw.
 import type { BroadPhase } from 'broadphase';
+import type { Recording } from 'broadphase/trace';
 import type fc from 'fast-check';
 import { expect } from 'vitest';
 import { expectKeys } from '../../support/expect-pairs.ts';
@@ -9,6 +10,8 @@ import { keyOf } from '../../support/reference.ts';
 export const all = 0xffffffff;
 
 export interface Model {
+  /** Whether boxes that only touch are pairs. */
+  touching: boolean;
   entries: Map<number, Entry>;
   /** Deleted since the last update. */
   gone: Set<number>;
@@ -21,6 +24,11 @@ export interface Model {
   seen: Map<number, Entry>;
   /** What `boxes()` gave, while its rows stand for the ids 0, 1, 2, …. */
   view: Float32Array | undefined;
+  /** Another space, for pairs between the two; its boxes, and what its last update saw. */
+  other: { space: BroadPhase<2 | 3>; entries: Map<number, Entry>; seen: Map<number, Entry> };
+  /** A recording of all updates, and the keys of the pairs of each. */
+  recording: Recording | undefined;
+  frames: Float64Array[];
   saved?: Pick<Model, 'entries' | 'gone' | 'before' | 'began' | 'ended'> & { bytes: Uint8Array };
 }
 
@@ -39,18 +47,18 @@ class Call implements fc.Command<Model, BroadPhase> {
   toString = () => this.#name;
 }
 
-export function put(model: Model, id: number, box: number[]): void {
+export function put(model: Pick<Model, 'entries'>, id: number, box: number[]): void {
   const known = model.entries.get(id);
   model.entries.set(id, { layer: all, mask: all, isStatic: false, ...known, box });
 }
 
 export function replace(model: Model, boxes: readonly number[][]): void {
-  for (const id of [...model.entries.keys()]) {
-    if (id < boxes.length) continue;
-    model.entries.delete(id);
-    model.gone.add(id);
-  }
+  const { entries } = model;
+  for (const id of entries.keys()) if (id >= boxes.length) model.gone.add(id);
+  model.entries = new Map(); // ids are in numerical order now
   boxes.forEach((box, id) => {
+    const known = entries.get(id);
+    if (known) model.entries.set(id, known);
     put(model, id, box);
   });
 }
@@ -58,7 +66,7 @@ export function replace(model: Model, boxes: readonly number[][]): void {
 export function update(model: Model, space: BroadPhase<2 | 3>): void {
   expect(space.update()).toBe(space);
   const { dimensions } = space;
-  const keys = pairsOf(model.entries, dimensions);
+  const keys = pairsOf(model.entries, dimensions, model.touching);
   expectKeys(space, keys);
   const now = new Set(keys);
   const isGone = (key: number) => model.gone.has(Math.floor(key / 2 ** 24)) || model.gone.has(key % 2 ** 24);
@@ -68,6 +76,7 @@ export function update(model: Model, space: BroadPhase<2 | 3>): void {
   model.shown = model.before = now;
   model.gone = new Set();
   model.seen = copy(model.entries);
+  model.frames.push(keys);
   expect(space.stats.pairs).toBe(space.pairCount);
   space.validate();
 }
