@@ -277,7 +277,7 @@ export function known(where: string, count: number): number {
   if (count !== -1) return count;
   throw new Error(
     `${where}: boxes have changed since the last update, and a large space that was never queried has no copy, ` +
-      'or memory ran out; query it right after an update',
+      'or memory ran out: query right after an update',
   );
 }
 

@@ -17,26 +17,24 @@ const spares: (KernelInstance | undefined)[] = [];
 /** A space that has used more bytes of memory than this is not kept, since touched memory is not returned. */
 const mostBytes = 64 * 2 ** 20;
 
-/** The space for a call with these options. */
-function borrow(where: string, options?: BroadPhaseOptions<Dimensions>): KernelInstance {
-  checkNames(where, options);
-  const dimensions = plain(options);
-  const spare = spares[dimensions];
+/** The space for a call with these options, which are `plain` ones of so many dimensions, or have others too. */
+function borrow(spared: Dimensions | 0, options?: BroadPhaseOptions<Dimensions>): KernelInstance {
+  const spare = spares[spared];
   if (spare === undefined) return open(options);
-  spares[dimensions] = undefined;
+  spares[spared] = undefined;
   return spare;
 }
 
-/** Keeps the space for the next call. If a call throws, its space is dropped. */
-function giveBack(space: KernelInstance, options?: BroadPhaseOptions<Dimensions>): void {
-  const dimensions = plain(options);
-  if (dimensions === 0) return;
+/** Keeps the space for the next call, if it may be spared. If a call throws, its space is dropped. */
+function giveBack(space: KernelInstance, spared: Dimensions | 0): void {
+  if (spared === 0) return;
   space.ring.forget();
-  if (space.kernel.begin_anew() >>> 0 <= mostBytes) spares[dimensions] = space;
+  if (space.kernel.begin_anew() >>> 0 <= mostBytes) spares[spared] = space;
 }
 
-/** The dimensions in the options, if there is no other option; else 0. */
-function plain(options?: BroadPhaseOptions<Dimensions>): number {
+/** The dimensions in the options, if there is no other option; else 0. Read once, as a getter may change the options. */
+function plain(where: string, options?: BroadPhaseOptions<Dimensions>): Dimensions | 0 {
+  checkNames(where, options);
   if (options === undefined) return builtDimensions[0]!;
   for (const name in options) if (name !== 'dimensions') return 0;
   const { dimensions } = options;
@@ -57,10 +55,11 @@ function plain(options?: BroadPhaseOptions<Dimensions>): number {
  * findPairs([0, 0, 10, 10, 5, 5, 15, 15]); // → Uint32Array [0, 1]
  */
 export function findPairs(boxes: Boxes, options?: BroadPhaseOptions<Dimensions>): Uint32Array {
-  const space = borrow('findPairs', options);
+  const spared = plain('findPairs', options);
+  const space = borrow(spared, options);
   setAll(space, boxes, undefined, 'findPairs');
   const pairs = search(space, 'findPairs');
-  giveBack(space, options);
+  giveBack(space, spared);
   return pairs;
 }
 
@@ -79,7 +78,8 @@ export function findPairs(boxes: Boxes, options?: BroadPhaseOptions<Dimensions>)
  * findPairsBetween(players, coins); // → Uint32Array [0, 0]
  */
 export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOptions<Dimensions>): Uint32Array {
-  const space = borrow('findPairsBetween', options);
+  const spared = plain('findPairsBetween', options);
+  const space = borrow(spared, options);
   const { dimensions } = space;
   const reds = count('findPairsBetween: red', red, dimensions);
   const blues = count('findPairsBetween: blue', blue, dimensions);
@@ -93,7 +93,7 @@ export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOp
   }
   split(space, reds);
   const pairs = search(space, 'findPairsBetween');
-  giveBack(space, options);
+  giveBack(space, spared);
   for (let k = 1; k < pairs.length; k += 2) pairs[k]! -= reds;
   return pairs;
 }

@@ -168,3 +168,23 @@ test('findPairs within findPairs', () => {
     expect(inner.every((pairs) => pairs.length > 0)).toBe(true);
   }
 });
+
+test('a getter that changes the options of findPairs has no effect on the next call', () => {
+  const solid = Array.from({ length: 12 }, (_, k) => Math.floor((k % 6) / 3));
+  for (const [given, later] of [
+    [{ dimensions: 2 }, { dimensions: 3 }],
+    [{ dimensions: 2 }, { touching: false }],
+    [{ touching: false }, { dimensions: 2 }],
+  ] as const) {
+    const options: Record<string, unknown> = { ...given };
+    const change = () => {
+      for (const name of Object.keys(options)) delete options[name];
+      Object.assign(options, later);
+    };
+    expect([...findPairs(reading(two, 3, 1, change), options)]).toEqual([0, 1]);
+    expect([...findPairs(solid, { dimensions: 3 })]).toEqual([0, 1]);
+    expect([...findPairsBetween(two, reading(two, 3, 1, change), { ...given })].length).toBe(8);
+    expect([...findPairs(solid, { dimensions: 3 })]).toEqual([0, 1]);
+    expect([...findPairs([0, 0, 1, 1, 1, 1, 2, 2])]).toEqual([0, 1]);
+  }
+});
