@@ -118,7 +118,8 @@ describe(`a restored space (SEED=${seed})`, () => {
   test.each(combinations)('continues like the original: %s in %d dimensions', (technique, dimensions) => {
     const numbers = fc.record({ seed: fc.nat(), before: fc.nat(60), after: fc.nat(40), lost: fc.nat(40) });
     const property = fc.property(numbers, ({ seed, before, after, lost }) => {
-      const options = { technique, dimensions, events: true } as const;
+      const wrap = seed % 3 ? undefined : Array<number>(dimensions).fill(50);
+      const options = { technique, dimensions, events: true, touching: seed % 2 > 0, wrap };
       const [history, future, taken] = [before, after + 1, lost].map((count, k) =>
         randomCalls(count, dimensions, seed + k),
       );
@@ -284,6 +285,9 @@ describe('bytes that are no snapshot leave the space as it was', () => {
     for (let id = 0; id < 30; id++) modelled.set(id * 3);
     for (let id = 0; id < 30; id += 4) modelled.filter(id * 3, 1, 3);
     modelled.setStatic(6, true);
+    modelled.setEnabled(12, false);
+    for (const id of [15, 18]) modelled.setGroup(id, 7);
+    modelled.setReach(21, 0.5);
     modelled.space.update();
     modelled.delete(9);
     return modelled.space;
