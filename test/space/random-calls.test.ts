@@ -27,12 +27,15 @@ describe.each(mixtures)(`every method in any order, %s (SEED=${seed})`, (_, sour
       sources.flatMap((calls) => calls(dimensions)),
       { maxCommands: 100, size: 'max' },
     );
-    const property = fc.property(technique, fc.boolean(), calls, (technique, touching, calls) => {
+    // What queries find there has tests of its own.
+    const wraps = sources.includes(queries) ? [undefined] : [undefined, [10, 7, 4].slice(0, dimensions)];
+    const world = fc.record({ touching: fc.boolean(), wrap: fc.constantFrom(...wraps) });
+    const property = fc.property(technique, world, calls, (technique, world, calls) => {
       const setup = () => {
-        const options = { dimensions, touching } as const;
+        const options = { dimensions, ...world };
         const real = new BroadPhase({ ...options, technique, events: true });
         const model: Model = {
-          touching,
+          world,
           entries: new Map(),
           gone: new Set(),
           shown: new Set(),

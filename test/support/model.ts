@@ -37,12 +37,12 @@ export function grown({ box, reach = 0 }: Entry): number[] {
   return box.map((x, k) => (k < box.length / 2 ? x - reach : x + reach));
 }
 
-/** The keys of all pairs of the entries that overlap and meet, sorted. Without `touching`, those that only touch do not. */
-export function pairsOf(entries: ReadonlyMap<number, Entry>, dimensions: number, touching = true): Float64Array {
+/** The keys of all pairs of the entries that overlap and meet, sorted. */
+export function pairsOf(entries: ReadonlyMap<number, Entry>, dimensions: number): Float64Array {
   const boxes = [...entries.values()].flatMap(grown);
   return referencePairs(boxes, dimensions, [...entries.keys()]).filter((key) => {
-    const [a, b] = pairOf(key).map((id) => entries.get(id)!) as [Entry, Entry];
-    return meet(a, b) && (touching || overlaps(grown(a), grown(b)));
+    const [a, b] = pairOf(key);
+    return meet(entries.get(a)!, entries.get(b)!);
   });
 }
 

@@ -3,10 +3,21 @@ import { BroadPhase } from 'broadphase';
 import fc from 'fast-check';
 import { expect } from 'vitest';
 import { expectKeys } from '../../support/expect-pairs.ts';
-import { pairsOf } from '../../support/model.ts';
 import { pathOf } from '../../support/path-of.ts';
 import { setBox } from '../../support/set-box.ts';
-import { all, call, copy, expectEvents, type Model, on, put, type RandomCall, replace, update } from './model.ts';
+import {
+  all,
+  call,
+  copy,
+  expectEvents,
+  type Model,
+  on,
+  pairsOf,
+  put,
+  type RandomCall,
+  replace,
+  update,
+} from './model.ts';
 import { anId, bits, shapes, show, tuple } from './values.ts';
 
 /** Boxes come, move and go. */
@@ -205,7 +216,7 @@ export function saves(dimensions: 2 | 3): RandomCall[] {
         model.began = saved.began;
         model.ended = saved.ended;
         model.seen = copy(saved.entries);
-        const keys = pairsOf(model.entries, dimensions, model.touching);
+        const keys = pairsOf(model.entries, model.world);
         expectKeys(space, keys);
         expectEvents(model, space);
         model.shown = new Set(keys);

@@ -4,14 +4,20 @@ import type { Recording } from 'broadphase/trace';
 import type fc from 'fast-check';
 import { expect } from 'vitest';
 import { expectKeys } from '../../support/expect-pairs.ts';
-import { type Entry, pairsOf } from '../../support/model.ts';
+import { type Entry, grown, meet, overlaps, touches } from '../../support/model.ts';
 import { keyOf } from '../../support/reference.ts';
+import { wrappedOverlap } from '../../support/wrapped-reference.ts';
 
 export const all = 0xffffffff;
 
-export interface Model {
-  /** Whether boxes that only touch are pairs. */
+/** The options of a space that decide which boxes overlap. */
+export interface World {
   touching: boolean;
+  wrap: readonly number[] | undefined;
+}
+
+export interface Model {
+  world: World;
   entries: Map<number, Entry>;
   /** Deleted since the last update. */
   gone: Set<number>;
@@ -30,6 +36,22 @@ export interface Model {
   recording: Recording | undefined;
   frames: Float64Array[];
   saved?: Pick<Model, 'entries' | 'gone' | 'before' | 'began' | 'ended'> & { bytes: Uint8Array };
+}
+
+/** Whether two boxes, enlarged by their reaches, overlap. */
+export function overlap({ touching, wrap }: World, a: Entry, b: Entry): boolean {
+  const [one, other] = [grown(a), grown(b)];
+  if (wrap) return wrappedOverlap(one, other, wrap, touching);
+  return touching ? touches(one, { ...b, box: other }) : overlaps(one, other);
+}
+
+/** The keys of all pairs, sorted. */
+export function pairsOf(entries: ReadonlyMap<number, Entry>, world: World): Float64Array {
+  const all = [...entries];
+  const keys = all.flatMap(([a, one], k) =>
+    all.slice(k + 1).flatMap(([b, other]) => (meet(one, other) && overlap(world, one, other) ? [keyOf(a, b)] : [])),
+  );
+  return Float64Array.from(keys).sort();
 }
 
 export const copy = (entries: ReadonlyMap<number, Entry>) =>
@@ -65,8 +87,7 @@ export function replace(model: Model, boxes: readonly number[][]): void {
 
 export function update(model: Model, space: BroadPhase<2 | 3>): void {
   expect(space.update()).toBe(space);
-  const { dimensions } = space;
-  const keys = pairsOf(model.entries, dimensions, model.touching);
+  const keys = pairsOf(model.entries, model.world);
   expectKeys(space, keys);
   const now = new Set(keys);
   const isGone = (key: number) => model.gone.has(Math.floor(key / 2 ** 24)) || model.gone.has(key % 2 ** 24);

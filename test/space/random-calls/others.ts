@@ -4,19 +4,19 @@ import { applyFrame, openTrace } from 'broadphase/trace';
 import fc from 'fast-check';
 import { expect } from 'vitest';
 import { expectKeys } from '../../support/expect-pairs.ts';
-import { grown, overlaps, touches } from '../../support/model.ts';
+import { meet } from '../../support/model.ts';
 import { setBox } from '../../support/set-box.ts';
-import { ascending, call, copy, type Model, on, put, type RandomCall } from './model.ts';
+import { ascending, call, copy, type Model, on, overlap, put, type RandomCall, type World } from './model.ts';
 import { anId, bits, shapes, show } from './values.ts';
 
 /** The pairs of a box here and one there, as text, sorted. */
-function between(here: Model['seen'], there: Model['seen'], touching: boolean): string[] {
+function between(here: Model['seen'], there: Model['seen'], world: World): string[] {
   const found: string[] = [];
   for (const [a, one] of here) {
     for (const [b, other] of there) {
-      if (one.isOff || other.isOff || !(one.layer & other.mask) || !(other.layer & one.mask)) continue;
-      const [its, others] = [grown(one), grown(other)];
-      if (touching ? touches(its, { ...other, box: others }) : overlaps(its, others)) found.push(`${a} ${b}`);
+      // Neither groups nor what is static matters between two spaces.
+      const meets = meet({ ...one, isStatic: false, group: 0 }, other);
+      if (meets && overlap(world, one, other)) found.push(`${a} ${b}`);
     }
   }
   return found.sort();
@@ -37,12 +37,12 @@ function anotherSpace(dimensions: 2 | 3): RandomCall[] {
       call(
         `pairsWith another, from here: ${forth}, changed by ${show(changes.flat(2))}, updated: ${updates}`,
         (model, space) => {
-          const { other, seen, touching } = model;
+          const { other, seen, world } = model;
           for (const [id, box, mask, reach] of changes) changeOther(other, id, box, mask, reach);
           if (updates) other.space.update();
           if (updates) other.seen = copy(other.entries);
           const [here, there] = forth ? [space, other.space] : [other.space, space];
-          const expected = forth ? between(seen, other.seen, touching) : between(other.seen, seen, touching);
+          const expected = forth ? between(seen, other.seen, world) : between(other.seen, seen, world);
           expect(texts(here.pairsWith(there))).toEqual(expected);
         },
       ),
@@ -69,8 +69,8 @@ function changeOther(other: Model['other'], id: number, box: number[], mask: num
 }
 
 const replayed: RandomCall = fc.constant(
-  call('the recording so far is replayed', ({ recording, frames, touching }, { dimensions }) => {
-    const copied = new BroadPhase<2 | 3>({ dimensions, touching });
+  call('the recording so far is replayed', ({ recording, frames, world }, { dimensions }) => {
+    const copied = new BroadPhase<2 | 3>({ dimensions, ...world });
     let played = 0;
     expect(recording!.fault).toBeUndefined();
     for (const frame of openTrace(recording!.bytes())) {
