@@ -28,6 +28,16 @@ template <int D> bool boxes_touch(const f32* one, const f32* other) {
 /// Whether `boxes_touch` has found equal bounds.
 template <int D> bool any_equal(i32x4 equal) { return bitmask(equal) & (D == 2 ? 15 : 7); }
 
+/// Whether some box lies at infinity along an axis, where numbers are bounded by the largest: a difference of its bounds is
+/// NaN, or infinite, so its pairs are not recorded as in doubt.
+template <int D> NOINLINE bool some_nowhere(const f32* boxes, u32 count) {
+  const f32x4 first = {1, 1, D == 2 ? -1 : 1, -1}, last = {1, D == 2 ? 1 : -1, -1, -1}, most = splat(__FLT_MAX__);
+  i32x4 some = {};
+  for (const f32* box = boxes; box < boxes + u64(count) * 2 * D; box += 2 * D)
+    some |= (load<f32x4>(box) * first >= most) | (load<f32x4>(box + 2 * D - 4) * last >= most);
+  return any(some);
+}
+
 /// A box is held as its first four numbers and its last four, which in 2D are the same. Writes it.
 template <int D> void store_box(f32* to, f32x4 first, f32x4 last) {
   store(to, first);

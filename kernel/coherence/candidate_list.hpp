@@ -269,8 +269,9 @@ template <int D> class CandidateList {
       bool rest = tags_[u32(pair)] & tags_[u32(pair >> 32)] & rests;
       if (watched_ && rest) {
         i32x4 touching = {};
-        boxes_touch<D>(region(u32(pair)), region(u32(pair >> 32)), touching);
-        rest = !any_equal<D>(touching);
+        const f32 *one = region(u32(pair)), *other = region(u32(pair >> 32));
+        boxes_touch<D>(one, other, touching);
+        rest = !(any_equal<D>(touching) | some_nowhere<D>(one, 1) | some_nowhere<D>(other, 1));
       }
       list[left] = *out = pair;
       left += !rest;

@@ -5,16 +5,6 @@
 
 namespace detail {
 
-/// Whether some box lies at infinity along an axis, where numbers are bounded by the largest: a difference of its bounds is
-/// NaN, or infinite, so the sweep does not record its pairs as in doubt.
-template <int D> NOINLINE bool some_nowhere(const f32* boxes, u32 count) {
-  const f32x4 first = {1, 1, D == 2 ? -1 : 1, -1}, last = {1, D == 2 ? 1 : -1, -1, -1}, most = splat(__FLT_MAX__);
-  i32x4 some = {};
-  for (const f32* box = boxes; box < boxes + u64(count) * 2 * D; box += 2 * D)
-    some |= (load<f32x4>(box) * first >= most) | (load<f32x4>(box + 2 * D - 4) * last >= most);
-  return any(some);
-}
-
 /// Writes those pairs that overlap, contiguously; returns the end.
 template <int D, bool touching, class T>
 NOINLINE u64* retest(const Filters& filters, const T* boxes, const u64* from, const u64* until, u64* to) {
@@ -50,7 +40,7 @@ SMALL void settle_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles
   };
   bool all = !noted;
   u32 n = store.ids.count();
-  if (!touching) all |= detail::some_nowhere<D>(boxes, n);
+  if (!touching) all |= some_nowhere<D>(boxes, n);
   for (u32 k = 0; k < (all ? 1 : pairs.doubt_count); k++) {
     if (!all) keep(pairs.doubts[2 * k]);
     u64 until = all ? pairs.count : pairs.doubts[2 * k + 1];

@@ -198,6 +198,24 @@ describe.each([2, 3] as const)('queries in %d dimensions', (dimensions) => {
   });
 });
 
+// In float32, a double that is infinite is a bound at the largest number, and another at infinity: they look apart.
+test.each(['auto', 'incremental'] as const)(
+  'boxes of doubles that rest at infinity are no pairs, with %s',
+  (technique) => {
+    for (const far of [Infinity, -Infinity]) {
+      const space = new BroadPhase({ touching: false, technique });
+      for (let id = 0; id < 200; id++) space.set(id, 0.1, 3 * id, 1.1, 3 * id + 1);
+      for (let id = 200; id < 210; id++) space.set(id, far, id, far, id + 5);
+      space.set(210, Math.min(far, 7.1), 0, Math.max(far, 7.1), 300);
+      for (let frame = 0; frame < 40; frame++) {
+        space.set(0, 0.1, 0, 1.1, 1 + (frame % 2) / 8);
+        expect(space.update().pairCount).toBe(far < 0 ? 100 : 0);
+      }
+      expect(space.stats.tests).toBeLessThan(200); // candidates are retained
+    }
+  },
+);
+
 describe('recordings', () => {
   test.each([2, 3] as const)('hold it in %d dimensions, and replays are checked against it', (dimensions) => {
     const model = new Modelled({ dimensions, touching: false }, seed, whole);
