@@ -254,7 +254,7 @@ export function copyIds(instance: KernelInstance, count: number, out: number[], 
   const words = instance.wordView();
   const first = instance.kernel.answers_address() >>> 2;
   let kept = 0;
-  if (others === out) others = out.slice();
+  if (others === out) others = [...out];
   for (let k = 0; k < count; k++) {
     const id = words[first + k]! & maxId;
     if (!others?.includes(id)) out[kept++] = id;

@@ -241,8 +241,8 @@ function badNumbers(where: string, numbers: ArrayLike<number>, k: number, names:
 /** One id for each query. */
 function checkIgnored(where: string, ids: ArrayLike<number>, count: number): void {
   where += ': ignoreEach';
-  if (!isTypedArray(ids, 'Uint32Array') && !Array.isArray(ids)) badValue(where, ids, 'a Uint32Array or an array', true);
-  if (ArrayBuffer.isView(ids)) checkAttached(where, ids as Uint32Array);
+  if (isTypedArray(ids, 'Uint32Array')) checkAttached(where, ids as Uint32Array);
+  else if (!Array.isArray(ids)) badValue(where, ids, 'a Uint32Array or an array', true);
   if (ids.length !== count) badValue(`${where}: length`, ids.length, `${count}, one id for each query`);
   for (let k = 0; k < count; k++) if (!isId(ids[k])) badId(`${where}[${k}]`, ids[k]);
 }
@@ -254,7 +254,7 @@ function kept(instance: KernelInstance, ids: Options['ignoreEach']): Options['ig
 
 /** The answer of an earlier call of the same kind. No two arrays share memory, nor any with the space. */
 function checkAnswer(instance: KernelInstance, where: string, out: Partial<Answer>, parts: readonly Part[]): void {
-  if (typeof out !== 'object' || out === null) badValue(`${where}: out`, out, 'the answer of an earlier call', true);
+  if (!out || typeof out !== 'object') badValue(`${where}: out`, out, 'the answer of an earlier call', true);
   for (let k = 0; k < parts.length; k++) {
     const part = parts[k]!;
     const { name } = arrays[part];

@@ -112,7 +112,7 @@ export function open(options: BroadPhaseOptions<Dimensions, TechniqueName> = {})
   checkBoxCount('capacity', capacity);
   const cells = cellSize === undefined ? undefined : checkCellSize(cellSize, dimensions);
   if (bounds !== undefined) checkBounds(bounds, dimensions);
-  if (margin !== undefined) checkMargin(margin);
+  if (margin !== undefined && !isFinitePositive(margin)) badNumber('margin', margin, 'a number above 0');
   checkHeeded({ cellSize, bounds, margin });
   if (wrap !== undefined) checkWrap(wrap, dimensions);
 
@@ -167,10 +167,6 @@ function checkCellSize(cellSize: number | readonly number[], dimensions: 2 | 3):
     if (!isFinitePositive(size)) badValue('cellSize', cellSize, expected, typeof size !== 'number');
   }
   return sizes as number[];
-}
-
-function checkMargin(margin: unknown): void {
-  if (!isFinitePositive(margin)) badNumber('margin', margin, 'a number above 0');
 }
 
 function checkBounds(bounds: readonly number[], dimensions: 2 | 3): void {

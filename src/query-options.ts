@@ -207,9 +207,8 @@ export const everything = 0xffffffff;
 /** Instead of an id. */
 export const nobody = 0xffffffff;
 
-export function maskOf(where: string, mask: number | undefined): number {
-  if (mask === undefined) return everything;
-  checkBits(`${where}: mask`, mask);
+export function maskOf(where: string, mask = everything): number {
+  if (mask !== everything) checkBits(`${where}: mask`, mask);
   return mask;
 }
 

@@ -165,11 +165,15 @@ export class KernelInstance {
     }
     this.ring.view(); // a getter may set a box, which waits there
     const { exports } = this;
+    // Neither `subarray` nor `slice`: they call the constructor of a subclass, which may expect anything.
     if (!ArrayBuffer.isView(numbers)) this.exports = busy;
+    else if (numbers.length > length) {
+      const { buffer, byteOffset } = numbers as Float64Array<ArrayBuffer>;
+      numbers = new (to.constructor as Float64ArrayConstructor)(buffer, byteOffset, length); // they are of one kind
+    }
     try {
-      if (numbers.length > length)
-        numbers = Array.isArray(numbers) ? numbers.slice(0, length) : (numbers as Float64Array).subarray(0, length);
-      to.set(numbers, at);
+      if (numbers.length === length) to.set(numbers, at);
+      else for (let k = 0; k < length; k++) to[at + k] = numbers[k]!;
     } finally {
       if (this.exports === busy) this.exports = exports; // else it was disposed
     }
