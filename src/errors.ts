@@ -31,7 +31,7 @@ export function show(value: unknown, depth = 0): string {
       const shown = value.slice(0, 8).map((each) => show(each, depth + 1));
       return `[${shown.join(', ')}${value.length > 8 ? ', …' : ''}]`;
     }
-    if (typeof value === 'object' && value !== null) return Object.prototype.toString.call(value);
+    if (value && typeof value === 'object') return Object.prototype.toString.call(value);
     return Object.is(value, -0) ? '-0' : String(value);
   } catch {
     return `a hostile ${typeof value}`; // such as a revoked Proxy
@@ -102,8 +102,8 @@ export function badCentred(this: OfDimensions, ...all: unknown[]): never {
   const [id, ...given] = all;
   const where = 'setCentred';
   const names = centred[dimensions];
-  const of = ` of box ${id}`;
   checkCount(where, id, all.length, dimensions, names);
+  const of = ` of box ${id}`;
   for (let k: number = dimensions; k < names.length; k++) checkDistance(`${where}: ${names[k]}${of}`, given[k]);
   badQuery(where, given, names.slice(0, dimensions), 'a finite number', of);
 }
@@ -145,11 +145,9 @@ export function checkAttached(where: string, array: ArrayLike<number> & ArrayBuf
 
 /** Numbers come in one of three kinds of array. */
 export function checkNumberArray(where: string, numbers: unknown): void {
-  if (isFloat32Array(numbers) || isFloat64Array(numbers)) {
-    checkAttached(where, numbers);
-    return;
-  }
-  if (!Array.isArray(numbers)) badValue(where, numbers, 'a Float32Array, a Float64Array or an array of numbers', true);
+  if (isFloat32Array(numbers) || isFloat64Array(numbers)) checkAttached(where, numbers);
+  else if (!Array.isArray(numbers))
+    badValue(where, numbers, 'a Float32Array, a Float64Array or an array of numbers', true);
 }
 
 /** Whether the arguments are a good id and a good box. */
@@ -183,8 +181,7 @@ export function checkOut<Out extends unknown[]>(where: string, out = [] as unkno
 }
 
 /** Whether a hit can be written to it. */
-export const isHit = (out: unknown): boolean =>
-  typeof out === 'object' && out !== null && Array.isArray((out as { normal?: unknown }).normal);
+export const isHit = (out: unknown): boolean => Array.isArray((out as { normal?: unknown } | null | undefined)?.normal);
 
 /** Reports an object that a hit cannot be written to: `time` or `distance` is its number. */
 export function badHit(where: string, out: unknown, far: 'distance' | 'time'): never {
@@ -195,11 +192,12 @@ export function badHit(where: string, out: unknown, far: 'distance' | 'time'): n
 export function checkOptions(where: string, options: unknown, known: readonly string[]): void {
   if (options === undefined) return;
   // Neither an array, nor a Map, nor a space.
-  if (typeof options !== 'object' || options === null || Symbol.iterator in options) {
+  if (!options || typeof options !== 'object' || Symbol.iterator in options) {
     badValue(where, options, 'an object of options', true);
   }
   for (const name in options) {
-    if (known.includes(name) || (options as Record<string, unknown>)[name] === undefined) continue;
+    // Scripts may extend all objects: that is no option, nor is one without a value.
+    if (known.includes(name) || options[name as never] === {}[name as never]) continue;
     const [nearest = ''] = [...known].sort((a, b) => edits(name, a) - edits(name, b));
     const isClose = name.includes(nearest) || edits(name, nearest) < 0.35 * Math.max(name.length, nearest.length);
     const meant = isClose ? `did you mean ${show(nearest)}? T` : 't';

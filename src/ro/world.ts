@@ -92,7 +92,8 @@ export class World<E extends Entity = Entity> {
    */
   constructor(canvas: HTMLCanvasElement | string | null, options: WorldOptions<E> = {}) {
     for (const name in options) {
-      if (!optionNames.includes(name)) {
+      // Others may have been added to all objects by a script.
+      if (!optionNames.includes(name) && Object.hasOwn(options, name)) {
         throw new TypeError(`ro.World: there is no option "${name}", expected one of ${optionNames.join(', ')}`);
       }
       const value = options[name as keyof typeof options];

@@ -66,6 +66,36 @@ describe.each([2, 3] as const)('in %d dimensions', (dimensions) => {
     expectNoTrace((space) => setBox(space, anyhow(id), good), typeof id === 'object' && id ? 'id' : String(id));
   });
 
+  test.each([
+    ['a symbol', Symbol('me'), 'Symbol(me)'],
+    ['an object of no class', Object.create(null), '[object Object]'],
+    ['a BigInt', 7n, '7n'],
+    ['a number as an object', new Number(7), '[object Number]'],
+  ])('every call with an id refuses %s', (_, id, shown) => {
+    const halves = Array(dimensions).fill(1);
+    const moving = [...good, ...halves];
+    for (const [name, ...more] of [
+      ['set', ...good],
+      ['setCentred', ...halves, ...halves],
+      ['setSwept', ...moving],
+      ...['delete', 'has', 'get', 'filterOf', 'isStatic', 'isEnabled', 'groupOf', 'reachOf', 'collisionsOf'].map(
+        (each) => [each],
+      ),
+      ['setFilter', 1, 1],
+      ['setStatic', true],
+      ['setEnabled', true],
+      ['setGroup', 1],
+      ['setReach', 1],
+      ['isColliding', 9],
+    ] as [string, ...unknown[]][]) {
+      const message = `${name}${name === 'isColliding' ? ': a' : ''}: the id is ${shown}, expected an integer`;
+      expectNoTrace(
+        (space) => anyhow<Record<string, (...all: unknown[]) => unknown>>(space)[name]!(id, ...more),
+        message,
+      );
+    }
+  });
+
   test('set refuses NaN anywhere in a box', () => {
     for (let at = 0; at < stride; at++) {
       expectNoTrace((space) => setBox(space, 7, good.with(at, Number.NaN)), '7', 'NaN');
