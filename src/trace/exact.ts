@@ -2,7 +2,7 @@
 // of pairs is a sorted Float64Array with one number per pair: the smaller id times 2^24, plus the larger.
 import { badValue, checkBoolean, checkWrap } from '../errors.ts';
 import type { Own } from '../watch.ts';
-import { checkBoxes, checkEach, checkLength, marks } from './format.ts';
+import { checkBoxes, checkLength, marks } from './format.ts';
 
 const idLimit = 2 ** 24;
 
@@ -28,11 +28,15 @@ export function exactPairs(
   own: Own & { touching?: boolean | undefined } = {},
 ): Float64Array {
   if (dimensions !== 2 && dimensions !== 3) badValue('dimensions', dimensions, '2 or 3');
-  if (!Number.isInteger(Object(given).length)) badValue('boxes', given, 'an array of numbers', true);
+  if (typeof given !== 'object' || !Number.isInteger(given?.length))
+    badValue('boxes', given, 'an array of numbers', true);
   const count = Math.floor(given.length / (2 * dimensions));
   checkLength('boxes', given, 2 * dimensions * count);
   checkBoxes('exactPairs', given, dimensions);
-  checkEach('', count, ids, rules, own);
+  checkLength('ids', ids, count);
+  checkLength('rules', rules, 3 * count);
+  checkLength('groups', own.groups, count);
+  checkLength('reaches', own.reaches, count);
   if (wrap !== undefined) checkWrap(wrap, dimensions);
   const apart = (a: number, b: number) => (rules && !mayMeet(rules, 3 * a, 3 * b)) || areOne(own.groups, a, b);
   const closed = own.touching ?? true;

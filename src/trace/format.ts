@@ -103,20 +103,6 @@ export function checkLength(what: string, numbers: ArrayLike<unknown> | undefine
   if (numbers && numbers.length !== expected) badValue(`${what}.length`, numbers.length, `${expected}`);
 }
 
-/** Throws unless there are as many ids, rules, groups and reaches as boxes, or none. */
-export function checkEach(
-  where: string,
-  count: number,
-  ids: ArrayLike<unknown> | undefined,
-  rules: ArrayLike<unknown> | undefined,
-  { groups, reaches }: Own,
-): void {
-  checkLength(`${where}ids`, ids, count);
-  checkLength(`${where}rules`, rules, 3 * count);
-  checkLength(`${where}groups`, groups, count);
-  checkLength(`${where}reaches`, reaches, count);
-}
-
 /** Throws unless what is called to tell of progress, if anything, is a function. */
 export function checkProgress(where: string, progress: unknown): void {
   if (progress !== undefined && typeof progress !== 'function') {

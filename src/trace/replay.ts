@@ -1,11 +1,12 @@
 // Plays frames into a BroadPhase and measures each update.
 import { BroadPhase, type BroadPhaseOptions, type TechniqueName } from 'broadphase';
-import { checkBoolean, checkOptions } from '../errors.ts';
+import { badValue, checkBoolean, checkOptions } from '../errors.ts';
 import { optionNames } from '../options.ts';
 import { checkSpace } from '../watch.ts';
+import { checkFrame, isDoubles } from './check-frame.ts';
 import { type Difference, differenceOf, exactPairs, pairKeys } from './exact.ts';
-import { checkEach, checkLength, checkSource, type Frame, type FrameSource, marks, worldOf } from './format.ts';
-import { all } from './state.ts';
+import { checkSource, type Frame, type FrameSource, marks, worldOf } from './format.ts';
+import { all, IdSet } from './state.ts';
 
 /** The last frame played into a space: a copy, since frames are views. */
 interface Applied {
@@ -18,6 +19,8 @@ interface Applied {
 
 const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
 
+const seen = new IdSet();
+
 /**
  * Replaces the boxes and rules of a space by those of a frame, in their recorded order. The caller calls `update()`.
  * Nothing else may change the space between two frames: of the rules, only differences are set. Boxes are given by
@@ -26,8 +29,8 @@ const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
  * `snapshot()` of both spaces, each before its first update, the order is always the same, and updates are slower. If ids
  * change, the space is filled again: all its pairs end and begin.
  *
- * @throws RangeError if the space has other dimensions, and if lengths do not fit; TypeError for anything but a space. The
- * space is as before.
+ * @throws RangeError if the space has other dimensions, for a bad box, id or reach, and if lengths do not fit; TypeError
+ * for anything but a space and a frame. The space is as before.
  *
  * @example
  * const space = new BroadPhase();
@@ -42,14 +45,15 @@ const applied = new WeakMap<BroadPhase<2 | 3>, Applied>();
  */
 export function applyFrame(space: BroadPhase<2 | 3>, frame: Frame): void {
   checkSpace('applyFrame', space);
+  if (!frame) badValue('applyFrame', frame, 'a frame of a trace', true);
   const { ids, boxes, count } = frame;
   const { dimensions } = space;
+  isDoubles('applyFrame', boxes);
   const theirs = boxes.length / count / 2;
   if (count > 0 && theirs !== dimensions) {
     throw new RangeError(`applyFrame: got a frame of ${theirs} dimensions, expected ${dimensions}`);
   }
-  checkLength('applyFrame: boxes', boxes, 2 * dimensions * count);
-  checkEach('applyFrame: ', count, ids, frame.rules, frame);
+  checkFrame('applyFrame', dimensions, count, frame, seen);
   let before = applied.get(space);
   // Boxes with explicit ids are in the order in which they were set, so if ids differ, the space is filled again.
   if (!before || !sameIds(before.ids, ids) || (ids && space.size !== count)) {

@@ -1,12 +1,10 @@
 // Writes traces: frames in, bytes out. It keeps only the last two frames; the caller stores the bytes.
-import { badValue, checkBoolean, checkWrap, isFinitePositive } from '../errors.ts';
-import { isFloat64Array, isTypedArray } from '../values.ts';
+import { badValue, checkBoolean, checkWrap } from '../errors.ts';
 import type { Own } from '../watch.ts';
 import { ByteWriter } from './bytes.ts';
+import { checkFrame, isDoubles } from './check-frame.ts';
 import { crc32 } from './crc32.ts';
 import {
-  checkBoxes,
-  checkLength,
   doublesFlag,
   formatVersion,
   frameHeaderBytes,
@@ -108,20 +106,12 @@ export class TraceWriter {
   ): Uint8Array<ArrayBuffer> {
     const state = this.#state;
     const { width } = state;
-    const doubles = isFloat64Array(boxes);
-    if (!doubles) checkKind('boxes', boxes, 'Float32Array');
+    const doubles = isDoubles('trace', boxes);
     const count = boxes.length / width;
     if (!Number.isInteger(count) || count > maxBoxes) {
       throw new RangeError(`trace: ${boxes.length} numbers, expected ${width} for each of at most ${maxBoxes} boxes`);
     }
-    checkBoxes('trace', boxes, this.dimensions);
-    if (ids) checkIds(ids, count, this.#seen);
-    checkEach('rules', rules, 'Uint32Array', count, 3);
-    checkEach('groups', own.groups, 'Uint32Array', count);
-    checkEach('reaches', own.reaches, 'Float64Array', count);
-    for (const reach of own.reaches ?? []) {
-      if (!isFinitePositive(reach, 0)) badValue('trace: reaches', reach, 'finite numbers, 0 or more');
-    }
+    checkFrame('trace', this.dimensions, count, { boxes, ids, rules, ...own }, this.#seen);
     const had = state.count;
     state.resize(count);
     const renamed = this.#findIds(ids);
@@ -308,26 +298,3 @@ export class TraceWriter {
 
 /** Converts the marks of a space to those of a trace. */
 const marksOf = (given: number): number => (given & ~marks.off ? marks.still : 0) | (given & marks.off);
-
-function checkKind(name: string, numbers: unknown, kind: string): void {
-  if (!isTypedArray(numbers, kind)) badValue(`trace: ${name}`, numbers, `a ${kind}`, true);
-}
-
-/** Checks that there are as many numbers per box, if any. */
-function checkEach(name: string, numbers: ArrayLike<number> | undefined, kind: string, count: number, each = 1): void {
-  if (numbers === undefined) return;
-  checkKind(name, numbers, kind);
-  checkLength(`trace: ${name}`, numbers, each * count);
-}
-
-function checkIds(ids: ArrayLike<number>, count: number, seen: IdSet): void {
-  checkLength('trace: ids', ids, count);
-  seen.clear();
-  for (let k = 0; k < count; k++) {
-    const id = ids[k];
-    if (!(Number.isInteger(id) && id >= 0 && id < maxBoxes)) {
-      throw new RangeError(`trace: an id is ${id}, expected an integer from 0 to ${maxBoxes - 1}`);
-    }
-    if (!seen.add(id)) throw new RangeError(`trace: id ${id} appears twice`);
-  }
-}

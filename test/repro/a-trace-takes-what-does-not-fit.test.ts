@@ -81,6 +81,7 @@ describe('an array that does not fit the boxes:', () => {
     ['touching: got 0, expected true or false', () => exactPairs(boxes, 2, ...none, { touching: loose(0) })],
     ['boxes: got undefined, expected an array of numbers', () => exactPairs(loose(undefined), 2)],
     ['boxes: got 5, expected an array of numbers', () => exactPairs(loose(5), 2)],
+    ['boxes: got "0011", expected an array of numbers', () => exactPairs(loose('0011'), 2)],
     ['exactPairs: box 1 is [NaN, 0, 1, 1], expected', () => exactPairs([0, 0, 1, 1, Number.NaN, 0, 1, 1], 2)],
     ['exactPairs: box 0 is [0, 2, 1, 1], expected minima not above maxima', () => exactPairs([0, 2, 1, 1], 2, ...none)],
   ])('%s', (message, call) => {
@@ -105,11 +106,24 @@ describe('an array that does not fit the boxes:', () => {
     ['applyFrame: rules.length: got 2, expected 6', { rules: Uint32Array.of(1, 1) }],
     ['applyFrame: groups.length: got 3, expected 2', { groups: Uint32Array.of(1, 2, 3) }],
     ['applyFrame: reaches.length: got 1, expected 2', { reaches: Float64Array.of(1) }],
+    ['applyFrame: box 1 is [NaN, 0, 1, 1]', { boxes: Float64Array.of(0, 0, 1, 1, Number.NaN, 0, 1, 1) }],
+    [
+      'applyFrame: box 0 is [3, 0, 1, 1]',
+      { boxes: Float32Array.of(3, 0, 1, 1, 0, 0, 1, 1), ids: Uint32Array.of(7, 9) },
+    ],
+    ['applyFrame: boxes: got [0, 0, 1, 1, 0, 0, 1, 1], expected a Float32Array', { boxes: loose(boxes) }],
+    ['applyFrame: boxes: got undefined, expected a Float32Array', { boxes: loose(undefined) }],
+    ['applyFrame: id 7 appears twice', { ids: Uint32Array.of(7, 7) }],
+    ['applyFrame: an id is 16777216, expected an integer', { ids: Uint32Array.of(7, 2 ** 24) }],
+    ['applyFrame: an id is -1, expected an integer', { ids: loose([7, -1]) }],
+    ['applyFrame: rules: got [1, 1, 0, 1, 1, 0], expected a Uint32Array', { rules: loose([...rule, ...rule]) }],
+    ['applyFrame: reaches: got -1, expected finite numbers, 0 or more', { reaches: Float64Array.of(1, -1) }],
   ])('%s, and the space is as before', (message, wrong) => {
     const space = new BroadPhase().set(9, 5, 5, 6, 6);
     const frame: Frame = { index: 0, count: 2, ids: undefined, boxes: new Float32Array(boxes), changed: 2 };
     expect(() => applyFrame(space, { ...frame, ...wrong })).toThrow(message);
     expect([...space]).toEqual([[9, new Float64Array([5, 5, 6, 6])]]);
     expect(() => applyFrame(loose({}), frame)).toThrow('applyFrame: got [object Object], expected a BroadPhase');
+    expect(() => applyFrame(space, loose(undefined))).toThrow('applyFrame: got undefined, expected a frame of a trace');
   });
 });
