@@ -6,7 +6,8 @@ export function checkRay(where: string, ray: unknown, dimensions: 2 | 3): assert
   const least = 2 * dimensions;
   const isList = Array.isArray(ray);
   const fits = isList && (ray.length === least || ray.length === least + 1);
-  if (fits && ray.every((value, k) => (k < least ? Number.isFinite(value) : value >= 0))) return;
+  // Holes and text too, which `rayCast` would refuse after some has been drawn.
+  if (fits && [...ray].every((x, k) => typeof x === 'number' && (k < least ? x - x === 0 : x >= 0))) return;
   bad(where, ray, `${least} finite numbers, and maybe a distance`, isList ? RangeError : TypeError);
 }
 
@@ -19,6 +20,7 @@ export function checkSpace(where: string, space: BroadPhase<2 | 3>, dimensions: 
 
 /** A wrong argument: `badValue`, but smaller. */
 export function bad(where: string, value: unknown, expected: string, Kind = TypeError): never {
-  const shown = Array.isArray(value) ? `[${value.join(', ')}]` : typeof value === 'string' ? `"${value}"` : value;
+  let shown = typeof value === 'string' ? `"${value}"` : String(value);
+  if (Array.isArray(value)) shown = `[${value.map(String).join(', ')}]`;
   throw new Kind(`${where}: got ${shown}, expected ${expected}`);
 }

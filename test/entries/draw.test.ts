@@ -275,6 +275,22 @@ describe('drawSpace', () => {
     expect(() => drawSpace(ctx, crowd(3, 'auto'))).toThrow('drawSpace: got a space of 3 dimensions, expected 2');
     expect(() => drawSpace(ctx, space(), { cell: true } as object)).toThrow('drawSpace: options: got "cell"');
     expect(() => drawSpace(ctx, space(), { rays: [[1, 2]] })).toThrow('drawSpace: rays: got [1, 2]');
+    const hole = [0, 0, 1, 0];
+    delete hole[1];
+    for (const ray of [
+      [0, 0, 1, 0, '5'],
+      [0, 0, 1, 0, null],
+      [0, 0, 1, 0, -1],
+      [0, 0, 1, Infinity],
+      [0, 0, 1n, 0],
+      hole,
+    ]) {
+      expect(() => drawSpace(ctx, space(), { rays: [ray as number[]] })).toThrow(/^drawSpace: rays: got \[0, /);
+    }
+    for (const value of [Symbol('wide'), 5n, null]) {
+      const message = `drawSpace: lineWidth: got ${String(value)}, expected a number above 0`;
+      expect(() => drawSpace(ctx, space(), { lineWidth: value as never })).toThrow(message);
+    }
     expect(calls).toEqual([]);
   });
 });
