@@ -2,7 +2,7 @@
 import type { Frame, FrameSource } from 'broadphase/trace';
 import { createScene, gameNames, type SceneName, sceneNames } from '../scenes/index.ts';
 import { type Command, exitCode, UsageError } from './arguments.ts';
-import { writeFrames } from './files.ts';
+import { checkWritable, writeFrames } from './files.ts';
 import { bytes, counted, number, progressBar } from './terminal.ts';
 
 const names: readonly SceneName[] = [...sceneNames, ...gameNames];
@@ -34,6 +34,7 @@ export const generateCommand: Command = {
       const asked = `${number(frames)} frames of ${number(count)} boxes are ${number(count * frames)} boxes`;
       throw new UsageError(`${asked}, expected at most ${number(mostInAll)} in all: they are held in memory`);
     }
+    await checkWritable('<file>', path, []);
     const dimensions = name.endsWith('3d') ? 3 : 2;
     const progress = progressBar(terminal);
     const source: FrameSource = {

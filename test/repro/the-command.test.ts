@@ -52,6 +52,13 @@ describe('what would be lost is refused before the work', () => {
     expect(readFileSync(small)).toEqual(before);
   });
 
+  test('a scene that cannot be written', { timeout: 20_000 }, async () => {
+    for (const path of [file('no/such/folder.trace'), folder]) {
+      const much = ['--count', '100000', '--frames', '1000'];
+      expect(await run(['generate', 'crowd', path, ...much])).toMatchObject({ code: 4, out: '' });
+    }
+  });
+
   test('checking whether a file can be written leaves nothing behind', async () => {
     mkdirSync(file('out'));
     expect(await run(['convert', small, file('out/a.bin')])).toMatchObject({ code: 0 });
