@@ -116,7 +116,7 @@ export function open(options: BroadPhaseOptions<Dimensions, TechniqueName> = {})
   checkHeeded({ cellSize, bounds, margin });
   if (wrap !== undefined) checkWrap(wrap, dimensions);
 
-  const instance = new KernelInstance(dimensions, wrap?.slice(), touching, events);
+  const instance = new KernelInstance(dimensions, wrap && [...wrap], touching, events);
   instance.setTechnique(number);
   const { kernel } = instance;
   if (events) kernel.set_events();

@@ -76,10 +76,7 @@ export function unpack(where: string, delta: Delta, zone: number, zones: Zones):
   const told = Array.from(ids, (id, k): Told => {
     const count = changeOf.indexOf(changes[k]);
     if (count < 0) badValue(`${where}.changes[${k}]`, changes[k], '0, 1 or 16');
-    const next = Array.from({ length: count }, (_, k) =>
-      Array.from(boxes.subarray(at + k * width, at + (k + 1) * width)),
-    );
-    at += count * width;
+    const next = Array.from({ length: count }, () => Array.from({ length: width }, () => boxes[at++]));
     for (const box of next) checkBox(`${where}.boxes`, id, box, zones.dimensions);
     return [id, ...next];
   });

@@ -91,7 +91,7 @@ export class Zones {
       this.#cuts.push({ axis, starts, stride: this.count, world, reach: margin + 4 * slack * world });
       this.count *= starts.length;
     }
-    insides.set(this, { wrap: wrap?.slice(), reporterOf: (a, b) => this.#zoneOf(a, b) });
+    insides.set(this, { wrap: wrap && [...wrap], reporterOf: (a, b) => this.#zoneOf(a, b) });
   }
 
   /**

@@ -57,7 +57,7 @@ export class TraceWriter {
     if (wrap !== undefined) checkWrap(wrap, dimensions);
     checkBoolean('touching', touching);
     this.dimensions = dimensions;
-    this.#wrap = wrap?.slice();
+    this.#wrap = wrap && [...wrap];
     this.#state = new TraceState(dimensions);
     const out = new ByteWriter();
     out.bytes.set(magic);
@@ -220,7 +220,8 @@ export class TraceWriter {
     out.varint(changed.length);
     let next = 0;
     for (const place of changed) {
-      const [layer, mask, given] = rules?.subarray(3 * place, 3 * place + 3) ?? [all, all, 0];
+      const at = 3 * place;
+      const [layer, mask, given] = rules ? [rules[at], rules[at + 1], rules[at + 2]] : [all, all, 0];
       const group = groups?.[place] ?? 0;
       const reach = reaches?.[place] ?? 0;
       const its = marksOf(given);
@@ -242,7 +243,7 @@ export class TraceWriter {
         for (const byte of new Uint8Array(Float64Array.of(reach).buffer)) out.byte(byte);
         state.reaching = true;
       }
-      state.rules.set([layer, mask, its], 3 * place);
+      state.rules.set([layer, mask, its], at);
       state.groups[place] = group;
       state.reaches[place] = reach;
       next = place + 1;
