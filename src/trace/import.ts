@@ -24,9 +24,9 @@ const maxEmptyFrames = 1e6;
  * new TextDecoder().decode(bytes); // → 'boxes'
  */
 export async function gunzip(bytes: Uint8Array, most = maxUnpackedBytes): Promise<Uint8Array> {
-  const given = givenBytes('gunzip', bytes) as Uint8Array<ArrayBuffer>;
+  const given = givenBytes('gunzip', bytes);
   if (!isSize(most)) badNumber('gunzip: most', most, 'a number, at least 0');
-  const { plain, fault } = await collect(new Blob([given]).stream().pipeThrough(new DecompressionStream('gzip')), most);
+  const { plain, fault } = await unpack(given, most);
   if (fault) throw fault;
   return plain;
 }
@@ -63,25 +63,26 @@ async function collect(unpacked: ReadableStream<Uint8Array>, most: number): Prom
   return { plain, fault };
 }
 
-/** Bytes that are unpacked at once when salvaging. */
+/** Bytes that are unpacked at once. */
 const pieceBytes = 2 ** 14;
 
 /**
- * Unpacks as far as the data goes. A stream that fails drops what nobody has read yet, so that is read before more is
- * given: nothing is lost of a file that was cut off, and at most a piece before a place that is damaged.
+ * Unpacks as far as the data goes. A stream that fails drops what nobody has read yet. With `salvage`, that is read before
+ * more is given: nothing is lost of a file that was cut off, and at most a piece before a place that is damaged.
+ * Not by a Blob, since those of jsdom give no stream; and pieces are copies, as shared memory is refused in browsers.
  */
-async function salvageGzip(bytes: Uint8Array): Promise<Unpacked> {
+function unpack(bytes: Uint8Array, most = maxUnpackedBytes, salvage = false): Promise<Unpacked> {
   const { readable, writable } = new DecompressionStream('gzip');
   const writer = writable.getWriter();
   const give = async () => {
     for (let at = 0; at < bytes.length; at += pieceBytes) {
-      await writer.write(bytes.subarray(at, at + pieceBytes) as Uint8Array<ArrayBuffer>);
-      await new Promise((resolve) => setTimeout(resolve));
+      await writer.write(bytes.slice(at, at + pieceBytes));
+      if (salvage) await new Promise((resolve) => setTimeout(resolve));
     }
     await writer.close();
   };
   give().catch(() => {}); // the reader meets the same error
-  return collect(readable, maxUnpackedBytes);
+  return collect(readable, most);
 }
 
 /** Whether bytes are a raw recording. */
@@ -157,7 +158,7 @@ export async function openAny(bytes: Uint8Array | ArrayBuffer, options?: OpenOpt
   const given = givenBytes('openAny', bytes);
   if (given[0] !== 0x1f || given[1] !== 0x8b) return openPlain(given, options);
   if (!options?.salvage) return openPlain(await gunzip(given), options);
-  const { plain, fault } = await salvageGzip(given);
+  const { plain, fault } = await unpack(given, undefined, true);
   const source = openPlain(plain, options);
   // A trace has checksums of its own; a raw recording has none but that of gzip.
   return fault && !source.fault && isRecording(plain) ? { ...source, fault } : source;
