@@ -1,7 +1,7 @@
 // `broadphase init`: copies starter/, a small game to start from, into a new folder.
 import { existsSync } from 'node:fs';
 import { cp, mkdir, readdir, readFile, rm, writeFile } from 'node:fs/promises';
-import { basename, dirname, join, relative, resolve } from 'node:path';
+import path, { basename, dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { devDependencies, version } from '../../package.json' with { type: 'json' };
 import { type Command, exitCode, UsageError } from './arguments.ts';
@@ -44,6 +44,10 @@ async function installedHere(): Promise<string | undefined> {
   }
 }
 
+/** Where a package.json in `folder` finds a file, in the form that npm writes on every system: teams use several. */
+export const fileSpec = (folder: string, file: string, { relative, resolve, sep } = path): string =>
+  `file:${relative(folder, resolve(file)).replaceAll(sep, '/')}`;
+
 /** A path as a word of a shell. */
 const shellWord = (path: string) => (/^[\w./\\:~@%+-]+$/.test(path) ? path : `"${path.replace(/["$`]/g, '\\$&')}"`);
 
@@ -71,7 +75,7 @@ export const initCommand: Command = {
     // A repository that was made first has no files of its own yet.
     if (there.some((each) => each !== '.git'))
       throw new UsageError(`${name} is not empty, expected an empty or new folder`);
-    const spec = installed === undefined ? `^${version}` : `file:${relative(folder, resolve(installed))}`;
+    const spec = installed === undefined ? `^${version}` : fileSpec(folder, installed);
     let made: string | undefined; // the first folder on the path that was not there
     try {
       made = await mkdir(folder, { recursive: true });

@@ -10,8 +10,9 @@ import {
   writeFileSync,
 } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { join, posix, win32 } from 'node:path';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { fileSpec } from '../../src/cli/init.ts';
 import { moreOfAll, verdictOf } from '../../src/cli/report.ts';
 import { progressBar } from '../../src/cli/terminal.ts';
 import { runCommand } from '../support/command.ts';
@@ -253,4 +254,10 @@ describe('init in a folder with nothing but a new repository', () => {
     expect(await run(['init', deep])).toMatchObject({ code: 4, err: expect.stringContaining('cannot write') });
     expect(readdirSync(deep)).toEqual(['.git']);
   });
+});
+
+test('the game of init finds its tarball on every system, wherever it was made', () => {
+  expect(fileSpec('/games/mine', '/games/broadphase.tgz', posix)).toBe('file:../broadphase.tgz');
+  expect(fileSpec('C:\\games\\mine', 'C:\\games\\lib\\broadphase.tgz', win32)).toBe('file:../lib/broadphase.tgz');
+  expect(fileSpec('C:\\games\\mine', 'D:\\broadphase.tgz', win32)).toBe('file:D:/broadphase.tgz');
 });
