@@ -155,7 +155,7 @@ export class Zones {
 
 /** Throws unless this is a Zones. */
 export function checkZones(where: string, zones: unknown): asserts zones is Zones {
-  if (!insides.has(zones as Zones)) badValue(where, zones, 'a Zones', true);
+  if (!insides.has(zones as Zones)) badValue(where, zones, 'a Zones of the same import', true);
 }
 
 /** Throws unless a world has as many dimensions, and wraps around alike: `where` says whose it is, `as` what it must fit. */

@@ -80,7 +80,11 @@ describe('a new shard refuses', () => {
     [() => shardOf(zones, 1n, space()), TypeError, 'zone: got 1n, expected'],
     [() => shardOf(zones, 0.5, space()), RangeError, 'zone: got 0.5, expected'],
     [() => shardOf(), TypeError, 'zones: got undefined, expected a Zones'],
-    [() => shardOf({ count: 2, dimensions: 2 }, 0, space()), TypeError, 'zones: got [object Object], expected a Zones'],
+    [
+      () => shardOf({ count: 2, dimensions: 2 }, 0, space()),
+      TypeError,
+      'zones: got [object Object], expected a Zones of the same import',
+    ],
     [() => shardOf(zones, 0, null), TypeError, 'space: got null, expected a BroadPhase'],
     [() => shardOf(zones, 0, {}), TypeError, 'space: got [object Object], expected a BroadPhase'],
     [() => shardOf(zones, 0, space(), { entred: () => {} }), TypeError, '"entred", did you mean "entered"?'],
