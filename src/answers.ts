@@ -284,7 +284,8 @@ export function known(where: string, count: number): number {
 /** Whether what a visitor, or an `accept` with its hit, has returned ends the search. */
 function ends(instance: KernelInstance, where: string, visit: Visit, told: unknown, into?: Hit): boolean {
   const by = into ? 'accept' : 'visit';
-  if (told && (into ? told !== true : told instanceof Promise)) checkBoolean(`${where}: ${by} returned`, told);
+  if (told && (into ? told !== true : (told as { then?: unknown }).then))
+    checkBoolean(`${where}: ${by} returned`, told);
   if (told === !!into) return true;
   if (instance.turn === visit.turn) return false;
   throw new Error(`${where}: update or restore was called by ${by}, or memory ran out: expected after the search`);

@@ -1,6 +1,7 @@
 // Faults that a tester found in the calls of the library.
+import { runInNewContext } from 'node:vm';
 import { BroadPhase } from 'broadphase';
-import { describe, expect, test } from 'vitest';
+import { describe, expect, test, vi } from 'vitest';
 
 type Any = Record<string, (...all: unknown[]) => unknown>;
 
@@ -82,6 +83,12 @@ describe('what callbacks return', () => {
     const message = 'visit returned: got [object Promise], expected true or false';
     expect(() => space.queryBox(0, 0, 9, 9, { visit })).toThrow(`queryBox: ${message}`);
     expect(() => space.nearest(0, 0, 2, { visit })).toThrow(`nearest: ${message}`);
+    // Of another realm; and where zone.js or a polyfill has replaced Promise, which async functions ignore.
+    const foreign = runInNewContext('async () => false') as () => unknown;
+    expect(() => space.queryBox(0, 0, 9, 9, { visit: foreign })).toThrow(`queryBox: ${message}`);
+    vi.stubGlobal('Promise', class {});
+    expect(() => space.queryPoint(5, 5, { visit })).toThrow(`queryPoint: ${message}`);
+    vi.unstubAllGlobals();
     const seen: number[] = [];
     space.rayCastAll(-1, 5, 1, 0, { visit: (id) => seen.push(id) });
     expect(seen).toEqual([7, 9]);
