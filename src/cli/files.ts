@@ -71,6 +71,7 @@ export async function checkWritable(
   if (there && sources.some((source) => source && there.dev === source.dev && there.ino === source.ino)) {
     throw new UsageError(`${option} is ${path}, which is ${what}; expected another file`);
   }
+  if (there?.isFIFO()) return; // whoever reads it would take this for the end
   try {
     await (await open(path, 'a')).close();
     if (!there) await unlink(path);

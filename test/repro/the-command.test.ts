@@ -1,4 +1,5 @@
 // What users of the command saw: results lost, recordings overwritten, stack traces, and texts of a parser.
+import { execFileSync } from 'node:child_process';
 import {
   existsSync,
   mkdirSync,
@@ -9,6 +10,7 @@ import {
   symlinkSync,
   writeFileSync,
 } from 'node:fs';
+import { readFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join, posix, win32 } from 'node:path';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
@@ -57,6 +59,22 @@ describe('what would be lost is refused before the work', () => {
     for (const path of [file('no/such/folder.trace'), folder]) {
       const much = ['--count', '100000', '--frames', '1000'];
       expect(await run(['generate', 'crowd', path, ...much])).toMatchObject({ code: 4, out: '' });
+    }
+  });
+
+  test.skipIf(process.platform === 'win32')('but a pipe with a name gets all', { timeout: 20_000 }, async () => {
+    const pipe = file('pipe');
+    execFileSync('mkfifo', [pipe]);
+    const scene = ['--count', '20000', '--frames', '5']; // enough for the reader to see if the pipe is closed before
+    const plain = file('plain.trace');
+    expect(await run(['generate', 'crowd', plain, ...scene])).toMatchObject({ code: 0 });
+    for (const argv of [
+      ['generate', 'crowd', pipe, ...scene],
+      ['convert', plain, pipe],
+    ]) {
+      const read = readFile(pipe);
+      expect(await run(argv)).toMatchObject({ code: 0 });
+      expect(Buffer.compare(await read, readFileSync(plain))).toBe(0);
     }
   });
 
