@@ -76,6 +76,10 @@ class Ids {
 
   NOINLINE u32 slot(u32 id) const {
     if (!named_) return id < count_ ? id : none;
+    return on_page(id);
+  }
+  /// The same while ids are stored.
+  u32 on_page(u32 id) const {
     const u32* page = pages_[id / page_size].data();
     return page ? page[id % page_size] - 1 : none;
   }

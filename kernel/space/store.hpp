@@ -289,21 +289,20 @@ template <int D> class Store {
   void find_slots(const f64* entry, u32 count, u32* slots) {
     u32 known = ids.same() ? ids.count() : 0;
     for (u32 k = 0; k < count; k++, entry += Ring<D>::step) {
-      u32 slot = Ring<D>::id(entry);
-      if (slot >= known) {
-        slot = add(slot);
+      u32 id = Ring<D>::id(entry), slot = id;
+      if (id >= known) slot = ids.same() ? Ids::none : ids.on_page(id);
+      if (slot == Ids::none) {
+        slot = add(id);
         known = ids.same() ? ids.count() : 0;
       }
       slots[k] = slot;
     }
   }
 
-  /// The slot of an id, which gets one if it has none.
+  /// Gives a new id a slot.
   NOINLINE u32 add(u32 id) {
-    u32 slot = ids.slot(id);
-    if (slot != Ids::none) return slot;
     if (ids.count() >= room()) make_room(u64(ids.count()) + 1, ids.count());
-    slot = ids.insert(id);
+    u32 slot = ids.insert(id);
     numbers.written.renamed = true;
     own.insert(slot);
     changes().note(slot);
