@@ -1,6 +1,6 @@
 // Tests of one box against another, in the scene's layout.
 #pragma once
-#include "base/simd.hpp"
+#include "base/heap.hpp"
 
 /// A 2D box with the signs of its maxima flipped: the test of two boxes is then four comparisons of the same kind.
 inline f32x4 turned(i32x4 box) { return bits<f32x4>(box ^ i32x4{0, 0, i32(1u << 31), i32(1u << 31)}); }

@@ -271,7 +271,7 @@ template <int D> class CandidateList {
         i32x4 touching = {};
         const f32 *one = region(u32(pair)), *other = region(u32(pair >> 32));
         boxes_touch<D>(one, other, touching);
-        rest = !(any_equal<D>(touching) | some_nowhere<D>(one, 1) | some_nowhere<D>(other, 1));
+        rest = !(any_equal<D>(touching) || some_nowhere<D>(one, 1) || some_nowhere<D>(other, 1));
       }
       list[left] = *out = pair;
       left += !rest;
