@@ -51,7 +51,7 @@ import { restore, snapshot } from './snapshot.ts';
 import { type Stats, statsOf } from './stats.ts';
 import { builtNames, checkTechnique, type TechniqueName, techniques } from './techniques.ts';
 import { structure, validate } from './validate.ts';
-import { show, type Watcher, type World, watch } from './watch.ts';
+import { show, type Watcher, type World } from './watch.ts';
 
 /**
  * The key of a space's instance, which has all that a space keeps. Private names would be slow where tools for older
@@ -66,7 +66,13 @@ function given({ [inner]: instance }: { [inner]: KernelInstance }, where: string
   throw new TypeError(`${where}: got ${got} arguments, expected at most ${most} in ${instance.dimensions}D`);
 }
 
-type Inspect = (value: unknown, options: unknown) => string;
+/**
+ * For Node's console: becomes a method with the first space. If the class had a method with a computed name, bundlers
+ * would keep the class where only `findPairs` is used.
+ */
+function inspected(this: BroadPhase, _depth: number, options: unknown, inspect: (...given: unknown[]) => string) {
+  return `BroadPhase ${inspect(this.toJSON(), options)}`;
+}
 
 /**
  * Finds every overlapping pair among boxes that move. Reads like a Map from id to box.
@@ -122,6 +128,8 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   constructor(options?: BroadPhaseOptions<D>) {
     const instance = open(options);
     Object.defineProperties(this, { [inner]: { value: instance }, '#ring': { value: instance.ring } });
+    const printed = Symbol.for('nodejs.util.inspect.custom');
+    if (!(printed in this)) Reflect.defineProperty(BroadPhase.prototype, printed, { value: inspected });
     this.dimensions = instance.dimensions as D;
     given(this, 'new BroadPhase', arguments.length, 1);
   }
@@ -468,11 +476,6 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
     if (this[inner].isDisposed) return { disposed: true };
     return { dimensions: this.dimensions, technique: this.technique, size: this.size, pairs: this.pairCount };
   }
-
-  /** @internal For Node's console. */
-  [Symbol.for('nodejs.util.inspect.custom')](_depth: number, options: unknown, inspect: Inspect): string {
-    return `BroadPhase ${inspect(this.toJSON(), options)}`;
-  }
   validate(): this {
     validate(this[inner]);
     return this;
@@ -486,7 +489,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
    * options that concern pairs.
    * @internal
    */
-  [watch](watcher?: Watcher | null): World {
+  '#watch'(watcher?: Watcher | null): World {
     const instance = this[inner];
     if (watcher && instance.watcher) throw new Error('this BroadPhase is being recorded already');
     if (watcher !== null) instance.watcher = watcher;

@@ -1,5 +1,5 @@
-// How broadphase/trace reads the contents of a space, and broadphase/shard its world: by a method under a registered
-// symbol, since the entry points are bundled separately and share nothing else.
+// How broadphase/trace reads the contents of a space, and broadphase/shard its world: by a method of a fixed name, since
+// the entry points are bundled separately and share nothing else.
 import { badValue } from './errors.ts';
 import { boxesAt, doublesAt, groupsAt, idsAt, reachesAt, rulesAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
@@ -12,8 +12,8 @@ export interface World {
   readonly touching?: boolean | undefined;
 }
 
-/** The key of the method of BroadPhase that sets its watcher, and gives its world. */
-export const watch: unique symbol = Symbol.for('broadphase.watch') as never;
+/** The name of the method of BroadPhase that sets its watcher, and gives its world. */
+export const watch = '#watch';
 
 /** Throws unless this is a space that was not disposed. */
 export function checkSpace(where: string, space: unknown): void {

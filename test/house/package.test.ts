@@ -24,6 +24,7 @@ test('only the build and the changelog are published', () => {
 
 test.each([
   ['docs/entries.md', /`broadphase` \|.*\| about (\d+) kB/, 'broadphase'],
+  ['docs/entries.md', /imports `findPairs` alone .* has about (\d+) kB/, 'findPairs alone'],
   ['docs/entries.md', /`broadphase\/all` \|.*\| (\d+) kB more/, 'broadphase/all', 'broadphase'],
   ['docs/command.md', /costs (\d+) kB more to load/, 'broadphase/all', 'broadphase'],
   ['docs/guides/worth-it.md', /The library is about (\d+) kB gzipped/, 'broadphase'],
