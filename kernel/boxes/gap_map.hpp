@@ -16,14 +16,23 @@ template <int D> class GapMap {
   static constexpr u32 regular = 64, most_others = 512;
   // Another map, or another gap, must make float32's steps this many times as fine to be worth it.
   static constexpr f64 worth = 16;
+  // Gaps stay if no more than a sixth of the samples is far from the others, and at most one so far from 0 that float32's
+  // steps are more than this share of an ordinary box: searches can do with that.
+  static constexpr f64 coarse = 1.0 / 256;
   // A gap that is removed keeps the width of this many boxes of ordinary size, or this share of what is left.
   static constexpr f64 gap_boxes = 4, gap_share = 4;
   static constexpr f32 largest = 3.40282347e38f;
 
   // Piece p of an axis begins at from[p]; less[p] is subtracted in it; its results are clamped to where the next one
-  // begins.
+  // begins. For each number of a box, so axes are repeated.
   struct Pieces {
-    f64 from[most_cuts + 1][D], less[most_cuts + 1][D], until[most_cuts + 1][D];
+    f64 from[most_cuts + 1][width], less[most_cuts + 1][width], until[most_cuts + 1][width];
+
+    void set(u32 p, u32 axis, f64 begins, f64 subtracts, f64 ends) {
+      from[p][axis] = from[p][axis + D] = begins;
+      less[p][axis] = less[p][axis + D] = subtracts;
+      until[p][axis] = until[p][axis + D] = ends;
+    }
   };
   Pieces pieces_ = {};
   u32 piece_count_ = 1;  // largest number on any axis
@@ -44,8 +53,7 @@ template <int D> class GapMap {
   };
   Less less() const {
     Less all;
-    for (u32 k = 0; k < D; k++)
-      all.of[k] = plain_ ? f64x2{} : f64x2{pieces_.less[0][2 * k % D], pieces_.less[0][(2 * k + 1) % D]};
+    for (u32 k = 0; k < D; k++) all.of[k] = plain_ ? f64x2{} : load<f64x2>(pieces_.less[0] + 2 * k);
     all.alone = piece_count_ == 1;
     return all;
   }
@@ -75,17 +83,8 @@ template <int D> class GapMap {
       pairs[k] = narrow(plain_ ? numbers : shifted(numbers, 2 * k));
     }
     join(pairs, first, last);
-    if (any(are_infinite(first) | are_infinite(last))) bound(box, to);
-    else store_box<D>(to, first, last);
-    return collapses(box, to);
-  }
-
-  /// The same, for use in a loop. `less` is `less()`, which the caller keeps in registers.
-  bool round(const Less& less, const f64* box, f32* to) const {
-    f32x4 first, last;
-    narrowed(less, box, first, last);
     // A finite box with a size in float32 needs no further test.
-    if (!less.alone || !is_sized(first, last)) return round(box, to);
+    if (!is_sized(first, last)) return round_odd(box, first, last, to);
     store_box<D>(to, first, last);
     return false;
   }
@@ -131,7 +130,7 @@ template <int D> class GapMap {
     bool quick = less.alone && sizes.all_are_sized();
     for (u32 s = 0; !quick && s < count; s++) {
       if (!is_box(from + u64(s) * width)) return {i32(s), inexact, collapsed};
-      collapsed += round(less, from + u64(s) * width, to + u64(s) * width);
+      collapsed += round(from + u64(s) * width, to + u64(s) * width);
     }
     if (inexact) return {-1, true, collapsed};
     for (u64 k = 0; !(quick && plain_) && k < u64(count) * width; k++) to[k] = f32(from[k]);
@@ -182,7 +181,8 @@ template <int D> class GapMap {
       bool is_better = n && now > worth * least_left(low, n);
       if (is_better) {
         sort(size, n);
-        is_better = now > worth * other.cut(low, n, size[n / 2], a);
+        bool stay = are_few_far(low, n, size[n / 2] * coarse * 0x1p23, a);
+        is_better = now > worth * other.cut(low, n, stay ? 0 : most_cuts, size[n / 2], a);
       }
       better |= is_better;
       if (!is_better) other.take(*this, a);
@@ -210,14 +210,19 @@ template <int D> class GapMap {
     return good;
   }
 
-  NOINLINE f64x2 shifted(f64x2 x, u32 number) const {
-    u32 one = number % D, other = (number + 1) % D;
-    auto both = [&](const f64(&row)[D]) { return f64x2{row[one], row[other]}; };
-    f64x2 less = both(pieces_.less[0]), until = both(pieces_.until[0]);
+  SMALL bool round_odd(const f64* box, f32x4 first, f32x4 last, f32* to) const {
+    if (any(are_infinite(first) | are_infinite(last))) bound(box, to);
+    else store_box<D>(to, first, last);
+    return collapses(box, to);
+  }
+
+  /// Two numbers of a box, mapped; `number`: the first of them.
+  f64x2 shifted(f64x2 x, u32 number) const {
+    f64x2 less = load<f64x2>(pieces_.less[0] + number), until = load<f64x2>(pieces_.until[0] + number);
     for (u32 p = 1; p < piece_count_; p++) {
-      u64x2 here = bits<u64x2>(x >= both(pieces_.from[p]));
-      less = bits<f64x2>((bits<u64x2>(both(pieces_.less[p])) & here) | (bits<u64x2>(less) & ~here));
-      until = bits<f64x2>((bits<u64x2>(both(pieces_.until[p])) & here) | (bits<u64x2>(until) & ~here));
+      auto here = x >= load<f64x2>(pieces_.from[p] + number);
+      less = here ? load<f64x2>(pieces_.less[p] + number) : less;
+      until = here ? load<f64x2>(pieces_.until[p] + number) : until;
     }
     return min(until, x - less);
   }
@@ -242,12 +247,21 @@ template <int D> class GapMap {
   SMALL void take(const GapMap& other, u32 axis) {
     for (u32 p = 0; p <= most_cuts; p++) {
       bool is = !other.plain_ && p < other.piece_count_;
-      pieces_.from[p][axis] = is ? other.pieces_.from[p][axis] : __builtin_nan("");
-      pieces_.less[p][axis] = is ? other.pieces_.less[p][axis] : 0;
-      pieces_.until[p][axis] = is ? other.pieces_.until[p][axis] : __builtin_inf();
+      const Pieces& its = other.pieces_;
+      if (is) pieces_.set(p, axis, its.from[p][axis], its.less[p][axis], its.until[p][axis]);
+      else pieces_.set(p, axis, __builtin_nan(""), 0, __builtin_inf());
     }
     piece_count_ = larger(piece_count_, other.piece_count_);
     plain_ = false;
+  }
+
+  /// Whether most of these ascending numbers are close together, and at most one is mapped further than `near` from 0.
+  SMALL bool are_few_far(const f64* low, u32 n, f64 near, u32 axis) const {
+    u32 few = n / 6, far = 0;
+    f64 extent = __builtin_inf();
+    for (u32 k = 0; k <= few; k++) extent = smaller(low[k + n - 1 - few] - low[k], extent);
+    for (u32 k = 0; k < n; k++) far += __builtin_fabs(map(low[k], axis)) > near;
+    return far <= 1 && extent * worth < low[n - 1] - low[0];
   }
 
   /// A lower bound for what `cut` returns, in less time.
@@ -257,13 +271,13 @@ template <int D> class GapMap {
     return (low[n - 1] - low[0] - most_cuts * widest) / 2;
   }
 
-  /// Removes the wide gaps between these ascending numbers from an axis; returns how far from 0 the rest extends.
-  SMALL f64 cut(const f64* low, u32 n, f64 size, u32 axis) {
+  /// Removes up to `most` wide gaps between these ascending numbers from an axis; returns how far from 0 the rest extends.
+  SMALL f64 cut(const f64* low, u32 n, u32 most, f64 size, u32 axis) {
     u32 cuts[most_cuts], best = 0;  // indices of numbers with a gap before them, the widest first
     f64 left[most_cuts + 1];  // the extent left after removing that many gaps
     left[0] = low[n - 1] - low[0];
     u32 found = 0;
-    for (; found < smaller(most_cuts, n - 1); found++) {
+    for (; found < smaller(most, n - 1); found++) {
       u32 widest = 0;
       for (u32 k = 1; k < n; k++) {
         bool taken = false;
@@ -292,10 +306,8 @@ template <int D> class GapMap {
       f64 less = is ? from - at : 0;
       f64 steps = less / grid;
       if (__builtin_fabs(steps) < 0x1p52) less = __builtin_floor(steps + 0.5) * grid;
-      pieces_.from[p][axis] = from;
-      pieces_.less[p][axis] = less;
-      pieces_.until[p][axis] = __builtin_inf();
-      if (is && p > 0) pieces_.until[p - 1][axis] = from - less;
+      pieces_.set(p, axis, from, less, __builtin_inf());
+      if (is && p > 0) pieces_.until[p - 1][axis] = pieces_.until[p - 1][axis + D] = from - less;
       if (is && p > 1 && !(pieces_.until[p - 2][axis] <= from - less)) return __builtin_inf();  // not monotone
       if (is && p < best) at = low[cuts[p] - 1] - less + gap;
     }

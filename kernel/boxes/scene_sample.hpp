@@ -1,8 +1,9 @@
 // What a frame looks like, from a sample of it: extents, sizes and crowding.
-// Idea: a few hundred boxes at jittered strides (fixed strides alias with structured input). If the extents have a
-// heavy tail (one box at 1e9 must not stretch the grid), the 2nd and 98th percentiles take their place. Crowding is
-// measured by a coarse histogram: the ratio of a box's neighbours to those it would have if all were spread evenly. It
-// depends on the boxes alone, never on earlier frames, so that a restored space behaves the same.
+// Idea: a few hundred boxes at jittered strides (fixed strides alias with structured input). If some boxes are far
+// from most others (one at 1e9 must not stretch the grid, nor a tenth of them in another room), the extents are those of
+// most boxes, and all others go to the border cells. Crowding is measured by a coarse histogram: the ratio of a box's
+// neighbours to those it would have if all were spread evenly. It depends on the boxes alone, never on earlier frames, so
+// that a restored space behaves the same.
 // Cost: about 10 ns for each of at most 1,024 sampled boxes.
 #pragma once
 #include "boxes/box.hpp"
@@ -15,8 +16,8 @@ inline f64 cube_root(f64 x) {
 
 template <int D> struct SceneSample {
   f64 low[D], high[D];  // extents of the boxes' lower corners, without outliers
-  f64 size[D];          // mean sizes, each clipped to the extent
-  f64 crowding;         // 1: spread evenly
+  f64 size[D];  // mean sizes, each clipped to the extent
+  f64 crowding;  // 1: spread evenly
 
   /// The axis along which the world is longest, measured in boxes.
   SMALL int longest() const {
@@ -48,8 +49,6 @@ template <int D> struct SceneSample {
 namespace detail {
 
 inline constexpr u32 most_samples = 1024;
-// Standard deviations: for even or bell-shaped spreads of that many boxes the range is smaller.
-inline constexpr f32 tail = 8;
 inline f32 sample[6][most_samples];  // per axis the minima, then per axis the maxima
 inline f32 sorted[most_samples];
 
@@ -102,43 +101,58 @@ inline u32 samples_of(u32 count) { return smaller(count, smaller(larger(count / 
 
 inline bool is_finite(f32 x) { return x - x == 0; }
 
+/// Narrows a range to that of most of n values, `finite` of which count: to one without gaps that has 98 % of them in half
+/// of the range, or five in six in a sixteenth of it. It does so again and again, since one value far off hides another.
+NOINLINE inline void narrow_to_most(const f32* v, u32 n, u32 finite, f64& low, f64& high) {
+  constexpr u32 bins = 64;
+  while (high > low) {
+    u32 counts[bins + 1] = {};
+    f64 scale = bins / (high - low);
+    auto bin_of = [&](u32 k) {
+      f64 at = (v[k] - low) * scale;
+      return at >= 0 && at <= bins ? smaller(u32(at), bins - 1) : bins;
+    };
+    for (u32 k = 0; k < n; k++) counts[bin_of(k)]++;
+    counts[bins] = 0;
+    u32 from = 0, to = 0, most = 0, begin = 0, here = 0;
+    for (u32 b = 0; b <= bins; b++) {
+      here += counts[b];
+      if (counts[b] > 0) continue;
+      if (here > most) {
+        most = here;
+        from = begin;
+        to = b;
+      }
+      here = 0;
+      begin = b + 1;
+    }
+    u32 length = to - from;
+    if (most * 50 >= finite * 49 ? length > bins / 2 : most * 6 < finite * 5 || length > bins / 16) return;
+    f64 least = high, last = low;
+    for (u32 k = 0; k < n; k++) {
+      u32 bin = bin_of(k);
+      if (bin < from || bin >= to) continue;
+      least = smaller(f64(v[k]), least);
+      last = larger(f64(v[k]), last);
+    }
+    low = least;
+    high = last;
+  }
+}
+
 /// The extent of the finite values among n, without outliers.
 SMALL inline void extents(const f32* v, u32 n, f64& low, f64& high) {
-  // In float32, values near the largest float would overflow; in double none do.
-  f64 least = __builtin_inf(), most = -__builtin_inf(), sum = 0, squares = 0;
+  u32 finite = 0;
+  low = __builtin_inf();
+  high = -low;
   for (u32 k = 0; k < n; k++) {
-    f64 x = v[k];
-    least = smaller(x, least);
-    most = larger(x, most);
-    sum += x;
-    squares += x * x;
+    if (!is_finite(v[k])) continue;
+    finite++;
+    low = smaller(f64(v[k]), low);
+    high = larger(f64(v[k]), high);
   }
-  f64 mean = sum / n;
-  f64 variance = squares / n - mean * mean;
-  low = least;
-  high = most;
-  // The second test catches cancellation: then the deviation is unreliable.
-  f64 range = most - least;
-  bool tame = range * range <= tail * tail * variance && variance > 1e-9 * mean * mean;
-  if (tame) return;
-  i32 kept = 0;
-  for (u32 k = 0; k < n; k++) {
-    if (is_finite(v[k])) sorted[kept++] = v[k];
-  }
-  if (kept == 0) {
-    low = high = 0;
-    return;
-  }
-  // Cuts off 2 % on each side, or 12 % if that leaves less than a sixteenth. Values outside go to the border
-  // cells.
-  for (i32 share = 50; share > 0; share = share == 50 ? 8 : 0) {
-    i32 tail = kept / share;
-    f64 from = select(sorted, kept, tail), to = select(sorted, kept, kept - 1 - tail);
-    if (share == 50 || (to - from) * 16 < high - low) {
-      low = from;
-      high = to;
-    }
-  }
+  if (finite == 0) low = high = 0;
+  narrow_to_most(v, n, finite, low, high);
 }
 
 /// After `measure` of `count` items: the size along an axis that this share of the sample does not exceed (a quantile).
@@ -154,7 +168,7 @@ SMALL inline f64 common_size(int axis, int dimensions, u32 count, f64 share) {
 /// Evaluates the n items in `sample`.
 template <int D> NOINLINE SceneSample<D> judge(u32 n) {
   SceneSample<D> found;
-  constexpr u32 side = D == 2 ? 64 : 16;
+  constexpr u32 side = D == 2 ? 64 : 16, cells = D == 2 ? side * side : side * side * side;
   static u16 cell[most_samples];
   for (int a = 0; a < D; a++) {
     extents(sample[a], n, found.low[a], found.high[a]);
@@ -168,17 +182,21 @@ template <int D> NOINLINE SceneSample<D> judge(u32 n) {
     f64 scale = extent > 0 ? side / extent : 0;
     for (u32 k = 0; k < n; k++) {
       f64 at = (f64(sample[a][k]) - found.low[a]) * scale;
-      u32 index = at > 0 ? u32(smaller(at, f64(side - 1))) : 0;
-      cell[k] = a == 0 ? u16(index) : u16(cell[k] * side + index);
+      bool inside = at >= 0 && at <= side && (a == 0 || cell[k] < cells);
+      u32 index = inside ? u32(smaller(at, f64(side - 1))) : 0;
+      cell[k] = u16(!inside ? cells : a == 0 ? index : cell[k] * side + index);
     }
   }
 
-  constexpr u32 cells = D == 2 ? side * side : side * side * side;
   static u16 histogram[cells];
-  for (u32 c = 0; c < cells; c++) histogram[c] = 0;
-  f64 meetings = 0;
-  for (u32 k = 0; k < n; k++) meetings += 2 * histogram[cell[k]]++;
-  found.crowding = n < 64 ? 1 : larger(1.0, meetings * cells / (f64(n) * (n - 1)));
+  __builtin_memset(histogram, 0, sizeof(histogram));
+  f64 meetings = 0, inside = 0;
+  for (u32 k = 0; k < n; k++) {
+    if (cell[k] == cells) continue;
+    meetings += 2 * histogram[cell[k]]++;
+    inside++;
+  }
+  found.crowding = inside < 64 ? 1 : larger(1.0, meetings * cells / (inside * (inside - 1)));
   return found;
 }
 
@@ -199,31 +217,41 @@ template <int D, class Source> NOINLINE SceneSample<D> measure(const Source& ite
   return detail::judge<D>(n);
 }
 
-/// The same for a few items, from all of them, without crowding. False if some are infinite, or far from all others:
-/// then they must be measured.
+/// The same for a few items: extents and sizes of all of them, less those that a sample of 64 shows to be far from most,
+/// without crowding. False if some are infinite: then they must be measured.
 template <int D, class Source> bool glance(const Source& items, u32 count, SceneSample<D>& found) {
-  f32x4 origin = items[0].first(), least = origin, most = origin, sizes = {}, sum = {}, squares = {};
+  // Boxes spread evenly, or in a bell, have a range of fewer than 8 standard deviations, and a mean deviation of at least
+  // 2.25 variances by the range; it would be 2 if all were at the two ends of the range.
+  const f32x4 tail = splat(8.0f), apart = splat(2.25f);
+  f32x4 origin = items[0].first(), least = origin, most = origin, sizes = {}, sum = {}, squares = {}, deviation = {};
   for (u32 k = 0; k < count; k++) {
     Item<D> item = items[k];
     least = min(least, item.first());
     most = max(most, item.first());
     sizes += item.size();
   }
-  u32 seen = 0;
-  ROLLED for (u32 k = 0; k < count; k += count / 64 + 1, seen++) {
+  u32 step = count / 64 + 1, seen = 0;
+  ROLLED for (u32 k = 0; k < count; k += step, seen++) {
     f32x4 far = items[k].first() - origin;
     sum += far;
     squares += far * far;
   }
   f32x4 n = splat(f32(seen)), range = most - least, mean = sum / n, variance = squares / n - mean * mean;
-  i32x4 tame = range * range <= splat(detail::tail * detail::tail) * variance;
+  ROLLED for (u32 k = 0; k < count; k += step) {
+    f32x4 away = items[k].first() - origin - mean;
+    deviation += max(away, -away);
+  }
+  i32x4 tame = (range * range <= tail * tail * variance) & (deviation / n * range >= apart * variance);
   found.crowding = 1;
-  bool all = true;
   for (int a = 0; a < D; a++) {
     found.low[a] = least[a];
     found.high[a] = most[a];
     found.size[a] = sizes[a] / f32(count);
-    all &= tame[a] || range[a] == 0;
+    if (!detail::is_finite(range[a]) || !detail::is_finite(sizes[a])) return false;
+    if (tame[a]) continue;
+    f32 some[64];
+    for (u32 k = 0; k < seen; k++) some[k] = items[k * step].lo(a);
+    detail::narrow_to_most(some, seen, seen, found.low[a], found.high[a]);
   }
-  return all;
+  return true;
 }

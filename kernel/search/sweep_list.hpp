@@ -31,13 +31,14 @@ template <int D> class SweepList {
     if (count > room_) make_room(count);
   }
 
-  /// Orders the items; returns the number of tests that `find` will make. `world`: where most of them are, if known.
-  u64 order(const ItemsAt<D>& items, u32 count, const SceneSample<D>* world = nullptr) {
+  /// Orders the items; returns the number of tests that `find` will make. `world`: where most boxes are, if known; `all`:
+  /// the items are all of these boxes.
+  u64 order(const ItemsAt<D>& items, u32 count, const SceneSample<D>* world = nullptr, bool all = false) {
     if (count > room_) make_room(room_ ? count + count / 4 : count);
     u32* cells = cells_.data();
     u32* starts = starts_.data();
     __builtin_memset(starts, 0, (count + 1) * sizeof(u32));
-    Axis axis = world ? Axis::make(world->low[0], world->high[0], count) : axis_of(items, count);
+    Axis axis = all ? Axis::make(world->low[0], world->high[0], count) : axis_of(items, count, world);
     Axes axes(axis, axis, axis, axis);
     u32 whole = count & ~3u;
     for (u32 k = 0; k < whole; k += 4) {
@@ -173,8 +174,8 @@ template <int D> class SweepList {
     return tests;
   }
 
-  /// Cells along the sweep axis, as many as there are items, over the range of those that are finite.
-  NOINLINE static Axis axis_of(const ItemsAt<D>& items, u32 count) {
+  /// Cells along the sweep axis, as many as there are items, over the range of those that are finite, and in the world.
+  NOINLINE static Axis axis_of(const ItemsAt<D>& items, u32 count, const SceneSample<D>* world) {
     f32x4 least = items[0].first(), most = least;
     for (u32 k = 1; k < count; k++) {
       f32x4 x = items[k].first();
@@ -192,6 +193,7 @@ template <int D> class SweepList {
         high = larger(high, x);
       }
     }
-    return Axis::make(low, high, count);
+    if (!world || low > world->high[0] || high < world->low[0]) return Axis::make(low, high, count);
+    return Axis::make(larger(f64(low), world->low[0]), smaller(f64(high), world->high[0]), count);
   }
 };

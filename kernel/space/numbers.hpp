@@ -224,10 +224,9 @@ template <int D> class Numbers {
   /// Rounds boxes, some of which the quick way may not have got right; returns how many collapse. All of them, since the
   /// last of two in the same slot counts.
   NOINLINE u32 round_again(const f64* box, u32 step, const u32* slots, u32 count) {
-    const auto less = map().less();
     f32* boxes = boxes_.data();
     u32 collapsed = 0;
-    for (u32 k = 0; k < count; k++, box += step) collapsed += map().round(less, box, boxes + u64(slots[k]) * width);
+    for (u32 k = 0; k < count; k++, box += step) collapsed += map().round(box, boxes + u64(slots[k]) * width);
     return collapsed;
   }
 

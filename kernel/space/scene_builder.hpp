@@ -125,7 +125,6 @@ template <int D> class SceneBuilder {
   NOINLINE void grow_each(const Store<D>& store, const u32* slots, u32 many, u32 count) {
     const f32* boxes = store.numbers.boxes();
     const GapMap<D>& map = store.numbers.map();
-    const auto less = map.less();
     for (u32 k = 0; k < many; k++) {
       u32 slot = slots ? slots[k] : k;
       if (slot >= count) continue;
@@ -136,7 +135,7 @@ template <int D> class SceneBuilder {
         f64x2 given = doubles ? load<f64x2>(doubles + at + n) : f64x2{boxes[at + n], boxes[at + n + 1]};
         ::store(box + n, given + f64x2{n < D ? -reach : reach, n + 1 < D ? -reach : reach});
       }
-      map.round(less, box, grown_.data() + at);
+      map.round(box, grown_.data() + at);
     }
   }
 };

@@ -393,7 +393,7 @@ template <int D> class StripSweep {
       narrow(part, 1, cut, l / across);
       if constexpr (D == 3) narrow(part, 2, cut, l % across);
       ItemsAt<D> items(entries_, begin);
-      u64 tests = swept_.order(items, end - begin, stays_whole() ? &cut_.world : nullptr);
+      u64 tests = swept_.order(items, end - begin, &cut.world, cut.lists() == 1);
       if (searched_ && &strips == &strips_) note_order(l, begin, end);
       list(items, end - begin, tests, part, strips.end, depth + 1, pairs);
       begin = end;

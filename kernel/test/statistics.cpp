@@ -123,6 +123,40 @@ TEST("statistics leave out outliers") {
   CHECK(found.low[0] >= 0 && found.high[0] < 101 && found.low[1] >= 0 && found.high[1] < 101);
 }
 
+// Objects of a pool that wait somewhere, or another room: the extents, and how crowded the world is, are those of most.
+TEST("statistics leave out a group far from the others") {
+  Random random(8);
+  for (u32 count : {100u, 300u, 1000u, 5000u}) {
+    for (u32 share : {1u, 3u, 5u}) {
+      for (f64 far : {-5000.0, 1e5, 1e9, -1e30}) {
+        testing::Where where(std::to_string(share) + " % of " + std::to_string(count) + " at " + std::to_string(far));
+        std::vector<f32> floats;
+        for (const auto& box : spread<2>(random, count, 0, 100, 4)) {
+          bool is_far = random.below(100) < share;
+          for (f64 x : box) floats.push_back(f32(is_far ? x + far : x));
+        }
+        Scene<2> scene{floats.data(), count, nullptr};
+        SceneItems<2> items{scene, AxisOrder<2>::make(0)};
+        SceneSample<2> found = measure<2>(items, count), seen;
+        CHECK(glance(items, count, seen));
+        for (const auto& one : {found, seen}) {
+          CHECK(one.low[0] >= 0 && one.high[0] < 105 && one.high[1] - one.low[1] > 80 && one.crowding < 4);
+        }
+      }
+    }
+  }
+}
+
+TEST("values that are all alike but one are a range of nothing") {
+  for (u32 one : {0u, 99u}) {
+    std::vector<f32> values(100, 0.0f);
+    values[one] = 1e30f;
+    f64 low = 0, high = 1e30;
+    detail::narrow_to_most(values.data(), 100, 100, low, high);
+    CHECK(low == 0 && high == 0);
+  }
+}
+
 TEST("cube roots are close") {
   Random random(6);
   for (int k = 0; k < 10000; k++) {
