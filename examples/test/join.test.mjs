@@ -38,6 +38,13 @@ const boxesIn = async (path, dimensions = 2) => {
   return Float64Array.from((await duck.ask(`select ${names} from '${path}'`)).flat());
 };
 
+/** A CSV of boxes of integers, none of which overlap, and then others. */
+function manyWith(...rows) {
+  const lines = Array.from({ length: 50_000 }, (_, k) => `${20 * k},0,${20 * k + 10},10\n`);
+  const texts = ['minX,minY,maxX,maxY\n', ...lines, ...rows.flatMap((row) => [row, '\n'])];
+  return Buffer.concat(texts.map((text) => Buffer.from(text)));
+}
+
 beforeAll(async () => {
   command = await bundle('src/cli/index.ts', 'build/cli/join.mjs');
   if (!installed) return;
@@ -72,6 +79,13 @@ describe.skipIf(!installed)('broadphase join', () => {
     const { out } = await run([file('odd.parquet'), file('odd-pairs.parquet'), '--tile', '300', '--json']);
     expect(JSON.parse(out).tiles).toBeGreaterThan(3);
     expect(await pairsIn(file('odd-pairs.parquet'))).toEqual(referencePairs(await boxesIn(file('odd.parquet')), 2));
+  });
+
+  test('finds those of CSV as doubles, where its first rows hold integers', async () => {
+    writeFileSync(file('late.csv'), manyWith('5.4,20,5.4,20', '4.6,20,4.6,20', '-5,20,Infinity,20', '5.4,20,1e99,20'));
+    await run([file('late.csv'), file('late.parquet')]);
+    const pairs = [50_000, 50_002, 50_000, 50_003, 50_001, 50_002, 50_002, 50_003]; // not 50,000 with 50,001
+    expect(await pairsIn(file('late.parquet'))).toEqual(keysOf(pairs).sort());
   });
 
   test('finds those of red and blue boxes', async () => {
@@ -163,6 +177,18 @@ describe.skipIf(!installed)('broadphase join names what is wrong', () => {
     expect((await saidOf('case when row = 12 then null else maxY end as maxY', 'bad.csv'))[1]).toMatch(
       /row 12 .*maxY is empty, expected a number/,
     );
+  });
+
+  test('in a row far below those by which columns of CSV are told', async () => {
+    for (const [row, what] of [
+      ['n/a,0,1,1', 'row 50,000 (counted from 0): minX is n/a, expected a number'],
+      ['0.6,0,0.4,1', 'row 50,000 (counted from 0): minX 0.6 is above maxX 0.4, expected minima not above maxima'],
+      ['0,0,1', 'CSV Error on Line: 50002, Expected Number of Columns: 4 Found: 3'],
+      [Buffer.from('Z\xfcrich,0,1,1', 'latin1'), 'This file is not utf-8 encoded.'],
+    ]) {
+      writeFileSync(file('deep.csv'), manyWith(row));
+      expect(await said(file('deep.csv'), none)).toEqual([3, expect.stringContaining(what)]);
+    }
   });
 
   test('in a file or an option', async () => {

@@ -25,7 +25,8 @@ export async function reading<Result>(what: string, run: () => Promise<Result>):
   try {
     return await run();
   } catch (error) {
-    const message = (error as Error).message.split('\n')[0];
+    const [first] = (error as Error).message.split(/\n(?=\n|Possible |The search )/); // the rest is how to call DuckDB
+    const message = first!.replace(/\nOriginal Line:.*/, '').replaceAll('\n', ', ');
     if (/out of memory/i.test(message)) throw new FileError(`${what}: ${message}: raise --memory, or free disk space`);
     throw new DataError(`${what}: ${message}`);
   }
@@ -43,7 +44,9 @@ export async function openSource(db: Connection, path: string, columns: string[]
   if (!parquet && !/\.(csv|tsv)(\.gz)?$/i.test(path)) {
     throw new UsageError(`${path}: expected a name that ends in .parquet, .csv or .tsv (these also with .gz)`);
   }
-  const plain = `${parquet ? 'read_parquet' : 'read_csv'}(${quotedPath(path)}`;
+  // Of CSV all columns are read as text. DuckDB would choose their types by the first rows, and round decimals in later
+  // rows of what it took for integers.
+  const plain = parquet ? `read_parquet(${quotedPath(path)}` : `read_csv(${quotedPath(path)}, all_varchar=true`;
   const { names } = await reading(path, async () => {
     const rows = (await db.runAndReadAll(`describe select * from ${plain})`)).getRows();
     return { names: rows.map(([name]) => String(name)) };
