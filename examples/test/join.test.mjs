@@ -195,6 +195,7 @@ describe.skipIf(!installed)('broadphase join names what is wrong', () => {
     writeFileSync(file('cut.parquet'), readFileSync(file('boxes.parquet')).subarray(0, 200_000));
     writeFileSync(file('word.csv'), 'minX,minY,maxX,maxY\n0,0,1,1\n0,0,hello,1\n');
     writeFileSync(file('few.csv'), 'minX,minY\n0,0\n');
+    writeFileSync(file('long.csv'), 'minX,minY,maxX,maxY\n0,0,1,1\n0,0,1,1,1\n');
     expect(await said(file('cut.parquet'), none)).toEqual([3, expect.stringMatching(/cut\.parquet: .*magic bytes/)]);
     expect(await said(file('word.csv'), none)).toEqual([
       3,
@@ -204,6 +205,7 @@ describe.skipIf(!installed)('broadphase join names what is wrong', () => {
       3,
       expect.stringContaining('no column maxX, expected it among minX'),
     ]);
+    expect(await said(file('long.csv'), none)).toEqual([3, expect.stringContaining('rows that differ in length')]);
     expect(await said(file('absent.parquet'), none)).toEqual([4, expect.stringContaining('cannot read')]);
     expect(await said(file('boxes.parquet'), none, '--memory', '1')).toEqual([
       2,

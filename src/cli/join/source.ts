@@ -26,7 +26,7 @@ export async function reading<Result>(what: string, run: () => Promise<Result>):
     return await run();
   } catch (error) {
     const [first] = (error as Error).message.split(/\n(?=\n|Possible |The search )/); // the rest is how to call DuckDB
-    const message = first!.replace(/\nOriginal Line:.*/, '').replaceAll('\n', ', ');
+    const message = first!.replace(/\nOriginal Line:.*/, '').replace(/\.?\n/g, ', ');
     if (/out of memory/i.test(message)) throw new FileError(`${what}: ${message}: raise --memory, or free disk space`);
     throw new DataError(`${what}: ${message}`);
   }
@@ -57,9 +57,11 @@ export async function openSource(db: Connection, path: string, columns: string[]
   for (const name of wanted) {
     if (find(name) === undefined) {
       const isOneLine = names.length === 1 && /[,;\t|]/.test(names[0]!);
+      const areNumbered = names.every((given, k) => given === `column${k}`); // by DuckDB, for want of names
+      const among = `${names.join(', ')}${areNumbered ? ' (no row of names, or rows that differ in length)' : ''}`;
       const why = isOneLine
         ? 'its rows differ in their number of columns, or its separator is unknown'
-        : `no column ${name}, expected it among ${names.join(', ')}; --columns names others`;
+        : `no column ${name}, expected it among ${among}; --columns names others`;
       throw new DataError(`${path}: ${why}`);
     }
   }
