@@ -17,7 +17,7 @@ const spares: (KernelInstance | undefined)[] = [];
 /** A space that has used more bytes of memory than this is not kept, since touched memory is not returned. */
 const mostBytes = 64 * 2 ** 20;
 
-/** The space for a call with these options, which are `plain` ones of so many dimensions, or have others too. */
+/** A space with these options: the spare one of `spared` dimensions, if there is one, else a new one. */
 function borrow(spared: Dimensions | 0, options?: BroadPhaseOptions<Dimensions>): KernelInstance {
   const spare = spares[spared];
   if (spare === undefined) return open(options);
@@ -32,8 +32,11 @@ function giveBack(space: KernelInstance, spared: Dimensions | 0): void {
   if (space.kernel.begin_anew() >>> 0 <= mostBytes) spares[spared] = space;
 }
 
-/** The dimensions in the options, if there is no other option; else 0. Read once, as a getter may change the options. */
-function plain(where: string, options?: BroadPhaseOptions<Dimensions>): Dimensions | 0 {
+/**
+ * The dimensions of the spare space that will do: those in the options, or 0 if there are other options too. Read once,
+ * as a getter may change the options.
+ */
+function spareFor(where: string, options?: BroadPhaseOptions<Dimensions>): Dimensions | 0 {
   checkNames(where, options);
   if (options === undefined) return builtDimensions[0]!;
   for (const name in options) if (name !== 'dimensions') return 0;
@@ -55,7 +58,7 @@ function plain(where: string, options?: BroadPhaseOptions<Dimensions>): Dimensio
  * findPairs([0, 0, 10, 10, 5, 5, 15, 15]); // → Uint32Array [0, 1]
  */
 export function findPairs(boxes: Boxes, options?: BroadPhaseOptions<Dimensions>): Uint32Array {
-  const spared = plain('findPairs', options);
+  const spared = spareFor('findPairs', options);
   const space = borrow(spared, options);
   setAll(space, boxes, undefined, 'findPairs');
   const pairs = search(space, 'findPairs');
@@ -78,7 +81,7 @@ export function findPairs(boxes: Boxes, options?: BroadPhaseOptions<Dimensions>)
  * findPairsBetween(players, coins); // → Uint32Array [0, 0]
  */
 export function findPairsBetween(red: Boxes, blue: Boxes, options?: BroadPhaseOptions<Dimensions>): Uint32Array {
-  const spared = plain('findPairsBetween', options);
+  const spared = spareFor('findPairsBetween', options);
   const space = borrow(spared, options);
   const { dimensions } = space;
   const reds = count('findPairsBetween: red', red, dimensions);

@@ -36,14 +36,14 @@ export interface DrawOptions {
   lineWidth?: number | undefined;
 }
 
-const colorsLeftOut: Colors = {
+const defaultColors: Colors = {
   boxes: '#8893a5',
   pairs: '#e0457b',
   cells: '#3f8fdc',
   hot: '#f08c1a',
   rays: '#2ba24c',
 };
-const colorNames = Object.keys(colorsLeftOut) as (keyof Colors)[];
+const colorNames = Object.keys(defaultColors) as (keyof Colors)[];
 const switchNames = ['boxes', 'pairs', 'cells', 'hot'] as const;
 const optionNames = [...switchNames, 'rays', 'colors', 'lineWidth'];
 /** How much the insides of boxes cover. */
@@ -73,8 +73,8 @@ export function drawSpace(
 ): void {
   check(context, space, options);
   const { boxes = true, pairs = true, cells = false, hot = false, rays = [], lineWidth = 1 } = options;
-  const colors = { ...colorsLeftOut };
-  for (const name of colorNames) colors[name] = options.colors?.[name] ?? colorsLeftOut[name];
+  const colors = { ...defaultColors };
+  for (const name of colorNames) colors[name] = options.colors?.[name] ?? defaultColors[name];
   const shapes = new Shapes(space);
   const sink: Sink = {
     box(numbers, at) {

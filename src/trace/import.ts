@@ -3,8 +3,8 @@
 import { badNumber, isSize } from '../errors.ts';
 import { isFloat64Array } from '../values.ts';
 import { givenBytes, uint32At } from './bytes.ts';
-import { checkSource, type Frame, type FrameSource, firstBad, headerBytes, maxBoxes, TraceError } from './format.ts';
-import { type RawRecording, rawMagic, readRecording } from './raw.ts';
+import { checkSource, type Frame, type FrameSource, firstBad, maxBoxes, TraceError } from './format.ts';
+import { type RawRecording, rawHeaderBytes, rawMagic, readRecording } from './raw.ts';
 import { isSalvage, type OpenOptions, openTrace } from './reader.ts';
 
 /** Gzipped files that are larger than this when unpacked are refused, unless more is allowed: 1 GiB. */
@@ -135,7 +135,7 @@ function intactFrames(recording: RawRecording, salvage: boolean): { frames: numb
       return { frames: k, fault: error as TraceError };
     }
   }
-  const end = headerBytes + 8 * dimensions * count * frames;
+  const end = rawHeaderBytes + 8 * dimensions * count * frames;
   return { frames, fault: wrong === undefined ? undefined : new TraceError(wrong, frames, end) };
 }
 
@@ -185,7 +185,7 @@ export function exportRecording(source: FrameSource): Uint8Array<ArrayBuffer> {
   for (const frame of source) {
     if (count < 0) {
       count = frame.count;
-      all = new Uint8Array(headerBytes + 8 * source.dimensions * count * source.frames);
+      all = new Uint8Array(rawHeaderBytes + 8 * source.dimensions * count * source.frames);
     }
     const where = `frame ${frame.index} cannot be written in the raw layout:`;
     if (frame.count !== count) throw new RangeError(`${where} it has ${frame.count} boxes, the first had ${count}`);
@@ -194,9 +194,9 @@ export function exportRecording(source: FrameSource): Uint8Array<ArrayBuffer> {
       throw new RangeError(`${where} some of its boxes are static, or have filters, groups or reaches`);
     if (isFloat64Array(frame.boxes)) throw new RangeError(`${where} its numbers are doubles`);
     const { buffer, byteOffset, byteLength } = frame.boxes;
-    all.set(new Uint8Array(buffer, byteOffset, byteLength), headerBytes + frame.index * byteLength);
+    all.set(new Uint8Array(buffer, byteOffset, byteLength), rawHeaderBytes + frame.index * byteLength);
   }
-  if (count < 0) all = new Uint8Array(headerBytes);
+  if (count < 0) all = new Uint8Array(rawHeaderBytes);
   const header = new DataView(all.buffer);
   for (const [k, value] of [rawMagic, source.dimensions, Math.max(0, count), source.frames].entries()) {
     header.setInt32(4 * k, value, true);
@@ -209,7 +209,7 @@ function checkFrame(recording: RawRecording, index: number): void {
   const boxes = recording.frame(index);
   const bad = firstBad(boxes, dimensions);
   if (!bad) return;
-  const offset = headerBytes + 4 * (2 * index * count * dimensions + bad.at);
+  const offset = rawHeaderBytes + 4 * (2 * index * count * dimensions + bad.at);
   throw new TraceError(`${bad.what}, which is not a box`, index, offset);
 }
 

@@ -14,15 +14,17 @@ export interface RawRecording {
 }
 
 export const rawMagic = 0x424f5841;
-const headerBytes = 16;
+export const rawHeaderBytes = 16;
 
 /** Reads a recording from its bytes, gunzipped; with `salvage` the whole frames of one of another length. */
 export function readRecording(bytes: ArrayBuffer | Uint8Array, salvage = false): RawRecording {
   const source = bytesOf(bytes) ?? new Uint8Array();
-  if (source.byteLength < headerBytes) {
-    throw new RangeError(`Not a recording: ${source.byteLength} bytes, fewer than the ${headerBytes} of the header.`);
+  if (source.byteLength < rawHeaderBytes) {
+    throw new RangeError(
+      `Not a recording: ${source.byteLength} bytes, fewer than the ${rawHeaderBytes} of the header.`,
+    );
   }
-  const header = new DataView(source.buffer, source.byteOffset, headerBytes);
+  const header = new DataView(source.buffer, source.byteOffset, rawHeaderBytes);
   const [magic, dimensions, count, frames] = [0, 4, 8, 12].map((at) => header.getInt32(at, true));
   if (magic !== rawMagic) {
     const hint = (magic & 0xffff) === 0x8b1f ? ' It looks like gzip: decompress it first.' : '';
@@ -33,15 +35,15 @@ export function readRecording(bytes: ArrayBuffer | Uint8Array, salvage = false):
   }
   if (count < 0 || frames < 0) throw new RangeError(`A recording of ${count} boxes and ${frames} frames.`);
   const stride = 2 * dimensions * count;
-  const expected = headerBytes + 4 * stride * frames;
+  const expected = rawHeaderBytes + 4 * stride * frames;
   const wrong =
     source.byteLength === expected
       ? undefined
       : `A recording of ${frames} frames of ${count} boxes in ${dimensions}D takes ${expected} bytes, not ${source.byteLength}.`;
   if (wrong && !salvage) throw new RangeError(wrong);
-  const whole = wrong && stride > 0 ? Math.floor((source.byteLength - headerBytes) / (4 * stride)) : frames;
+  const whole = wrong && stride > 0 ? Math.floor((source.byteLength - rawHeaderBytes) / (4 * stride)) : frames;
   const there = Math.min(frames, whole);
-  const numbers = asFloats(source.subarray(headerBytes, headerBytes + 4 * stride * there));
+  const numbers = asFloats(source.subarray(rawHeaderBytes, rawHeaderBytes + 4 * stride * there));
   return {
     dimensions,
     count,
