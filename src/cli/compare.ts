@@ -3,7 +3,7 @@ import { BroadPhase } from 'broadphase';
 import { compare, TraceError } from 'broadphase/trace';
 import { type Command, exitCode } from './arguments.ts';
 import { openSource, sourceOperand, sourceOptions } from './files.ts';
-import { cellSizeOption, readCellSize, techniqueHelp } from './replay.ts';
+import { cellSizeOption, readCellSize, techniqueHelp } from './technique.ts';
 import { bytes, complain, number, progressBar, table, time } from './terminal.ts';
 
 export const compareCommand: Command = {

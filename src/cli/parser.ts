@@ -7,16 +7,19 @@ import { leastText, list, paint } from './terminal.ts';
 
 const about =
   'Inspects and replays traces (recordings of the boxes of a game), and finds the best options for them. Joins files of boxes.';
-const codes = [
-  ['0', 'success'],
-  ['1', 'wrong pairs'],
-  ['2', 'wrong command line'],
-  ['3', 'damaged trace, or a row that is not a box'],
-  ['4', 'a file cannot be read or written'],
-  ['5', 'a package is missing'],
-  ['6', 'not enough memory'],
-  ['70', 'a bug in the command'],
-] as const;
+const meanings: Record<keyof typeof exitCode, string> = {
+  ok: 'success',
+  different: 'wrong pairs',
+  usage: 'wrong command line',
+  badTrace: 'damaged trace, or a row that is not a box',
+  files: 'a file cannot be read or written',
+  missing: 'a package is missing',
+  memory: 'not enough memory',
+  fault: 'a bug in the command',
+};
+const codes = Object.entries(exitCode).map(
+  ([name, code]) => [`${code}`, meanings[name as keyof typeof exitCode]] as const,
+);
 
 /** A following option is not its value; a negative number may be. */
 function checkValue(given: string): string {

@@ -1,27 +1,11 @@
 // `broadphase replay`: plays a trace with one technique, and checks the pairs of every frame if asked.
 import { BroadPhase, type TechniqueName } from 'broadphase';
-import { type ReplayedFrame, type ReplayOptions, replay } from 'broadphase/trace';
+import { type ReplayedFrame, replay } from 'broadphase/trace';
 import { summarize } from '../trace/statistics.ts';
-import { type Command, exitCode, type Input, type Option, UsageError } from './arguments.ts';
+import { type Command, exitCode, UsageError } from './arguments.ts';
 import { openSource, sourceOperand, sourceOptions } from './files.ts';
+import { cellSizeOption, readCellSize, techniqueHelp } from './technique.ts';
 import { bytes, complain, counted, number, progressBar, table, time } from './terminal.ts';
-
-export const techniqueHelp = BroadPhase.techniques.join(', ');
-
-export const cellSizeOption: Record<string, Option> = {
-  'cell-size': { value: 'size', help: 'the side of a cell, or one per axis, separated by commas; for grids' },
-};
-
-/** `--cell-size` as an option of BroadPhase. */
-export function readCellSize(input: Input, dimensions: 2 | 3): Pick<ReplayOptions, 'cellSize'> {
-  const text = input.text('cell-size');
-  if (text === undefined) return {};
-  const sizes = text.split(',').map(Number);
-  if ((sizes.length !== 1 && sizes.length !== dimensions) || !sizes.every((size) => size > 0 && size < Infinity)) {
-    throw new UsageError(`--cell-size is ${text}, expected a number above 0, or ${dimensions} separated by commas`);
-  }
-  return { cellSize: sizes.length === 1 ? sizes[0] : sizes };
-}
 
 export const replayCommand: Command = {
   summary: 'play a trace: time and counters of every frame',

@@ -4,8 +4,8 @@ import { BroadPhase } from 'broadphase';
 import { type FrameSource, TraceError, tune } from 'broadphase/trace';
 import { type Command, exitCode } from './arguments.ts';
 import { checkWritable, openSource, sourceOperand, sourceOptions, write } from './files.ts';
-import { techniqueHelp } from './replay.ts';
 import { nameOf, reportOf, verdictOf } from './report.ts';
+import { techniqueHelp } from './technique.ts';
 import { progressBar, table, time, wrap } from './terminal.ts';
 
 export const tuneCommand: Command = {
