@@ -29,7 +29,7 @@ export function queryPlanes(
   }
   const asked = heed(instance, where, options, idsOptions);
   const io = instance.io();
-  asked.distances = planes; // until another query begins
+  asked.distances = planes; // a mark, which any other query would replace
   instance.copyIn(where, io, planesAt, planes, length);
   if (asked.distances !== planes) throw new Error(`${where}: a getter of planes made a query`);
   return area(instance, where, asked, (length / width) | 0); // as an integer: a double would be garbage

@@ -1,4 +1,4 @@
-// The options and the results of the queries in queries.ts, and their checks.
+// The options and the results of queries, and the checks of these options.
 import {
   badId,
   badNumber,
@@ -15,7 +15,10 @@ import type { KernelInstance } from './kernel/instance.ts';
 
 /** Options of every query, each of which adds an `out` or a `visit` of its own. */
 export interface QueryOptions {
-  /** Only boxes on a layer in this mask: 32 bits, as for `setFilter`. Default: all bits, and so all boxes, even those on no layer. */
+  /**
+   * Only boxes on a layer in this mask: 32 bits, as for `setFilter`. Default: all bits, and so all boxes, even those on
+   * no layer.
+   */
   mask?: number | undefined;
   /** A box to leave out, usually the one that asks, or a few: each is compared with each answer. */
   ignore?: number | readonly number[] | undefined;
@@ -33,7 +36,8 @@ export interface IdsOptions extends QueryOptions, AreaOptions {
   out?: number[] | undefined;
   /**
    * Called for each answer instead of collecting them; `false` ends the search. The answer is then empty. Must not call
-   * `update` or `restore` of this space, or the query throws; nor may it return a Promise. This holds for every `visit` and `accept`.
+   * `update` or `restore` of this space, or the query throws; nor may it return a Promise. This holds for every `visit`
+   * and `accept`.
    */
   visit?: ((id: number) => unknown) | undefined;
 }
@@ -179,7 +183,10 @@ export interface ManySweepHits extends ManyIds {
 
 /** Options of many queries. */
 export interface ManyOptions<Answer = ManyIds> {
-  /** Only boxes on a layer in this mask: 32 bits, as for `setFilter`. Default: all bits, and so all boxes, even those on no layer. */
+  /**
+   * Only boxes on a layer in this mask: 32 bits, as for `setFilter`. Default: all bits, and so all boxes, even those on
+   * no layer.
+   */
   mask?: number | undefined;
   /** For each query a box to leave out of its answers, usually the one that asks; any id, in use or not. */
   ignoreEach?: Uint32Array | readonly number[] | undefined;

@@ -21,8 +21,8 @@ export interface Contents<D extends Dimensions> {
    *
    * @param box an id, which is an integer from 0 to 2^24 - 1: ids from 0 on without gaps are best; the minima, in the
    *   units of your world: any numbers but NaN, infinite ones too; then the maxima, not below the minima
-   * @throws RangeError or TypeError for a bad id, for NaN, and for a minimum above its maximum; TypeError for values other than
-   *   numbers and for a wrong number of them. The space is as before.
+   * @throws RangeError for a bad id, NaN, or a minimum above its maximum; TypeError for anything but numbers,
+   *   and for a wrong number of them. The space is as before.
    *
    * @example
    * const space = new BroadPhase();
@@ -45,7 +45,7 @@ export interface Contents<D extends Dimensions> {
    * maxY, maxZ, dx, dy, dz)`.
    *
    * @param box an id; the box as it is now, as for `set`; how far it moves along each axis: finite numbers
-   * @throws as `set` does. The space is as before.
+   * @throws as `set` does, and RangeError for a motion that is not finite. The space is as before.
    *
    * @example
    * const space = new BroadPhase();

@@ -13,8 +13,7 @@ export interface Rules {
    * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param layer what the box is: an integer from 0 to 2^32 - 1, usually one bit
    * @param mask what it meets: the same, usually a few bits. Write `~bits >>> 0` for all but a few
-   * @throws RangeError or TypeError for a bad id or one without a box, and for more than 32 bits; TypeError for values other than
-   *   numbers
+   * @throws RangeError for a bad id or one without a box, and for more than 32 bits; TypeError for anything but numbers
    *
    * @example
    * const space = new BroadPhase();
@@ -100,8 +99,7 @@ export interface Rules {
    *
    * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param group an integer from 0 to 2^32 - 1
-   * @throws RangeError or TypeError for a bad id or one without a box, and for more than 32 bits; TypeError for values other than
-   *   numbers
+   * @throws RangeError for a bad id or one without a box, and for more than 32 bits; TypeError for anything but numbers
    *
    * @example
    * const space = new BroadPhase();
@@ -129,8 +127,7 @@ export interface Rules {
    * @param id an integer from 0 to 2^24 - 1, of an existing box
    * @param distance in units of the world: finite, at least 0. The sides of the enlarged box are sums, each rounded
    *   like any sum of doubles
-   * @throws RangeError or TypeError for a bad id or one without a box, and for a bad distance; TypeError for values other than
-   *   numbers
+   * @throws RangeError for a bad id or one without a box, and for a bad distance; TypeError for anything but numbers
    *
    * @example
    * const space = new BroadPhase().set(7, 0, 0, 10, 10).set(9, 13, 0, 20, 10);

@@ -41,11 +41,11 @@ export interface Upkeep {
 
   /**
    * The contents of the space as bytes, to go back to with `restore`, or to save: boxes as they were given, ids, their
-   * order, filters, groups, reaches, which boxes are static or off, and the technique. With `events: true` they include the
-   * pairs of the last update, and those that began and ended with it. Constructor options are not included. A box takes
-   * 16 bytes in 2D and 24 in 3D, or twice that if any box does not fit float32. Add 4 if ids have gaps or did not
-   * come in ascending order, 4 if a box was deleted before a later one, up to 9 with filters, 1 with boxes that are static or off, 4 with groups, 8 with reaches.
-   * A pair takes 8.
+   * order, filters, groups, reaches, which boxes are static or off, and the technique. With `events: true` they include
+   * the pairs of the last update, and those that began and ended with it. Constructor options are not included. A box
+   * takes 16 bytes in 2D and 24 in 3D, or twice that if any box does not fit float32. Add 4 if ids have gaps or did not
+   * come in ascending order, 4 if a box was deleted before a later one, up to 9 with filters, 1 with boxes that are
+   * static or off, 4 with groups, 8 with reaches. A pair takes 8.
    *
    * From the first call of this or `restore` on, the order of the pairs depends on the contents of the space alone, so
    * that a restored space gives them in the same order as the original. `auto` and `incremental` sort their pairs for
@@ -76,7 +76,8 @@ export interface Upkeep {
    *
    * @param bytes the result of `snapshot`, in this version of the library or an older one
    * @throws RangeError that gives the reason for bytes that are damaged, truncated, of other dimensions, or not a
-   *   snapshot; TypeError for anything but bytes. The space is as before, but damaged bytes may detach the array of `boxes`.
+   *   snapshot; TypeError for anything but bytes. The space is as before, but damaged bytes may detach the array of
+   *   `boxes`.
    * @throws RangeError if memory runs out during the search: the boxes are restored, the pairs are empty
    *
    * @example

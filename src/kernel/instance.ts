@@ -49,7 +49,7 @@ export class KernelInstance {
   readonly spare: RayHit[] = [];
   /** Pairs with other spaces: see pairs-between.ts. */
   readonly kept = new WeakMap<KernelInstance, Kept>();
-  // Cached views: of pairs by their count, of the two arrays in which boxes are staged in turns, of the counters.
+  // Cached views: of pairs by their count, of boxes that are staged, of the counters.
   private pairs: Uint32Array[][] = [];
   private staged: (Float32Array | Float64Array)[] = [];
   private counters = new Float64Array();

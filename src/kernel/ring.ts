@@ -205,7 +205,7 @@ export class Ring {
     this.forget();
   }
 
-  /** Hears from the kernel, which has emptied the ring, which boxes may wait in it. */
+  /** After the kernel has emptied the ring: reads which boxes may wait in it, and opens it. */
   private reopen(): void {
     this.forget();
     const ring = this.view();

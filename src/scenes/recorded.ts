@@ -1,5 +1,5 @@
-// Recorded scenes: frames of a trace in which the same boxes stand, each to be had at any time. Tests, benchmark and pages
-// play them forth and back.
+// Recorded scenes: frames of a trace in which the same boxes stand, read in any order. Tests, benchmark and pages play
+// them back and forth.
 import type { FrameSource } from '../trace/format.ts';
 
 export interface RecordedFrames {
