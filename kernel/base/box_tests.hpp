@@ -28,8 +28,8 @@ template <int D> bool boxes_touch(const f32* one, const f32* other) {
 /// Whether `boxes_touch` has found equal bounds.
 template <int D> bool any_equal(i32x4 equal) { return bitmask(equal) & (D == 2 ? 15 : 7); }
 
-/// Whether some box lies at infinity along an axis, where numbers are bounded by the largest: a difference of its bounds is
-/// NaN, or infinite, so its pairs are not recorded as in doubt.
+/// Whether some box lies at infinity along an axis, or as far away as float32 goes (see GapMap::bound). A difference of
+/// such bounds is NaN or infinite instead of 0, so its pairs are not recorded as in doubt.
 template <int D> NOINLINE bool some_nowhere(const f32* boxes, u32 count) {
   const f32x4 first = {1, 1, D == 2 ? -1 : 1, -1}, last = {1, D == 2 ? 1 : -1, -1, -1}, most = splat(__FLT_MAX__);
   i32x4 some = {};
@@ -38,13 +38,13 @@ template <int D> NOINLINE bool some_nowhere(const f32* boxes, u32 count) {
   return any(some);
 }
 
-/// A box is held as its first four numbers and its last four, which in 2D are the same. Writes it.
+/// Writes a box that is held as its first four numbers and its last four, which in 2D are the same.
 template <int D> void store_box(f32* to, f32x4 first, f32x4 last) {
   store(to, first);
   if constexpr (D == 3) store(to + 2, last);
 }
 
-/// From its numbers two at a time to such vectors.
+/// Makes these two of a box's numbers, given two at a time.
 template <int D> void join(const f32x4 (&pairs)[D], f32x4& first, f32x4& last) {
   first = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 4, 5);
   last = __builtin_shufflevector(pairs[D - 2], pairs[D - 1], 0, 1, 4, 5);

@@ -21,7 +21,7 @@ template <int D> class GapMap {
   static constexpr f64 coarse = 1.0 / 256;
   // A gap that is removed keeps the width of this many boxes of ordinary size, or this share of what is left.
   static constexpr f64 gap_boxes = 4, gap_share = 4;
-  static constexpr f32 largest = 3.40282347e38f;
+  static constexpr f32 largest = __FLT_MAX__;
 
   // Piece p of an axis begins at from[p]; less[p] is subtracted in it; its results are clamped to where the next one
   // begins. For each number of a box, so axes are repeated.

@@ -73,7 +73,7 @@ template <int D> class PackedTree {
     lanes_.reserve(total);
     lists_.reserve(2 * levels_ * list_size);
     order_.make(scene, false, lanes_);
-    for (u32 k = n + 1; k <= padded(n + spare); k++) clear(k - 1);
+    for (u32 k = n; k < padded(n + spare); k++) clear(k);
     refit();
   }
 

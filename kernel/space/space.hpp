@@ -27,8 +27,7 @@ template <int D> class Space {
   u32 seen_ = 0;  // boxes in the last update
   bool mapped_ = false;  // the pairs are not in the slots that the technique saw
   bool searching_ = false;  // in the middle of an update: there are no pairs until it ends
-  bool ordered_ =
-      false;  // a snapshot was taken or restored: from then on, earlier updates must not affect the order of pairs
+  bool ordered_ = false;  // after the first snapshot, earlier updates must not affect the order of pairs
 
  public:
   Store<D> store;

@@ -1,6 +1,6 @@
 // The contents of a space: boxes by id, and their settings. Two parts are notified before a change: what queries see,
-// which is then copied, and the events, which record deleted boxes. Every change allocates before it
-// writes: if memory runs out, the store is as it was.
+// which is then copied, and the events, which record deleted boxes. Every change allocates before it writes: if memory
+// runs out, the store is as it was.
 #pragma once
 #include "boxes/changed_ids.hpp"
 #include "boxes/ring.hpp"
