@@ -114,6 +114,9 @@ inline u8x16 swizzle(u8x16 v, u8x16 index) {
 }
 #endif
 
+/// Whether a number is neither infinite nor NaN.
+template <class T> inline bool is_finite(T x) { return x - x == 0; }
+
 template <class T> inline T smaller(T a, T b) { return b < a ? b : a; }
 template <class T> inline T larger(T a, T b) { return a < b ? b : a; }
 // Floats as vectors: engines compile a choice between two scalars to a branch, which would be unpredictable.

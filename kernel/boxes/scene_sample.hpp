@@ -99,8 +99,6 @@ class Sampling {
 /// How many of `count` boxes are sampled.
 inline u32 samples_of(u32 count) { return smaller(count, smaller(larger(count / 64, 256u), most_samples)); }
 
-inline bool is_finite(f32 x) { return x - x == 0; }
-
 /// Narrows a range to that of most of n values, `finite` of which count: to one without gaps that has 98 % of them in half
 /// of the range, or five in six in a sixteenth of it. It does so again and again, since one value far off hides another.
 NOINLINE inline void narrow_to_most(const f32* v, u32 n, u32 finite, f64& low, f64& high) {
@@ -247,7 +245,7 @@ template <int D, class Source> bool glance(const Source& items, u32 count, Scene
     found.low[a] = least[a];
     found.high[a] = most[a];
     found.size[a] = sizes[a] / f32(count);
-    if (!detail::is_finite(range[a]) || !detail::is_finite(sizes[a])) return false;
+    if (!is_finite(range[a]) || !is_finite(sizes[a])) return false;
     if (tame[a]) continue;
     f32 some[64];
     for (u32 k = 0; k < seen; k++) some[k] = items[k * step].lo(a);

@@ -334,7 +334,7 @@ template <int D> class Watch {
       for (i32 k = 0; k < count; k++) {
         const Sample& sample = samples_[u32(k) * step];
         f32 place = sample.at[0][a], move = scene.box(sample.slot)[a] - place;
-        if (!detail::is_finite(move)) continue;
+        if (!is_finite(move)) continue;
         bool upper = place > middle;
         places[upper][votes[upper]] = place;
         moves[upper][votes[upper]++] = move;

@@ -31,7 +31,6 @@ template <int D> class Bulk {
             : kind == Asks::meeting ? 2
                                     : 0);
   }
-  static bool is_finite(f64 x) { return x - x == 0; }
 
  public:
   Buffer<f64> given;  // the numbers of all queries, then the id that each ignores, unless they are for meeting

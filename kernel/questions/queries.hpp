@@ -134,8 +134,8 @@ template <int D> class Queries {
       lo[a] = low(a);
       hi[a] = high(a);
       f32 least = round_down(lo[a] + smaller(0.0, reach_[a])), most = round_up(hi[a] + larger(0.0, reach_[a]));
-      area_.lo[a] = splat(detail::is_finite(least) ? next_toward(least, false) : least);
-      area_.hi[a] = splat(detail::is_finite(most) ? next_toward(most, true) : most);
+      area_.lo[a] = splat(is_finite(least) ? next_toward(least, false) : least);
+      area_.hi[a] = splat(is_finite(most) ? next_toward(most, true) : most);
     }
     is_tame_ = aim_.take(lo, hi, asked_.along) && asked_.length > 0;
   }

@@ -183,12 +183,12 @@ template <int D> class SweepList {
       most = max(most, x);
     }
     f32 low = least[0], high = most[0];
-    if (!detail::is_finite(low) || !detail::is_finite(high)) {
+    if (!is_finite(low) || !is_finite(high)) {
       low = __builtin_inff();
       high = -low;
       for (u32 k = 0; k < count; k++) {
         f32 x = items[k].lo(0);
-        if (!detail::is_finite(x)) continue;
+        if (!is_finite(x)) continue;
         low = smaller(low, x);
         high = larger(high, x);
       }

@@ -40,16 +40,16 @@ template <int D> class Finder {
       most[a] = -__builtin_inff();
       for (u32 s = 0; s < store.ids.count(); s++) {
         f32 lo = boxes[u64(s) * width + a], hi = boxes[u64(s) * width + D + a];
-        if (detail::is_finite(lo)) least[a] = smaller(least[a], lo);
-        if (detail::is_finite(hi)) most[a] = larger(most[a], hi);
+        if (is_finite(lo)) least[a] = smaller(least[a], lo);
+        if (is_finite(hi)) most[a] = larger(most[a], hi);
       }
     }
     for (u64 c = 0; c < cell_count; c++) {
       for (int a = 0; a < D; a++) {
         f32& lo = cells[c * width + a];
         f32& hi = cells[c * width + D + a];
-        if (!detail::is_finite(lo)) lo = smaller(least[a], hi);
-        if (!detail::is_finite(hi)) hi = larger(most[a], lo);
+        if (!is_finite(lo)) lo = smaller(least[a], hi);
+        if (!is_finite(hi)) hi = larger(most[a], lo);
         lo = f32(map.unmap(lo, u32(a)));
         hi = f32(map.unmap(hi, u32(a)));
       }
