@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "check.hpp"
-#include "questions/question.hpp"
+#include "questions/hits.hpp"
 #include "random.hpp"
 
 TEST("hits are the smallest that were offered, up to a limit and after a given one") {
