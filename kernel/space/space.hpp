@@ -8,7 +8,7 @@
 #include "space/auto.hpp"
 #include "space/finder.hpp"
 #include "space/questions.hpp"
-#include "space/settle.hpp"
+#include "space/report.hpp"
 
 /// What `validate` finds. The comments are what it says: scripts/abi.mjs takes them from here.
 enum class Broken : u32 {
@@ -198,7 +198,7 @@ template <int D> class Space {
     if (stats.candidates == 0) stats.candidates = f64(pairs.count);
     stats.pairs = f64(pairs.count);
     if (same) searching_ = false;
-    else settle(its, scene.groups);
+    else report(its, scene.groups);
     return !same;
   }
 
@@ -243,10 +243,10 @@ template <int D> class Space {
 
   /// Turns pairs of slots found in float32 into the pairs to report. `its`: of the technique; `grouped`: it knew of
   /// groups.
-  SMALL void settle(const Traits& its, bool grouped) {
+  SMALL void report(const Traits& its, bool grouped) {
     const Own& own = store.own;
     if (store.world()) builder_.wrap.fold(pairs, options_.touching, its.notes_doubts);
-    else if (pairs.watch) settle_doubts(pairs, store, builder_.doubles, its.notes_doubts, options_.touching);
+    else if (pairs.watch) decide_doubts(pairs, store, builder_.doubles, its.notes_doubts, options_.touching);
     if (own.filters.active()) own.filters.finish(pairs);
     if (own.groups.some() && !(grouped && pairs.checked)) part_groups(pairs, own.groups.data());
     bool sorts = ordered_ || (store.keeps_events && !pairs.checked && store.events.scattered);

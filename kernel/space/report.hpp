@@ -28,7 +28,7 @@ NOINLINE u64* retest(const Filters& filters, const T* boxes, const u64* from, co
 /// Keeps, of the pairs in doubt, those that overlap in the numbers given, enlarged by the reaches. `noted`: whether the
 /// technique has recorded which are in doubt; else all are.
 template <int D>
-SMALL void settle_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles, bool noted, bool touching) {
+SMALL void decide_doubts(Pairs& pairs, const Store<D>& store, const f64* doubles, bool noted, bool touching) {
   const Filters& filters = store.own.filters;
   const f32* boxes = store.numbers.boxes();
   u64* list = pairs.list.data();
