@@ -22,7 +22,7 @@ namespace {
 
 // constinit: nothing runs when the module is instantiated.
 constinit Ids ids;
-constinit Settings options;
+constinit Options options;
 f64 io[48];
 #if defined(DIMENSIONS)
 constexpr bool is_flat = DIMENSIONS == 2;
@@ -381,7 +381,7 @@ EXPORT(recover)() -> u32 {
 /// ever in use. Objects get their first bytes rather than being emptied, so that nothing can be missed.
 SMALL EXPORT(begin_anew)() -> size_t {
   new (&ids) Ids;
-  options = Settings{};
+  options = Options{};
   with_ring([]<int D>(Space<D>& space, Ring<D>& ring) {
     __builtin_memcpy(static_cast<void*>(&space), initial<D>, sizeof space);
     ring.address = 0;

@@ -39,7 +39,7 @@ template <int D> class Incremental {
   ~Incremental() { release(); }
 #endif
 
-  void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Options& options, Pairs& pairs, Stats& stats) {
     pairs.count = 0;
     list_.check(scene, pairs.watch);
     bool kept = find(scene, f32(options.margin), pairs, stats);
@@ -109,7 +109,7 @@ template <int D> class Incremental {
     return watch_.plan(prospect_, tuning.ahead * prospect_.fresh);
   }
 
-  SMALL void rebuild(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+  SMALL void rebuild(const Scene<D>& scene, const Options& options, Pairs& pairs, Stats& stats) {
     stats = Stats{};
     pairs.stable = 0;
     strips_.update(scene, options, pairs, stats);

@@ -4,7 +4,7 @@
 #pragma once
 #include "boxes/cell_map.hpp"
 #include "boxes/scene_sample.hpp"
-#include "search/settings.hpp"
+#include "search/options.hpp"
 
 template <int D> struct Grid {
   static constexpr f64 boxes_per_cell = 3;  // aimed at; measured to be nearly flat from 2 to 5
@@ -26,7 +26,7 @@ template <int D> struct Grid {
   }
 
   /// Sets up a grid of at most `most_cells` cells; returns the number of entries the boxes will have in it.
-  NOINLINE u64 choose(const SceneItems<D>& items, u32 count, const Settings& options, u32 most_cells) {
+  NOINLINE u64 choose(const SceneItems<D>& items, u32 count, const Options& options, u32 most_cells) {
     SceneSample<D> world = measure<D>(items, count);
     f64 extent[D], chosen[D];
     bool bounded = false;

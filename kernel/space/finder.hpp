@@ -17,7 +17,7 @@ template <int D> class Finder {
   Traits traits(Technique name) { return techniques_.traits(name); }
 
   /// Lets a technique find the pairs of slots.
-  NOINLINE void run(Technique chosen, const Scene<D>& scene, const Settings& settings, Pairs& pairs, Stats& stats) {
+  NOINLINE void run(Technique chosen, const Scene<D>& scene, const Options& options, Pairs& pairs, Stats& stats) {
     if (chosen != ran_) {
       release();
       pairs.stable = 0;
@@ -25,7 +25,7 @@ template <int D> class Finder {
     ran_ = chosen;
     pairs.same = pairs.checked = false;
     pairs.kept = 0;
-    techniques_.with(ran_, [&](auto& technique) { technique.update(scene, settings, pairs, stats); });
+    techniques_.with(ran_, [&](auto& technique) { technique.update(scene, options, pairs, stats); });
   }
 
   /// Writes the boxes of the cells of the last update to `cells`. Unbounded sides are clipped to the bounds of all

@@ -9,7 +9,7 @@
 inline constexpr u32 most_neighbours = 16;
 
 template <int D> class Questions {
-  const Settings& options_;
+  const Options& options_;
   Store<D>& store_;
 
  public:
@@ -22,7 +22,7 @@ template <int D> class Questions {
 
   static constexpr u32 unknown = 0xffffffff;  // an answer: no copy was kept of what the last update saw
 
-  SMALL constexpr Questions(Store<D>& store, const Settings& options) : options_(options), store_(store) {}
+  SMALL constexpr Questions(Store<D>& store, const Options& options) : options_(options), store_(store) {}
 
   /// The boxes of the last update.
   Index<D>& index() { return store_.seen.index; }

@@ -20,7 +20,7 @@ enum class Broken : u32 {
 };
 
 template <int D> class Space {
-  const Settings& options_;
+  const Options& options_;
   SceneBuilder<D> builder_;
   Lookups lookups_;
   PairOrder order_;
@@ -39,7 +39,7 @@ template <int D> class Space {
   Technique technique = by_default;
   u32 updates = 0;
 
-  SMALL constexpr Space(Ids& ids, const Settings& options)
+  SMALL constexpr Space(Ids& ids, const Options& options)
       : options_(options), store(ids, options), questions(store, options) {}
 
   /// Brings the pairs up to date. Returns the first bad id among boxes written in place, or -1.
@@ -221,8 +221,8 @@ template <int D> class Space {
     else finder.run(chosen, scene, options_, pairs, stats);
   }
 
-  SMALL Settings mapped_options() const {
-    Settings mapped = options_;
+  SMALL Options mapped_options() const {
+    Options mapped = options_;
     for (u32 n = 0; n < 2 * D; n++) mapped.bounds[n] = store.numbers.map().map(options_.bounds[n], n % D);
     return mapped;
   }

@@ -5,7 +5,7 @@
 #include "boxes/changed_ids.hpp"
 #include "boxes/ring.hpp"
 #include "pairs/events.hpp"
-#include "search/settings.hpp"
+#include "search/options.hpp"
 #include "space/numbers.hpp"
 #include "space/own.hpp"
 #include "space/room_ahead.hpp"
@@ -19,7 +19,7 @@ template <int D> class Store {
   // With more boxes than this, slots no longer fit the cache, and a batch is prefetched: see Ring.
   static constexpr u32 near_boxes = 20000;
 
-  const Settings& options_;
+  const Options& options_;
   bool tight_ = false;  // there may be no memory to start storing doubles
   bool full_ = false;  // the ring has been full since the last update
   Buffer<f64> waiting_;  // a larger ring
@@ -33,7 +33,7 @@ template <int D> class Store {
   bool keeps_events = false;
   ChangedIds changed;  // for spaces that keep pairs with this one
 
-  SMALL constexpr Store(Ids& all, const Settings& options) : options_(options), ids(all) {}
+  SMALL constexpr Store(Ids& all, const Options& options) : options_(options), ids(all) {}
 
   Changes& changes() { return numbers.written.changes; }
   /// The size of the world if it wraps around; else null.

@@ -42,9 +42,9 @@ constexpr bool is_built(Technique name) { return built >> u32(name) & 1; }
 
 /// A technique finds all pairs of a scene, writes its cells as boxes, and releases its memory.
 template <class Kind, int D>
-concept FindsPairs = requires(Kind kind, const Scene<D>& scene, const Settings& settings, Pairs& pairs, Stats& stats,
+concept FindsPairs = requires(Kind kind, const Scene<D>& scene, const Options& options, Pairs& pairs, Stats& stats,
                               Buffer<f32>& cells, u32& cell_count) {
-  kind.update(scene, settings, pairs, stats);
+  kind.update(scene, options, pairs, stats);
   kind.structure(cells, cell_count, stats);
   kind.release();
 };

@@ -14,7 +14,7 @@
 #pragma once
 #include "pairs/pair_order.hpp"
 #include "search/packed_tree.hpp"
-#include "search/settings.hpp"
+#include "search/options.hpp"
 
 template <int D> class AabbTree {
   static constexpr u32 width = 2 * D;
@@ -58,7 +58,7 @@ template <int D> class AabbTree {
   u32 pauses_ = 0;  // length of the last pause
 
  public:
-  void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Options& options, Pairs& pairs, Stats& stats) {
     u32 n = scene.count, had = count_;
     if (n == 0) return release();
     stats.entries = n;

@@ -5,7 +5,7 @@
 // Wins for a handful of boxes. Loses otherwise; it serves as the reference for all other techniques.
 // From: A. Petersen, "Broad Phase Collision Detection Using Spatial Partitioning", 2012, approach 1.
 #pragma once
-#include "search/settings.hpp"
+#include "search/options.hpp"
 #include "search/stats.hpp"
 #include "search/sweep.hpp"
 
@@ -17,7 +17,7 @@ template <int D> class BruteForce {
  public:
   static constexpr bool notes_doubts = true;
 
-  void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Options&, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     if (n < 2) return;
     lanes_.reserve(n);

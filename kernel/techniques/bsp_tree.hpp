@@ -13,7 +13,7 @@
 // From: J. L. Bentley, "Multidimensional Binary Search Trees Used for Associative Searching", 1975; cuts and
 // leaves as in Serpa & Rodrigues, "Broadmark: A Testing Framework for Broad-Phase Collision Detection", 2019.
 #pragma once
-#include "search/settings.hpp"
+#include "search/options.hpp"
 #include "search/stats.hpp"
 #include "search/sweep_list.hpp"
 
@@ -36,7 +36,7 @@ template <int D> class BspTree {
   Stats* stats_ = nullptr;
 
  public:
-  void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Options&, Pairs& pairs, Stats& stats) {
     stats_ = &stats;
     if (scene.count < 2) return;
     stacks_[0].grow(scene.count, 0);

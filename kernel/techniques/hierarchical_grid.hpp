@@ -13,7 +13,7 @@
 // From: F. Schornbaum, "Hierarchical Hash Grids for Coarse Collision Detection", 2009.
 #pragma once
 #include "search/cell_table.hpp"
-#include "search/settings.hpp"
+#include "search/options.hpp"
 #include "search/stats.hpp"
 
 template <int D> class HierarchicalGrid {
@@ -48,7 +48,7 @@ template <int D> class HierarchicalGrid {
   Lanes<D> lanes_;
 
  public:
-  void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Options&, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     if (n < 2) return;
     SceneItems<D> items{scene, AxisOrder<D>::make(0)};

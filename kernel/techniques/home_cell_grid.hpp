@@ -15,7 +15,7 @@
 #include "base/radix_sort.hpp"
 #include "search/cell_table.hpp"
 #include "search/quantized_sweep.hpp"
-#include "search/settings.hpp"
+#include "search/options.hpp"
 #include "search/stats.hpp"
 
 template <int D> class HomeCellGrid {
@@ -39,7 +39,7 @@ template <int D> class HomeCellGrid {
   u32 home_ = 0;  // boxes that are not large
 
  public:
-  void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Options& options, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     if (n < 2) return;
     SceneItems<D> items{scene, AxisOrder<D>::make(0)};
@@ -132,7 +132,7 @@ template <int D> class HomeCellGrid {
   }
 
   /// Chooses the cells; returns their number.
-  SMALL u32 choose(const SceneSample<D>& world, u32 count, const Settings& options) {
+  SMALL u32 choose(const SceneSample<D>& world, u32 count, const Options& options) {
     f64 size[D], extent[D];
     f64 share = world.crowding * count;  // boxes in a cell
     for (int a = 0; a < D; a++) {

@@ -12,7 +12,7 @@
 // Programming Gems, 2000.
 #pragma once
 #include "search/hilbert.hpp"
-#include "search/settings.hpp"
+#include "search/options.hpp"
 #include "search/stats.hpp"
 #include "search/sweep.hpp"
 
@@ -46,7 +46,7 @@ template <int D> class Quadtree {
   u32 count_ = 0;  // nodes
 
  public:
-  void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Options&, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     count_ = 0;
     if (n == 0) return;

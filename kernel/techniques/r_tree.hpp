@@ -10,13 +10,13 @@
 // "Efficient Processing of Spatial Joins Using R-trees", SIGMOD 1993.
 #pragma once
 #include "search/packed_tree.hpp"
-#include "search/settings.hpp"
+#include "search/options.hpp"
 
 template <int D> class RTree {
   PackedTree<D> tree_;
 
  public:
-  void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Options&, Pairs& pairs, Stats& stats) {
     if (scene.count == 0) return tree_.release();
     tree_.build(scene, 0);
     tree_.join(pairs, stats);

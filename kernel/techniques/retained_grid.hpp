@@ -49,7 +49,7 @@ template <int D> class RetainedGrid {
   using Range = typename Grid<D>::Range;
 
  public:
-  void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Options& options, Pairs& pairs, Stats& stats) {
     SceneItems<D> items{scene, AxisOrder<D>::make(0)};
     if (scene.count == 0 || count_ == 0 || !follow(items)) {
       count_ = 0;
@@ -94,7 +94,7 @@ template <int D> class RetainedGrid {
   }
 
   /// Puts all boxes into new cells, with room for more.
-  SMALL void build(const SceneItems<D>& items, const Settings& options) {
+  SMALL void build(const SceneItems<D>& items, const Options& options) {
     u32 n = items.scene.count;
     u64 total = grid_.choose(items, n, options, smaller(n, max_slots / 4) * 4);
     u32 cells = grid_.total();

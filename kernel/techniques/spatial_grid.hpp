@@ -25,7 +25,7 @@ template <int D> class SpatialGrid {
   Grid<D> grid_;
 
  public:
-  void update(const Scene<D>& scene, const Settings& options, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Options& options, Pairs& pairs, Stats& stats) {
     if (scene.count == 0) return;
     SceneItems<D> items{scene, AxisOrder<D>::make(0)};
     u64 total = grid_.choose(items, scene.count, options, most_cells(scene.count));

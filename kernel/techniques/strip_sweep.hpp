@@ -10,7 +10,7 @@
 // From: two-layer partitioning, Tsitsigkos et al., "A Two-layer Partitioning for Non-point Spatial Data",
 // ICDE 2021; the sweep in strips goes back to Güting & Schilling 1987.
 #pragma once
-#include "search/settings.hpp"
+#include "search/options.hpp"
 #include "search/stats.hpp"
 #include "search/strip_index.hpp"
 #include "search/sweep_list.hpp"
@@ -110,7 +110,7 @@ template <int D> class StripSweep {
  public:
   static constexpr bool notes_doubts = true;
 
-  SMALL void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
+  SMALL void update(const Scene<D>& scene, const Options&, Pairs& pairs, Stats& stats) {
     fill(scene, stats, false);
     sweep(pairs, __builtin_inf());
   }

@@ -15,7 +15,7 @@
 #pragma once
 #include "base/radix_sort.hpp"
 #include "search/quantized_sweep.hpp"
-#include "search/settings.hpp"
+#include "search/options.hpp"
 #include "search/stats.hpp"
 
 template <int D> class SweepAndPrune {
@@ -33,7 +33,7 @@ template <int D> class SweepAndPrune {
   int axis_ = 0;
 
  public:
-  void update(const Scene<D>& scene, const Settings&, Pairs& pairs, Stats& stats) {
+  void update(const Scene<D>& scene, const Options&, Pairs& pairs, Stats& stats) {
     u32 n = scene.count;
     if (n < 2) return;
     SceneSample<D> world = measure<D>(SceneItems<D>{scene, AxisOrder<D>::make(0)}, n);

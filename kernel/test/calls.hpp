@@ -17,23 +17,23 @@ template <int D> class Calls {
 
  public:
   Calls(Bytes& bytes, Technique first) : bytes_(bytes), trial_(bytes, first) {
-    Settings& settings = trial_.instance->settings;
+    Options& options = trial_.instance->options;
     // Without extremes, which are slow for the grid and have a test of their own.
     u8 with = bytes_.next();
     trial_.space.store.keeps_events = with & 16;
     if (with / 32 == 0)
       updates_.spells_left = most_spells;  // few sequences have them, so that there is time for many sequences
     for (u32 a = 0; a < D; a++) {
-      if (with % 16 == 1) settings.cell_size[a] = std::exp2(f64(bytes_.below(12)));
+      if (with % 16 == 1) options.cell_size[a] = std::exp2(f64(bytes_.below(12)));
       if (with % 16 == 2) {
         f64 low = f64(bytes_.next()) - 128;
-        settings.bounds[a] = low;
-        settings.bounds[D + a] = low + std::exp2(f64(bytes_.below(12)));
+        options.bounds[a] = low;
+        options.bounds[D + a] = low + std::exp2(f64(bytes_.below(12)));
       }
-      if (with % 16 == 3) settings.wrap[a] = 64 * (1 + bytes_.below(4)) + 0.1 * bytes_.below(4);
+      if (with % 16 == 3) options.wrap[a] = 64 * (1 + bytes_.below(4)) + 0.1 * bytes_.below(4);
     }
-    if (with % 16 == 4) settings.margin = 0.25 * bytes_.below(32);
-    trial_.model.touching = settings.touching = with % 4 != 3 || bytes_.below(3) > 0;
+    if (with % 16 == 4) options.margin = 0.25 * bytes_.below(32);
+    trial_.model.touching = options.touching = with % 4 != 3 || bytes_.below(3) > 0;
   }
 
   /// Makes all calls that the bytes encode, then compares once more.

@@ -157,11 +157,11 @@ template <int D> class Model {
   }
 };
 
-/// A space with the ids and settings that it refers to.
+/// A space with the ids and options that it refers to.
 template <int D> struct Instance {
   Ids ids;
-  Settings settings;
-  Space<D> space{ids, settings};
+  Options options;
+  Space<D> space{ids, options};
 };
 
 /// The same on the heap: ids alone are too large for some stacks.

@@ -115,7 +115,7 @@ template <int D> class PairsBetween {
         std::copy_n(mine.begin(), D, asks.lo);
         std::copy_n(mine.begin() + D, D, asks.hi);
         asks.touching = few_.seen.touching;
-        Around<D> around(asks, few_.instance->settings.wrap);
+        Around<D> around(asks, few_.instance->options.wrap);
         CHECK(around.can_decide() && around.can_decide(other.data()));
         if (meets && around.touches(other.data(), false)) expected.push_back(a | u64(b) << 32);
       }
@@ -132,8 +132,8 @@ template <int D> void check_pairs_between() {
     Side<D> few, many;
     PairsBetween<D> pairs(few, many);
     for (Side<D>* side : {&few, &many}) {
-      side->instance->settings.touching = side->model.touching = round % 3 > 0;
-      for (u32 a = 0; a < D && round % 5 > 2; a++) side->instance->settings.wrap[a] = 20.1 + 3 * a;
+      side->instance->options.touching = side->model.touching = round % 3 > 0;
+      for (u32 a = 0; a < D && round % 5 > 2; a++) side->instance->options.wrap[a] = 20.1 + 3 * a;
     }
     for (u32 frame = 0; frame < 40; frame++) {
       for (Side<D>* side : {&few, &many}) {

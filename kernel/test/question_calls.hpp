@@ -316,7 +316,7 @@ template <int D> class QuestionCalls {
     if (can_decide(around, id)) asks.radius = around.distance(trial_.seen->at(id).data());
   }
 
-  const f64* world() const { return trial_.instance->settings.wrap; }
+  const f64* world() const { return trial_.instance->options.wrap; }
 
   bool can_decide(const Around<D>& around, u32 id) const {
     return around.can_decide() && around.can_decide(trial_.seen->at(id).data());

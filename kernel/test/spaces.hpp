@@ -75,9 +75,9 @@ template <int D> void check_settings() {
     each_technique([&](Technique technique) {
       auto instance = open<D>(technique);
       for (u32 a = 0; a < D; a++) {
-        instance->settings.cell_size[a] = size * std::pow(stretch, a);
-        instance->settings.bounds[a] = low;
-        instance->settings.bounds[D + a] = high;
+        instance->options.cell_size[a] = size * std::pow(stretch, a);
+        instance->options.bounds[a] = low;
+        instance->options.bounds[D + a] = high;
       }
       replace(instance->space, boxes, true);
       check_pairs(instance->space, expected);

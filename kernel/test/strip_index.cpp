@@ -20,7 +20,7 @@ template <int D> void check_swept(const Scene<D>& scene, StripSweep<D>& parts) {
   StripSweep<D> whole;
   Pairs all, some;
   Stats stats, of_swept;
-  whole.update(scene, Settings{}, all, stats);
+  whole.update(scene, Options{}, all, stats);
   parts.fill(scene, of_swept, true);
   CHECK(parts.sweep(some, 1e9));
   CHECK(sorted(some) == sorted(all));

@@ -27,14 +27,14 @@ template <int D> struct Trial {
   Trial(Bytes& given, Technique first)
       : bytes(given), instance(open<D>(first)), ids(instance->ids), space(instance->space) {}
 
-  bool wraps() const { return instance->settings.wrap[0] > 0; }
+  bool wraps() const { return instance->options.wrap[0] > 0; }
 
   /// The expected pairs. In a world that wraps around, they are those that a new space finds; tests with whole numbers
   /// show that these are right.
   PairList expected() {
     if (!wraps()) return model.pairs();
     auto fresh = open<D>(Technique::brute_force);
-    fresh->settings = instance->settings;
+    fresh->options = instance->options;
     for (u32 id : model.ids()) {
       ::set(fresh->space, id, model.at(id).data());
       const Rule& rule = model.rule(id);

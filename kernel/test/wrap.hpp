@@ -38,7 +38,7 @@ template <int D> void check_wrapped() {
     each_technique([&](Technique technique) {
       for (bool doubles : {false, true}) {
         auto instance = open<D>(technique);
-        for (u32 a = 0; a < D; a++) instance->settings.wrap[a] = world[a];
+        for (u32 a = 0; a < D; a++) instance->options.wrap[a] = world[a];
         replace(instance->space, boxes, doubles);
         check_pairs(instance->space, expected);
       }
@@ -90,7 +90,7 @@ template <int D> void check_views() {
       auto instance = open<D>(Technique::brute_force);
       Space<D>& space = instance->space;
       auto& questions = space.questions;
-      for (u32 a = 0; a < D; a++) instance->settings.wrap[a] = world[a];
+      for (u32 a = 0; a < D; a++) instance->options.wrap[a] = world[a];
       replace(space, boxes, doubles);
       CHECK(space.update() == -1);
       for (u32 asked = 0; asked < 40; asked++) {

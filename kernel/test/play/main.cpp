@@ -32,8 +32,8 @@ class Hash {
 template <int D> class Player {
   static constexpr u32 width = 2 * D;
   Ids ids_;
-  Settings settings_;
-  Space<D> space_{ids_, settings_};
+  Options options_;
+  Space<D> space_{ids_, options_};
   std::vector<u8> saved_;
   Hash hash_;
   const f64* at_;
@@ -47,7 +47,7 @@ template <int D> class Player {
   Player(const std::vector<f64>& tape, u32 technique) : at_(tape.data() + 2), end_(tape.data() + tape.size()) {
     space_.technique = Technique(technique);
     space_.store.keeps_events = u32(tape[1]) & 1;
-    settings_.touching = !(u32(tape[1]) & 2);
+    options_.touching = !(u32(tape[1]) & 2);
   }
 
   void run() {
@@ -143,7 +143,7 @@ template <int D> class Player {
     Question<D>& question = space_.questions.asked;
     question = {};
     question.radius = -1;
-    question.touching = settings_.touching;
+    question.touching = options_.touching;
     question.mask = mask;
     question.ignored = ~0u;
     for (int a = 0; a < D; a++) {

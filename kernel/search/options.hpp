@@ -2,7 +2,7 @@
 #pragma once
 #include "base/simd.hpp"
 
-struct Settings {
+struct Options {
   f64 cell_size[3] = {};  // per axis; 0: chosen from the boxes
   f64 margin = 0;         // by which fat boxes are enlarged; 0: chosen from the motion observed
   f64 wrap[3] = {};       // the size of a world that wraps around; all 0: it does not
