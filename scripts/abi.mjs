@@ -73,6 +73,8 @@ export function abi() {
     ...places('space/own.hpp', 'enum RulePlace : u32'),
     '/** Places of the addresses that contents writes. */',
     ...places('space/store.hpp', 'enum ContentsPlace : u32'),
+    '/** The newest format of snapshots that this version reads. */',
+    number('space/snapshot.hpp', 'newest', 'newestSnapshot'),
     '/** Instead of a radius. */',
     number('questions/question.hpp', 'no_circle'),
     number('questions/question.hpp', 'within'),

@@ -2,14 +2,13 @@
 import { badInPlace, checkExposed } from './boxes.ts';
 import type { Dimensions } from './dimensions.ts';
 import { badValue } from './errors.ts';
-import { boxesAt, snapshotFaults, techniques } from './generated/abi.ts';
+import { boxesAt, newestSnapshot, snapshotFaults, techniques } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
 import { readStats } from './stats.ts';
 import { bytesOf } from './values.ts';
 
-/** Bytes of the header, and the version that this library writes. */
+/** Bytes of the header: `SnapshotHeader` in the kernel. */
 const headerBytes = 24;
-const newest = 2;
 
 export function snapshot(instance: KernelInstance): Uint8Array<ArrayBuffer> {
   if (instance.exposedIsOpen) checkExposed(instance, 'snapshot'); // else an update has seen what was written
@@ -79,7 +78,7 @@ function badSnapshot(fault: number, bytes: Uint8Array, dimensions: Dimensions): 
   const reasons: Record<(typeof snapshotFaults)[number], string> = {
     none: '',
     foreign: `got ${bytes.length} bytes that are not a snapshot, expected those of snapshot()`,
-    newer: `got a snapshot of format ${bytes[4]}, expected at most ${newest}: it was made by a newer version`,
+    newer: `got a snapshot of format ${bytes[4]}, expected at most ${newestSnapshot}: it was made by a newer version`,
     length: `got ${bytes.length} bytes, which is not the snapshot's length: it was cut off, or more follows it`,
     damaged: 'the snapshot is damaged: its checksum or header is wrong',
     dimensions: `got a snapshot of a space with ${bytes[5]! & 15} dimensions, expected ${dimensions}`,
