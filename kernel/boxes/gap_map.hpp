@@ -173,7 +173,7 @@ template <int D> class GapMap {
         low[n] = lo;
         size[n++] = smaller(hi - lo, 1e300);
       };
-      detail::Sampling sampling(count, smaller(count, regular));
+      Sampling sampling(count, smaller(count, regular));
       for (u32 k = 0; k < smaller(count, regular); k++) look_at(sampling.next());
       for (u32 k = 0; k < smaller(more_count, most_others); k++) look_at(more[k]);
       sort(low, n);

@@ -46,15 +46,9 @@ template <int D> struct SceneSample {
   }
 };
 
-namespace detail {
-
-inline constexpr u32 most_samples = 1024;
-inline f32 sample[6][most_samples];  // per axis the minima, then per axis the maxima
-inline f32 sorted[most_samples];
-
 /// The k-th smallest of n values, which are reordered (quickselect with the median of three). With a `width` above 1,
 /// they are points of that many coordinates, compared along one axis.
-template <int width = 1> SMALL f32 select(f32* points, i32 n, i32 k, int axis = 0) {
+template <int width = 1> SMALL f32 kth_smallest(f32* points, i32 n, i32 k, int axis = 0) {
   f32* v = points + axis;
   i32 from = 0, to = n - 1;
   while (from < to) {
@@ -95,6 +89,12 @@ class Sampling {
     return from + u32((u64(jitter_) * size) >> 32);
   }
 };
+
+namespace detail {
+
+inline constexpr u32 most_samples = 1024;
+inline f32 sample[6][most_samples];  // per axis the minima, then per axis the maxima
+inline f32 sorted[most_samples];
 
 /// How many of `count` boxes are sampled.
 inline u32 samples_of(u32 count) { return smaller(count, smaller(larger(count / 64, 256u), most_samples)); }
@@ -153,16 +153,6 @@ SMALL inline void extents(const f32* v, u32 n, f64& low, f64& high) {
   narrow_to_most(v, n, finite, low, high);
 }
 
-/// After `measure` of `count` items: the size along an axis that this share of the sample does not exceed (a quantile).
-SMALL inline f64 common_size(int axis, int dimensions, u32 count, f64 share) {
-  i32 n = i32(samples_of(count)), kept = 0;
-  for (i32 k = 0; k < n; k++) {
-    f32 size = sample[dimensions + axis][k] - sample[axis][k];
-    if (is_finite(size)) sorted[kept++] = size;
-  }
-  return kept ? select(sorted, kept, i32((kept - 1) * share)) : 0;
-}
-
 /// Evaluates the n items in `sample`.
 template <int D> NOINLINE SceneSample<D> judge(u32 n) {
   SceneSample<D> found;
@@ -204,7 +194,7 @@ template <int D> NOINLINE SceneSample<D> judge(u32 n) {
 template <int D, class Source> NOINLINE SceneSample<D> measure(const Source& items, u32 count) {
   using detail::sample;
   u32 n = detail::samples_of(count);
-  detail::Sampling sampling(count, n);
+  Sampling sampling(count, n);
   for (u32 k = 0; k < n; k++) {
     Item<D> item = items[sampling.next()];
     for (int a = 0; a < D; a++) {
@@ -252,4 +242,15 @@ template <int D, class Source> bool glance(const Source& items, u32 count, Scene
     detail::narrow_to_most(some, seen, seen, found.low[a], found.high[a]);
   }
   return true;
+}
+
+/// After `measure` of `count` items: the size along an axis that this share of the sample does not exceed (a quantile).
+SMALL inline f64 common_size(int axis, int dimensions, u32 count, f64 share) {
+  using namespace detail;
+  i32 n = i32(samples_of(count)), kept = 0;
+  for (i32 k = 0; k < n; k++) {
+    f32 size = sample[dimensions + axis][k] - sample[axis][k];
+    if (is_finite(size)) sorted[kept++] = size;
+  }
+  return kept ? kth_smallest(sorted, kept, i32((kept - 1) * share)) : 0;
 }

@@ -274,7 +274,7 @@ template <int D> class Watch {
     horizons_.reserve(horizons);
     many_ = smaller(most_watched, larger(scene.count / watched_share, least_watched));
     smallest_ = 0;
-    detail::Sampling sampling(scene.count, many_);
+    Sampling sampling(scene.count, many_);
     for (u32 k = 0; k < many_; k++) {
       Sample& sample = samples_[k];
       sample.slot = sampling.next();
@@ -301,7 +301,7 @@ template <int D> class Watch {
       }
       all[count++] = nearest;
     }
-    return smaller(detail::select(all, i32(count), i32(count / 2)), 1e30f);
+    return smaller(kth_smallest(all, i32(count), i32(count / 2)), 1e30f);
   }
 
   static void follow(Sample& sample, const f32* box, const Shift& shift, const Shift& step, f32 size) {
@@ -330,7 +330,7 @@ template <int D> class Watch {
       f32 all[voters + 1], places[2][voters + 1], moves[2][voters + 1];
       i32 count = 0, votes[2] = {};
       for (u32 k = 0; k < many_ && count < i32(voters); k += step) all[count++] = samples_[k].at[0][a];
-      f32 middle = detail::select(all, count, count / 2);
+      f32 middle = kth_smallest(all, count, count / 2);
       for (i32 k = 0; k < count; k++) {
         const Sample& sample = samples_[u32(k) * step];
         f32 place = sample.at[0][a], move = scene.box(sample.slot)[a] - place;
@@ -342,8 +342,8 @@ template <int D> class Watch {
       f64 place[2], move[2];
       for (int k = 0; k < 2; k++) {
         i32 odd = (votes[k] - 1) | 1;  // so that both medians are of one box if all move alike
-        place[k] = votes[k] ? detail::select(places[k], odd, odd / 2) : 0;
-        move[k] = votes[k] ? detail::select(moves[k], odd, odd / 2) : 0;
+        place[k] = votes[k] ? kth_smallest(places[k], odd, odd / 2) : 0;
+        move[k] = votes[k] ? kth_smallest(moves[k], odd, odd / 2) : 0;
       }
       f64 slope = votes[1] && place[1] > place[0] ? (move[1] - move[0]) / (place[1] - place[0]) : 0;
       for (int k = a; k < 4; k += D) {

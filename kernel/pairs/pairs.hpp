@@ -81,8 +81,10 @@ struct Swizzles {
   }
 };
 alignas(16) inline constexpr Swizzles swizzles;
-alignas(16) inline constexpr u8 bits_set[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 }  // namespace detail
+
+/// How many lanes there are in a mask of four.
+alignas(16) inline constexpr u8 bits_set[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 
 /// Those of four numbers whose bit is set in `mask`, in the first lanes.
 inline u32x4 packed(u32x4 numbers, u32 mask) {
@@ -95,7 +97,7 @@ inline u64* append_each(u64* out, u32x4 some, u32x4 others, u32 mask) {
   u32x4 b = packed(max(some, others), mask);
   store(out, __builtin_shufflevector(a, b, 0, 4, 1, 5));
   store(out + 2, __builtin_shufflevector(a, b, 2, 6, 3, 7));
-  return out + detail::bits_set[mask];
+  return out + bits_set[mask];
 }
 
 /// Appends the pairs of slot `mine` with those of the four `others` whose bit is set in `mask`.
@@ -105,5 +107,5 @@ inline u64* append(u64* out, u32x4 mine, u32x4 others, u32 mask) {
   u32x4 b = max(mine, its);
   store(out, __builtin_shufflevector(a, b, 0, 4, 1, 5));
   store(out + 2, __builtin_shufflevector(a, b, 2, 6, 3, 7));
-  return out + detail::bits_set[mask];
+  return out + bits_set[mask];
 }

@@ -200,7 +200,7 @@ template <int D> class Queries {
         // No branch for each box: which of them touch is unpredictable.
         for (u32 half = 0; half < 8; half += 4, left >>= 4) {
           store(answers.data() + found_, packed(load<u32x4>(names_ + number * 8 + half), left & 15));
-          found_ += detail::bits_set[left & 15];
+          found_ += bits_set[left & 15];
         }
         return true;
       }

@@ -64,7 +64,7 @@ template <int D, class Self, class Aim> class Together {
     for (u32 half = 0; half < 8; half += 4) {
       u32 mask = bitmask(aim.reaches(block, half));
       store(to + n, packed(children, mask));
-      n += detail::bits_set[mask];
+      n += bits_set[mask];
       children += splat(4u);
     }
     return n;

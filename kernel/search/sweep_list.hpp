@@ -114,7 +114,7 @@ template <int D> class SweepList {
       Probe<D> probe(view, i);
       u32 until = end_[i], step = larger(4u, (until - i) / sampled_blocks);
       for (u32 j = i + 1; j + 4 <= until; j += step) {
-        hits += u64(step) * detail::bits_set[bitmask(probe.hits(view, j, load<u32x4>(view.tag + j)))];
+        hits += u64(step) * bits_set[bitmask(probe.hits(view, j, load<u32x4>(view.tag + j)))];
         tried += u64(step) * 4;
       }
     }

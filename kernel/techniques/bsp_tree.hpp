@@ -119,7 +119,7 @@ template <int D> class BspTree {
   SMALL static Cut choose(const ItemsAt<D>& items, u32 count, f32 spare) {
     static f32 starts[D][samples];
     static f32 sizes[D][samples];
-    detail::Sampling sampling(count, samples);
+    Sampling sampling(count, samples);
     for (u32 k = 0; k < samples; k++) {
       Item<D> item = items[sampling.next()];
       for (int a = 0; a < D; a++) {
@@ -145,6 +145,6 @@ template <int D> class BspTree {
     f32 copies = relative[best] * f32(count);
     f32 saved = relative[0] * f32(count) / 2;
     if (copies > spare || saved < copy_cost * relative[best] + pass_cost) return {-1, 0};
-    return {best, detail::select(starts[best], samples, samples / 2)};
+    return {best, kth_smallest(starts[best], samples, samples / 2)};
   }
 };

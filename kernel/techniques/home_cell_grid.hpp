@@ -138,7 +138,7 @@ template <int D> class HomeCellGrid {
     for (int a = 0; a < D; a++) {
       extent[a] = world.high[a] - world.low[a];
       // A little larger than the boxes, so that rounding cannot make them cross two borders.
-      size[a] = larger(detail::common_size(a, D, count, common) * 1.001, extent[a] * 1e-6);
+      size[a] = larger(common_size(a, D, count, common) * 1.001, extent[a] * 1e-6);
       if (extent[a] > size[a]) share *= size[a] / extent[a];
     }
     f64 factor = larger(1.0, crowd / share);

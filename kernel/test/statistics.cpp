@@ -95,7 +95,7 @@ TEST("axis puts whole steps in the middle of cells") {
 TEST("samples are taken from all boxes, the last ones too") {
   for (u32 count : {16u, 47u, 511u, 2000u, 4095u, 70000u}) {
     u32 n = count < 64 ? 16 : detail::samples_of(count), behind = 0, largest_gap = 0;
-    detail::Sampling sampling(count, n);
+    Sampling sampling(count, n);
     for (u32 k = 0; k < n; k++) {
       u32 slot = sampling.next();
       CHECK(slot >= behind && slot < count);
@@ -173,7 +173,7 @@ TEST("quickselect finds every rank") {
       for (auto& value : values) value = f32(random.below(30));
       std::vector<f32> ordered = values;
       std::sort(ordered.begin(), ordered.end());
-      CHECK(detail::select(values.data(), n, k) == ordered[size_t(k)]);
+      CHECK(kth_smallest(values.data(), n, k) == ordered[size_t(k)]);
     }
   }
 }

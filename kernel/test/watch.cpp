@@ -78,7 +78,7 @@ template <int D> void check_rest() {
   CHECK(world.watch.is_quiet());
   CHECK(world.watch.resting() == 1);
   world.velocities.assign(world.velocities.size(), 0);
-  u32 first = detail::Sampling(world.count, Watch<D>::least_watched).next();  // in every sample
+  u32 first = Sampling(world.count, Watch<D>::least_watched).next();  // in every sample
   for (u32 a = 0; a < D; a++) world.velocities[first * D + a] = 1;
   for (u32 update = 0; update < 64; update++) {
     world.update(0.5);
