@@ -36,13 +36,13 @@ template <int D> struct SceneSample {
 
   /// The same sample with the axes in another order.
   SceneSample in(const AxisOrder<D>& order) const {
-    SceneSample turned = *this;
+    SceneSample sample = *this;
     for (int a = 0; a < D; a++) {
-      turned.low[a] = low[order.axis[a]];
-      turned.high[a] = high[order.axis[a]];
-      turned.size[a] = size[order.axis[a]];
+      sample.low[a] = low[order.axis[a]];
+      sample.high[a] = high[order.axis[a]];
+      sample.size[a] = size[order.axis[a]];
     }
-    return turned;
+    return sample;
   }
 };
 

@@ -28,9 +28,9 @@ class Partners {
     // ends[b] is first where bucket b begins; filling the bucket moves it to the end.
     for (u32 b = 0; b < buckets; b++) ends[b + 1] += ends[b];
     for (u64 p = 0; p < pairs.count; p++) {
-      u64 pair = pairs.list[p], turned = pair >> 32 | pair << 32;
+      u64 pair = pairs.list[p], swapped = pair >> 32 | pair << 32;
       pairs_[ends[bucket(u32(pair))]++] = pair;
-      pairs_[ends[bucket(u32(turned))]++] = turned;
+      pairs_[ends[bucket(u32(swapped))]++] = swapped;
     }
   }
 

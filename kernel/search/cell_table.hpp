@@ -62,11 +62,12 @@ template <int D> struct CellTable {
     return !any(bits<i32x4>(wrong));
   }
 
-  static u32x4 turned(u32x4 v) { return __builtin_shufflevector(v, v, 2, 3, 2, 3); }
+  /// In 2D: what belongs to the maxima, in the lanes of the minima.
+  static u32x4 upper(u32x4 v) { return __builtin_shufflevector(v, v, 2, 3, 2, 3); }
 
   Place place(const Item<D>& item) const {
     u32x4 low = number(item.first());
-    if constexpr (D == 2) return {low & mask, turned(low) - low};
+    if constexpr (D == 2) return {low & mask, upper(low) - low};
     else return {low & mask, number(item.high) - low};
   }
 

@@ -130,8 +130,8 @@ template <int D> class HierarchicalGrid {
     f32x4 tiny = splat(0x1p-22f);
     u32x4 most;
     if constexpr (D == 2) {
-      f32x4 turned = __builtin_shufflevector(item.box, item.box, 2, 3, 0, 1);
-      most = max(magnitude(turned - item.box), magnitude(item.box * tiny));
+      f32x4 facing = __builtin_shufflevector(item.box, item.box, 2, 3, 0, 1);
+      most = max(magnitude(facing - item.box), magnitude(item.box * tiny));
     } else {
       most = max(magnitude(item.size()), max(magnitude(item.high * tiny), magnitude(item.first() * tiny)));
     }
