@@ -91,21 +91,20 @@ inline u32x4 packed(u32x4 numbers, u32 mask) {
   return bits<u32x4>(swizzle(bits<u8x16>(numbers), load<u8x16>(detail::swizzles.of[mask])));
 }
 
+/// Writes the pairs of four slots with four larger ones; returns the end of as many as there are bits in `mask`.
+inline u64* write_pairs(u64* out, u32x4 low, u32x4 high, u32 mask) {
+  store(out, __builtin_shufflevector(low, high, 0, 4, 1, 5));
+  store(out + 2, __builtin_shufflevector(low, high, 2, 6, 3, 7));
+  return out + bits_set[mask];
+}
+
 /// Appends the pairs of four slots with four others, lane by lane, if the lane's bit is set in `mask`.
 inline u64* append_each(u64* out, u32x4 some, u32x4 others, u32 mask) {
-  u32x4 a = packed(min(some, others), mask);
-  u32x4 b = packed(max(some, others), mask);
-  store(out, __builtin_shufflevector(a, b, 0, 4, 1, 5));
-  store(out + 2, __builtin_shufflevector(a, b, 2, 6, 3, 7));
-  return out + bits_set[mask];
+  return write_pairs(out, packed(min(some, others), mask), packed(max(some, others), mask), mask);
 }
 
 /// Appends the pairs of slot `mine` with those of the four `others` whose bit is set in `mask`.
 inline u64* append(u64* out, u32x4 mine, u32x4 others, u32 mask) {
   u32x4 its = packed(others, mask);
-  u32x4 a = min(mine, its);
-  u32x4 b = max(mine, its);
-  store(out, __builtin_shufflevector(a, b, 0, 4, 1, 5));
-  store(out + 2, __builtin_shufflevector(a, b, 2, 6, 3, 7));
-  return out + bits_set[mask];
+  return write_pairs(out, min(mine, its), max(mine, its), mask);
 }
