@@ -205,6 +205,23 @@ template <int D, class Source> NOINLINE SceneSample<D> measure(const Source& ite
   return detail::judge<D>(n);
 }
 
+namespace detail {
+
+/// Extent and size along an axis from every `step`-th item, `seen` of them, without outliers.
+template <int D, class Source>
+SMALL void look_closer(const Source& items, u32 step, u32 seen, int axis, SceneSample<D>& found) {
+  for (u32 k = 0; k < seen; k++) {
+    sample[0][k] = items[k * step].lo(axis);
+    sample[1][k] = items[k * step].hi(axis) - sample[0][k];
+  }
+  narrow_to_most(sample[0], seen, seen, found.low[axis], found.high[axis]);
+  f64 extent = found.high[axis] - found.low[axis], sum = 0;
+  for (u32 k = 0; k < seen; k++) sum += smaller(f64(sample[1][k]), extent);
+  found.size[axis] = sum / seen;
+}
+
+}  // namespace detail
+
 /// The same for a few items: extents and sizes of all of them, less those that a sample of 64 shows to be far from most,
 /// without crowding. False if some are infinite: then they must be measured.
 template <int D, class Source> bool glance(const Source& items, u32 count, SceneSample<D>& found) {
@@ -212,11 +229,13 @@ template <int D, class Source> bool glance(const Source& items, u32 count, Scene
   // 2.25 variances by the range; it would be 2 if all were at the two ends of the range.
   const f32x4 tail = splat(8.0f), apart = splat(2.25f);
   f32x4 origin = items[0].first(), least = origin, most = origin, sizes = {}, sum = {}, squares = {}, deviation = {};
+  f32x4 largest = {};
   for (u32 k = 0; k < count; k++) {
     Item<D> item = items[k];
     least = min(least, item.first());
     most = max(most, item.first());
     sizes += item.size();
+    largest = max(largest, item.size());
   }
   u32 step = count / 64 + 1, seen = 0;
   ROLLED for (u32 k = 0; k < count; k += step, seen++) {
@@ -236,10 +255,9 @@ template <int D, class Source> bool glance(const Source& items, u32 count, Scene
     found.high[a] = most[a];
     found.size[a] = sizes[a] / f32(count);
     if (!is_finite(range[a]) || !is_finite(sizes[a])) return false;
-    if (tame[a]) continue;
-    f32 some[64];
-    for (u32 k = 0; k < seen; k++) some[k] = items[k * step].lo(a);
-    detail::narrow_to_most(some, seen, seen, found.low[a], found.high[a]);
+    // A box as long as the world, such as its floor, hardly changes the mean size.
+    if (tame[a] && largest[a] <= 4 * range[a]) continue;
+    detail::look_closer<D>(items, step, seen, a, found);
   }
   return true;
 }

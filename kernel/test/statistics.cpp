@@ -147,6 +147,20 @@ TEST("statistics leave out a group far from the others") {
   }
 }
 
+TEST("a glance is not misled by the size of a box around the world") {
+  Random random(9);
+  for (f64 low : {-1e6, 50.0}) {
+    std::vector<f32> floats = {f32(low), f32(low), 1e6f, 1e6f};
+    for (const auto& box : spread<2>(random, 299, 0, 100, 4)) {
+      for (f64 x : box) floats.push_back(f32(x));
+    }
+    Scene<2> scene{floats.data(), 300, nullptr};
+    SceneSample<2> seen;
+    CHECK(glance(SceneItems<2>{scene, AxisOrder<2>::make(0)}, 300, seen));
+    CHECK(seen.low[0] >= 0 && seen.high[0] < 101 && seen.size[0] > 1 && seen.size[0] < 5);
+  }
+}
+
 TEST("values that are all alike but one are a range of nothing") {
   for (u32 one : {0u, 99u}) {
     std::vector<f32> values(100, 0.0f);
