@@ -214,17 +214,19 @@ SMALL void look_closer(const Source& items, u32 step, u32 seen, int axis, SceneS
     sample[0][k] = items[k * step].lo(axis);
     sample[1][k] = items[k * step].hi(axis) - sample[0][k];
   }
-  narrow_to_most(sample[0], seen, seen, found.low[axis], found.high[axis]);
+  extents(sample[0], seen, found.low[axis], found.high[axis]);
   f64 extent = found.high[axis] - found.low[axis], sum = 0;
-  for (u32 k = 0; k < seen; k++) sum += smaller(f64(sample[1][k]), extent);
+  for (u32 k = 0; k < seen; k++) {
+    if (sample[1][k] > 0) sum += smaller(f64(sample[1][k]), extent);  // false for NaN, as in `judge`
+  }
   found.size[axis] = sum / seen;
 }
 
 }  // namespace detail
 
-/// The same for a few items: extents and sizes of all of them, less those that a sample of 64 shows to be far from most,
-/// without crowding. False if some are infinite: then they must be measured.
-template <int D, class Source> bool glance(const Source& items, u32 count, SceneSample<D>& found) {
+/// The same for a few items, without crowding: extents and sizes of all of them, or of a sample of 64 where some are far
+/// from most others, or infinite.
+template <int D, class Source> SceneSample<D> glance(const Source& items, u32 count) {
   // Boxes spread evenly, or in a bell, have a range of fewer than 8 standard deviations, and a mean deviation of at least
   // 2.25 variances by the range; it would be 2 if all were at the two ends of the range.
   const f32x4 tail = splat(8.0f), apart = splat(2.25f);
@@ -249,17 +251,17 @@ template <int D, class Source> bool glance(const Source& items, u32 count, Scene
     deviation += max(away, -away);
   }
   i32x4 tame = (range * range <= tail * tail * variance) & (deviation / n * range >= apart * variance);
+  SceneSample<D> found;
   found.crowding = 1;
   for (int a = 0; a < D; a++) {
     found.low[a] = least[a];
     found.high[a] = most[a];
     found.size[a] = sizes[a] / f32(count);
-    if (!is_finite(range[a]) || !is_finite(sizes[a])) return false;
     // A box as long as the world, such as its floor, hardly changes the mean size.
-    if (tame[a] && largest[a] <= 4 * range[a]) continue;
+    if (tame[a] && is_finite(range[a]) && largest[a] <= 4 * range[a]) continue;
     detail::look_closer<D>(items, step, seen, a, found);
   }
-  return true;
+  return found;
 }
 
 /// After `measure` of `count` items: the size along an axis that this share of the sample does not exceed (a quantile).

@@ -263,8 +263,7 @@ template <int D> class StripSweep {
   /// Chooses the sweep axis and the outermost cut; false if that leaves all in one strip.
   SMALL bool cut_up(const Scene<D>& scene) {
     SceneItems<D> plain{scene, AxisOrder<D>::make(0)};
-    SceneSample<D> world;
-    if (scene.count >= sampled_from || !glance(plain, scene.count, world)) world = measure<D>(plain, scene.count);
+    SceneSample<D> world = scene.count < sampled_from ? glance<D>(plain, scene.count) : measure<D>(plain, scene.count);
     int a = world.longest();
     order_ = AxisOrder<D>::make(a);
     bool sparse = scene.count * world.size[a] <= again_factor * (world.high[a] - world.low[a]);
