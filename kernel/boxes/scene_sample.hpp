@@ -153,6 +153,16 @@ SMALL inline void extents(const f32* v, u32 n, f64& low, f64& high) {
   narrow_to_most(v, n, finite, low, high);
 }
 
+/// The mean of n sizes, each clipped to the extent of the world.
+SMALL inline f64 mean_size(const f32* lo, const f32* hi, u32 n, f64 extent) {
+  f64 sum = 0;
+  for (u32 k = 0; k < n; k++) {
+    f64 size = f64(hi[k]) - f64(lo[k]);
+    if (size > 0) sum += smaller(size, extent);  // false for NaN, when both bounds are the same infinity
+  }
+  return sum / n;
+}
+
 /// Evaluates the n items in `sample`.
 template <int D> NOINLINE SceneSample<D> judge(u32 n) {
   SceneSample<D> found;
@@ -161,12 +171,7 @@ template <int D> NOINLINE SceneSample<D> judge(u32 n) {
   for (int a = 0; a < D; a++) {
     extents(sample[a], n, found.low[a], found.high[a]);
     f64 extent = found.high[a] - found.low[a];
-    f64 sum = 0;
-    for (u32 k = 0; k < n; k++) {
-      f64 size = f64(sample[D + a][k]) - f64(sample[a][k]);
-      if (size > 0) sum += smaller(size, extent);  // false for NaN, when both bounds are the same infinity
-    }
-    found.size[a] = sum / n;
+    found.size[a] = mean_size(sample[a], sample[D + a], n, extent);
     f64 scale = extent > 0 ? side / extent : 0;
     for (u32 k = 0; k < n; k++) {
       f64 at = (f64(sample[a][k]) - found.low[a]) * scale;
@@ -212,14 +217,10 @@ template <int D, class Source>
 SMALL void look_closer(const Source& items, u32 step, u32 seen, int axis, SceneSample<D>& found) {
   for (u32 k = 0; k < seen; k++) {
     sample[0][k] = items[k * step].lo(axis);
-    sample[1][k] = items[k * step].hi(axis) - sample[0][k];
+    sample[1][k] = items[k * step].hi(axis);
   }
   extents(sample[0], seen, found.low[axis], found.high[axis]);
-  f64 extent = found.high[axis] - found.low[axis], sum = 0;
-  for (u32 k = 0; k < seen; k++) {
-    if (sample[1][k] > 0) sum += smaller(f64(sample[1][k]), extent);  // false for NaN, as in `judge`
-  }
-  found.size[axis] = sum / seen;
+  found.size[axis] = mean_size(sample[0], sample[1], seen, found.high[axis] - found.low[axis]);
 }
 
 }  // namespace detail

@@ -24,7 +24,7 @@ template <int D> class StripSweep {
   static constexpr f64 cached_items = 8192;
   static constexpr f64 least_items = 100;  // in a strip, on average: shorter ones cost more than they save
   static constexpr u32 one_strip_below = 400;  // fewer boxes stay one strip, unless that has too many candidates
-  static constexpr u32 sampled_from = 2000;  // fewer boxes are not sampled: all are looked at
+  static constexpr u32 sampled_from = 2000;  // fewer boxes are not sampled, unless some are far from most others
   static constexpr u32 most_strips = D == 2 ? 4096 : 255;  // along one axis; 3D packs the range into bytes
   static constexpr u32 deepest = 6;
   // A strip is cut again if it has this many candidates per item, this many in all, and fewer hits among them than the

@@ -83,7 +83,7 @@ export function linePlot(lines: readonly Line[], axes: Axes): string {
   return `${svg(height, `${axes.y} over ${axes.x}`, content.join('\n'))}<ul class="legend">${legend.join('')}</ul>`;
 }
 
-/** At most so many of them, evenly spaced, including the first and the last. */
+/** At most `most` of them, evenly spaced, including the first and the last. */
 function some(values: readonly number[], most: number): number[] {
   if (values.length <= most) return [...values];
   return Array.from({ length: most }, (_, k) => values[Math.round((k * (values.length - 1)) / (most - 1))]);
