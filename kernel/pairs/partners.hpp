@@ -1,6 +1,6 @@
 // The partners of each id: the pairs of the last update, by id.
 // Idea: each pair is stored twice, once under each of its ids, in buckets by a hash of the id that keeps neighbouring
-// ids apart. One counting sort fills them, at the first query after an update.
+// ids apart. One counting sort fills them, once there are more than a few queries after an update.
 // Cost: about 10 ns per pair to build, 16 bytes per pair and 4 to 8 per bucket; an answer reads one bucket.
 #pragma once
 #include "pairs/pairs.hpp"

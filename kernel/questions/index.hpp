@@ -12,6 +12,7 @@
 // update, also a copy of them, so that queries see those of the last update.
 // From: I. Kamel and C. Faloutsos, "On Packing R-trees", CIKM 1993.
 #pragma once
+#include "base/demand.hpp"
 #include "questions/seen_boxes.hpp"
 #include "search/hilbert.hpp"
 
@@ -20,9 +21,11 @@ template <int D> class Index {
   static constexpr u32 most_levels = 9;  // 8^8 boxes, and spare places
   static constexpr f32 nothing = __builtin_nanf("");
   static constexpr u32 sampled = 256;  // groups of eight, sampled to judge an order
+  // Building it takes as long as this many scans of all boxes, with the previous order.
+  static constexpr u32 scans_per_build = 3;
   static constexpr f32 most_wider = 2;  // how many times as wide they may become before boxes are sorted again
 
-  SeenBoxes<D> seen_;  // its float32 bounds are rounded outward while `built_`
+  SeenBoxes<D> seen_;
   bool built_ = false;
   Buffer<u32> slots_;  // per place in the order
   Buffer<u32> placed_ids_;  // the same as ids, while `seen_.named`
@@ -32,6 +35,7 @@ template <int D> class Index {
   u32 known_ = 0;  // slots that have an entry in `places_`
   u64 looks_ = 0;  // blocks that queries visited since boxes were sorted: a visit costs about as much as sorting a box
   f32 width_ = 0;  // mean width of groups when boxes were sorted
+  Demand demand_;
   RadixSort sort_;
 
  public:
@@ -124,6 +128,7 @@ template <int D> class Index {
   SMALL void see(const PresentBoxes& now) {
     know(now.ids.count());
     built_ = false;
+    demand_.restart();
     seen_.see(now);
   }
 
@@ -164,32 +169,56 @@ template <int D> class Index {
   /// Records that a query has visited this many blocks.
   void looked_at(u64 blocks) { looks_ += blocks; }
 
+  /// Records a query, which takes as long as `work` scans of all boxes. If scans cost less than building the index, as
+  /// for the first few queries after an update, returns the boxes, rounded to the nearest; else null. `nearest`: see
+  /// `build`.
+  SMALL const f32* to_scan(const f32* nearest, u32 work) {
+    bool low = demand_.is_low(scans_per_build, work);
+    return built_ || world() || !low ? nullptr : rounded() ? nearest : seen_.boxes.at;
+  }
+
   /// Builds the index, if necessary. It stays the same until the next update, since answers may be read in parts.
-  /// `nearest`: for SeenBoxes::round_all.
+  /// `nearest`: its boxes, rounded to the nearest, which takes less time to read than doubles; null if there are none.
   NOINLINE void build(const f32* nearest) {
     if (built_) return;
-    seen_.round_all(nearest);
+    const bool reads_nearest = rounded() && nearest && !world();
+    // Boxes that change later are rounded there.
+    const f32* to = rounded() ? seen_.begin_rounding() : nullptr;
+    if (reads_nearest) seen_.boxes.at = nearest;
+    else if (rounded()) seen_.round(0, seen_.count);
     room_ = seen_.count + seen_.count / 32 + 64;
     if (known_ == 0 || looks_ >= seen_.count || !keep_order()) put_in_order();
-    used_ = sorted_;
-    holes_ = false;
-    u32 total = 0;
-    levels_ = 0;
-    for (u32 n = room_;; n = (n + 7) / 8) {
-      first_[levels_++] = total;
-      total += (n + 7) / 8;
-      if (n <= 8) break;
-    }
-    blocks_.reserve(total);
-    __builtin_memset(&blocks_[sorted_ / 8], 0xff, (first_[1] - sorted_ / 8) * sizeof(Block));
-    fill();
-    for (u32 level = 1; level < levels_; level++) {
-      u32 below = first_[level] - first_[level - 1];
-      __builtin_memset(&blocks_[first_[level] + (below - 1) / 8], 0xff, sizeof(Block));
-      for (u32 k = 0; k < below; k++) bound(level, k);
-    }
-    for (u32 k = 0; seen_.named && k < sorted_; k++) placed_ids_[k] = seen_.ids[slots_[k]];
+    make_blocks(reads_nearest);
+    if (reads_nearest) seen_.boxes.at = to;
     built_ = true;
+  }
+
+  /// Becomes the index of some of the boxes of another, in the order of these slots. `nearest`: all of them, rounded to
+  /// the nearest.
+  SMALL void take(const Index& other, const f32* nearest, const u32* slots, u32 many) {
+    seen_.share(other.seen_, nearest);
+    room_ = many + 8;
+    known_ = sorted_ = used_ = 0;
+    make_room(0);
+    for (u32 k = 0; k < many; k++) {
+      slots_[sorted_] = slots[k];
+      sorted_ += !seen_.is_off(slots[k]);
+    }
+    if (sorted_) make_blocks(seen_.rounded);
+  }
+
+  /// Writes the slots of all boxes that overlap this one; returns how many. `boxes`: those that the index has seen,
+  /// rounded to the nearest.
+  NOINLINE u32 overlapping(const f64* box, const f32* boxes, Buffer<u32>& slots) const {
+    f32 bounds[width + 2];
+    round_outward<D>(box, bounds);
+    slots.reserve(u64(count()) + 1);
+    u32 many = 0;
+    ROLLED for (u32 s = 0; s < count(); s++, boxes += width) {
+      slots[many] = s;
+      many += boxes_touch<D>(boxes, bounds);
+    }
+    return many;
   }
 
   /// After memory has run out: keeps the copy of the boxes, and drops the index built over it.
@@ -209,6 +238,29 @@ template <int D> class Index {
     if (n >= known_) return;
     known_ = n;
     holes_ = true;
+  }
+
+  /// Makes the blocks of all levels for the places up to `sorted_`. `nearest`: boxes are rounded to the nearest, not
+  /// outward.
+  NOINLINE void make_blocks(bool nearest) {
+    used_ = sorted_;
+    holes_ = false;
+    u32 total = 0;
+    levels_ = 0;
+    for (u32 n = room_;; n = (n + 7) / 8) {
+      first_[levels_++] = total;
+      total += (n + 7) / 8;
+      if (n <= 8) break;
+    }
+    blocks_.reserve(total);
+    __builtin_memset(&blocks_[sorted_ / 8], 0xff, (first_[1] - sorted_ / 8) * sizeof(Block));
+    fill(nearest);
+    for (u32 level = 1; level < levels_; level++) {
+      u32 below = first_[level] - first_[level - 1];
+      __builtin_memset(&blocks_[first_[level] + (below - 1) / 8], 0xff, sizeof(Block));
+      for (u32 k = 0; k < below; k++) bound(level, k);
+    }
+    for (u32 k = 0; seen_.named && k < sorted_; k++) placed_ids_[k] = seen_.ids[slots_[k]];
   }
 
   /// Writes the bounds of block k of the level below into its lane of its parent. Empty blocks have NaN bounds.
@@ -281,7 +333,8 @@ template <int D> class Index {
   }
 
   /// The blocks of boxes.
-  NOINLINE void fill() {
+  NOINLINE void fill(bool nearest) {
+    const f32x4 signs[] = {{0.0f, 0.0f, D == 2 ? -0.0f : 0.0f, -0.0f}, {0.0f, -0.0f, -0.0f, -0.0f}};
     const f32* boxes = seen_.boxes.at;
     for (u32 k = 0; k < sorted_; k += 4) {
       // Boxes as rows; in 3D the second half begins with the last minimum.
@@ -290,7 +343,9 @@ template <int D> class Index {
         bool is_box = k + lane < sorted_;
         const f32* box = boxes + u64(slots_[is_box ? k + lane : k]) * width;
         for (int half = 0; half < D - 1; half++) {
-          rows[half][lane] = is_box ? load<f32x4>(box + 2 * half) : splat(nothing);
+          f32x4 row = load<f32x4>(box + 2 * half);
+          if (nearest) row = loosened(row, signs[half]);
+          rows[half][lane] = is_box ? row : splat(nothing);
         }
       }
       f32* to = reinterpret_cast<f32*>(&blocks_[k / 8]) + k % 8;  // lo and hi as one array

@@ -73,11 +73,7 @@ template <int D> class Queries {
   /// The first boxes that the moving box meets, ranked by how far it has moved by then.
   SMALL void cast(Hits& hits) {
     scale_ = asked_.scale();
-    for (int a = 0; a < D; a++) {
-      // The path up to the limit, and a little more for rounding errors.
-      f64 reach = asked_.along[a] * (asked_.limit / asked_.length) * (1 + 1e-9);
-      reach_[a] = reach == reach ? reach : 0;  // NaN: it does not move along this axis
-    }
+    for (int a = 0; a < D; a++) reach_[a] = asked_.reach(a);
     hits_ = &hits;
     auto one = [](void* self) { static_cast<Queries*>(self)->cast_once(); };
     if (world_) copies_.pass(reach_, one, this);
@@ -120,9 +116,8 @@ template <int D> class Queries {
     for (int a = 0; a < D; a++) {
       f64 lo = low(a), hi = high(a);
       if (is_circle()) {
-        // Differences to the edge may have been rounded.
-        lo -= asked_.radius + (asked_.radius + __builtin_fabs(lo)) * 0x1p-49;
-        hi += asked_.radius + (asked_.radius + __builtin_fabs(hi)) * 0x1p-49;
+        lo = asked_.widened(lo, -asked_.radius);
+        hi = asked_.widened(hi, asked_.radius);
       }
       area_.set(a, lo, hi, asked_.touching || is_circle());
     }

@@ -41,6 +41,32 @@ template <int D> struct Question {
   /// From ranks to times estimated in float32.
   f64 scale() const { return (1 + 1e-6) / length; }
 
+  /// How far it moves along an axis up to the limit, and a little further for rounding errors; 0 if it does not.
+  f64 reach(int axis) const {
+    f64 far = along[axis] * (limit / length) * (1 + 1e-9);
+    return far == far ? far : 0;
+  }
+
+  /// Writes the bounds of all that it may meet up to the limit, as a box.
+  SMALL void path(f64* box) const {
+    ROLLED for (int a = 0; a < D; a++) {
+      box[a] = lo[a] + smaller(0.0, reach(a));
+      box[D + a] = hi[a] + larger(0.0, reach(a));
+    }
+  }
+
+  /// Writes the bounds of all that is no further from its box than this, as a box.
+  SMALL void around(f64 distance, f64* box) const {
+    ROLLED for (int a = 0; a < D; a++) {
+      box[a] = widened(lo[a], -distance);
+      box[D + a] = widened(hi[a], distance);
+    }
+  }
+  /// A bound moved by a distance, and a little further, since differences to it may have been rounded.
+  static f64 widened(f64 bound, f64 by) {
+    return by == 0 ? bound : bound + by + (by + __builtin_copysign(bound, by)) * 0x1p-49;
+  }
+
   /// How the moving box meets a box; false where it does not.
   NOINLINE bool hits(const f64* box, u32 id, Hit& hit) const {
     Meeting met;

@@ -41,7 +41,7 @@ template <class T> struct Lent {
 struct SeenArrays {
   const u32 width;
 
-  Lent<f32> boxes;  // if `rounded`: a copy rounded outward, once `round_all` was called
+  Lent<f32> boxes;  // if `rounded`: rounded outward, as far as an index needs them
   Lent<f64> exact;
   Lent<u32> ids;
   Lent<Rule> rules;
@@ -154,6 +154,18 @@ struct SeenArrays {
 
   bool is_off(u32 slot) const { return filtered && rules[slot].is_off(); }
 
+  /// Reads what another has, boxes rounded to the nearest.
+  SMALL void share(const SeenArrays& other, const f32* nearest) {
+    boxes.at = nearest;
+    exact.at = other.exact.at;
+    ids.at = other.ids.at;
+    rules.at = other.rules.at;
+    count = other.count;
+    rounded = other.rounded;
+    named = other.named;
+    filtered = other.filtered;
+  }
+
  private:
   static constexpr f64 unmeasured = -1;
 
@@ -185,13 +197,10 @@ template <int D> struct SeenBoxes : SeenArrays {
       else round_outward<D>(box, to);
     }
   }
-  /// All of them. `nearest`: they have been rounded to the nearest there, which takes less time to read; null if not.
-  NOINLINE void round_all(const f32* nearest) {
-    if (!rounded) return;
+  /// Room for rounded boxes.
+  SMALL f32* begin_rounding() {
     f32* to = boxes.own.reserve(u64(count) * width + 4);
     boxes.at = to;
-    if (!nearest || world) return round(0, count);
-    for (const f32* end = to + u64(count) * width; to < end; to += width, nearest += width)
-      loosen<D>(load<f32x4>(nearest), load<f32x4>(nearest + width - 4), to);
+    return to;
   }
 };

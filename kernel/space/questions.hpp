@@ -3,6 +3,7 @@
 #pragma once
 #include "questions/neighbours.hpp"
 #include "questions/plane_query.hpp"
+#include "questions/scan.hpp"
 #include "space/store.hpp"
 
 /// With how many other spaces a space can have pairs without starting over.
@@ -11,6 +12,7 @@ inline constexpr u32 most_neighbours = 16;
 template <int D> class Questions {
   const Options& options_;
   Store<D>& store_;
+  Scan<D> scan_;
 
  public:
   Question<D> asked;
@@ -30,9 +32,10 @@ template <int D> class Questions {
   /// Finds the boxes that touch the box or circle of the query: see Queries::area.
   SMALL u32 ask_area(u32& from, u32 most) {
     if (store_.seen.lost()) return unknown;
-    if (!can_answer()) return 0;
+    const Index<D>* searched = index_for(Search::area, most, from == 0);
+    if (!searched) return 0;
     wrap();
-    Queries<D> queries(index(), asked);
+    Queries<D> queries(*searched, asked);
     u32 found = queries.area(from, most, answers);
     index().looked_at(queries.looks());
     return found;
@@ -52,10 +55,12 @@ template <int D> class Questions {
   /// are in `hits`, in order. Returns how many.
   SMALL u32 ask_order(bool moving, u32 most, const Hit* after) {
     if (store_.seen.lost()) return unknown;
-    if (!can_answer()) return 0;
+    hits.begin(most, asked.limit, after);
+    const Index<D>* searched = index_for(moving ? Search::ahead : Search::near, most);
+    if (!searched) return 0;
     wrap();
     hits.begin(most, asked.limit, after);
-    Queries<D> queries(index(), asked);
+    Queries<D> queries(*searched, asked);
     if (moving) queries.cast(hits);
     else queries.near(hits);
     index().looked_at(queries.looks());
@@ -120,6 +125,7 @@ template <int D> class Questions {
   SMALL void release() {
     answers.release();
     hits.release();
+    scan_.release();
     bulk.release();
     for (Neighbours<D>& near : neighbours) near.release();
   }
@@ -133,10 +139,22 @@ template <int D> class Questions {
     return index().lent() ? store_.numbers.nearest() : nullptr;
   }
 
-  /// Whether there are any boxes that are not off; if there are any at all, builds the index.
+  /// The index to search for one query; null if it cannot have answers. `begins`: no part of them has been read before.
+  SMALL const Index<D>* index_for(Search kind, u32 most, bool begins = true) {
+    const f32* nearest = look();
+    if (index().count() == 0) return nullptr;
+    const f32* boxes = index().to_scan(nearest, kind == Search::near ? 2 : 1);
+    const Index<D>* found = boxes && begins ? scan_.find(index(), boxes, asked, kind, most, hits) : nullptr;
+    if (!found) index().build(nearest);
+    const Index<D>* searched = found ? found : &index();
+    return searched->places() > 0 ? searched : nullptr;
+  }
+
+  /// Whether there are any boxes that are not off; builds the index.
   SMALL bool can_answer() {
     const f32* nearest = look();
     if (index().count() == 0) return false;
+    index().to_scan(nullptr, 1);
     index().build(nearest);
     return index().places() > 0;
   }

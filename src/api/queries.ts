@@ -23,8 +23,8 @@ import type {
 /** What a space can be asked between two updates: what is there, in view, ahead, near. */
 export interface Queries<D extends Dimensions> {
   /**
-   * The ids of the boxes that overlap or touch a box, which may be infinite. The order is arbitrary, but the same until
-   * the next update. 2D: `queryBox(minX, minY, maxX, maxY, options?)`, 3D: `queryBox(minX, minY, minZ, maxX, maxY,
+   * The ids of the boxes that overlap or touch a box, which may be infinite. The order is arbitrary, and may differ from
+   * one call to the next. 2D: `queryBox(minX, minY, maxX, maxY, options?)`, 3D: `queryBox(minX, minY, minZ, maxX, maxY,
    * maxZ, options?)`.
    *
    * @param query the minima, in the units of your world: any numbers but NaN; then the maxima, not below the minima;
