@@ -8,15 +8,24 @@ export const ours = 'var(--accent)';
 export const others = 'var(--control-line)';
 export const style = { fontSize: '12px', background: 'none', overflow: 'visible' };
 const rowHeight = 22;
+/** Narrower charts have fewer marks, in pixels. */
+const roomy = 440;
 /** Room for the names on the left, and for the label after the longest bar. */
 const [nameRoom, labelRoom] = [140, 62];
 
-/** The marks of a logarithmic axis: at powers of ten, and between them if those are few. */
-export function marks(from: number, to: number): number[] {
-  const between = Math.log10(to / from) < 2.2 ? [1, 3] : [1];
-  const found: number[] = [];
-  for (let power = 10 ** Math.floor(Math.log10(from)); power <= to; power *= 10) {
-    found.push(...between.map((step) => step * power).filter((at) => at >= from && at <= to));
+/** Where a logarithmic axis may have marks between powers of ten: the fewest that make enough. */
+const steps = [[1], [1, 3], [1, 2, 5], [1, 1.5, 2, 3, 4, 6, 8]];
+
+/** The marks of a logarithmic axis: at least two, and more where there is room. */
+export function marks(from: number, to: number, enough = 3): number[] {
+  let found: number[] = [];
+  for (const between of steps) {
+    found = [];
+    for (let power = Math.floor(Math.log10(from)); 10 ** power <= to; power++) {
+      const here = between.map((step) => Number(`${step}e${power}`)); // exact, as products are not
+      found.push(...here.filter((at) => at >= from && at <= to));
+    }
+    if (found.length >= enough) break;
   }
   return found;
 }
@@ -59,9 +68,9 @@ export function bars(race: Race, width: number): Chart {
     style,
     x: {
       type: 'log',
-      label: 'ms a frame',
+      label: 'ms a frame, logarithmic',
       domain: [least / 2, most],
-      ticks: marks(least / 2, most),
+      ticks: marks(least / 2, most, width < roomy ? 2 : 3),
       tickFormat: ms,
       grid: true,
     },
@@ -132,4 +141,4 @@ const warmth = (share: number) => `color-mix(in oklab, var(--heat-best) ${100 * 
 
 const short = (count: number) =>
   count >= 1e6 ? `${count / 1e6}M` : count >= 1e3 ? `${Number((count / 1e3).toPrecision(3))}k` : `${count}`;
-export const ms = (value: number) => Number(value.toPrecision(1)).toString();
+export const ms = (value: number) => Number(value.toPrecision(2)).toString();

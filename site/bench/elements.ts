@@ -26,6 +26,10 @@ export function table(header: readonly string[], rows: readonly (readonly string
   );
 }
 
+/** A table that scrolls if it is too wide, by keyboard too. */
+export const scrolling = (label: string, ...rest: Parameters<typeof table>): HTMLElement =>
+  make('section', { className: 'scroll', tabIndex: 0, ariaLabel: label }, table(...rest));
+
 /** Replaces the options of a menu and keeps the choice, if it still exists. */
 export function fillMenu(
   menu: HTMLSelectElement,

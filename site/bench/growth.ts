@@ -152,7 +152,7 @@ function addNames(chart: Element, curves: readonly Curve[], { lines, places, hea
   const paths = [...chart.querySelectorAll<SVGElement>('g[aria-label="line"] path')];
   const dots = [...chart.querySelectorAll<SVGElement>('g[aria-label="dot"] circle')];
   const names = svg('g', { class: 'names', transform: `translate(0,${above + headroom})` });
-  names.append(svg('text', { x: 0, y: -12, 'text-anchor': 'start' }, 'ms a frame'));
+  names.append(svg('text', { x: 0, y: -12, 'text-anchor': 'start' }, 'ms a frame, logarithmic'));
   chart.append(names);
   return curves.map(({ ours, points }, k) => {
     const place = places.find(({ name }) => name === lines[k].name);

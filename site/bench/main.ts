@@ -2,7 +2,7 @@
 import { figuresOf } from '../../bench/report/page.mjs';
 import { formatCount, formatMilliseconds } from '../shared/format.ts';
 import { asPicture, heat, times } from './charts.ts';
-import { allow, fillMenu, find, make, table } from './elements.ts';
+import { allow, fillMenu, find, make, scrolling, table } from './elements.ts';
 import { growth } from './growth.ts';
 import { raceFigure } from './race-figure.ts';
 import { advice, curves, ofKind, type Race, type Results, readResults, timed } from './records.ts';
@@ -60,7 +60,7 @@ const isFrame = (number: string, what: string) => (race: Race) => race.name === 
 function show(): void {
   const results = known.get(machine.value);
   note.textContent = '';
-  for (const id of ['growth', 'heat', 'motions', 'legend']) find(id).hidden = !results;
+  for (const id of ['scenes', 'growth', 'heat', 'motions', 'legend']) find(id).hidden = !results;
   if (!results) return;
   const objects = withTimes(ofKind(results, 'objects'));
   const scenes = withTimes(ofKind(results, 'scenes'));
@@ -155,8 +155,9 @@ function showGrowth(results: Results): void {
       { className: 'aside' },
       'Time grows as the number of boxes to this power; the milliseconds are those with the most boxes.',
     ),
-    table(
-      ['', 'power', 'boxes', 'ms'],
+    scrolling(
+      'How times grow',
+      ['contender', 'power', 'boxes', 'ms'],
       sorted.map(({ name, exponent, points }) => [
         name,
         exponent!.toFixed(2),
@@ -197,7 +198,7 @@ function showHeat(scenes: readonly Race[]): void {
   ]);
   find('advice').replaceChildren(
     make('p', { className: 'aside' }, 'What that supports, for the scenes and numbers of boxes shown:'),
-    table(['technique', 'best, or within 10 %', 'at worst', 'on', 'take it for scenes like'], rows),
+    scrolling('Advice', ['technique', 'best, or within 10 %', 'at worst', 'on', 'take it for scenes like'], rows),
   );
 }
 
@@ -215,10 +216,17 @@ for (const menu of [things, moves]) {
 }
 scene.addEventListener('change', () => showGrowth(known.get(machine.value)!));
 
+/** Why files of results could not be read. */
+const unread: string[] = [];
 const loaded = Promise.all(
   Object.values(files).map(async (url) => {
-    const response = await fetch(url);
-    if (response.ok) learn(readResults(await response.text()));
+    try {
+      const response = await fetch(url);
+      if (!response.ok) throw new Error(`the server answered ${response.status}`);
+      learn(readResults(await response.text()));
+    } catch (error) {
+      unread.push((error as Error).message);
+    }
   }),
 );
 
@@ -246,4 +254,6 @@ setUpRun();
 await loaded;
 machine.selectedIndex = 0; // the newest, whichever file came first
 show();
-if (known.size === 0) note.textContent = 'No results are in the repository yet: npm run bench makes them.';
+find('own').hidden = false; // not before, or it would move down as the charts come
+if (unread.length > 0) note.textContent = `Results are missing: ${unread[0]}. Reload the page to try again.`;
+else if (known.size === 0) note.textContent = 'No results are in the repository yet: npm run bench makes them.';

@@ -1,7 +1,7 @@
 // One race as a figure: its bars, the figures as a table, and the command that reproduces them.
 import { formatCount, formatMilliseconds } from '../shared/format.ts';
 import { asPicture, bars } from './charts.ts';
-import { make, table } from './elements.ts';
+import { make, scrolling } from './elements.ts';
 import { type Race, reference, timed } from './records.ts';
 
 export function raceFigure(race: Race, width: number, command: string): HTMLElement {
@@ -38,7 +38,11 @@ export function raceFigure(race: Race, width: number, command: string): HTMLElem
       {},
       make('summary', {}, 'Figures, and how to get them yourself'),
       make('pre', { className: 'code' }, make('code', {}, command)),
-      table(['', 'median ms', 'p95 ms', 'worst ms', 'of ours', 'frames'], [...rows, ...untimed]),
+      scrolling(
+        `Figures of ${titleOf(race)}`,
+        ['contender', 'median ms', 'p95 ms', 'worst ms', 'of ours', 'frames'],
+        [...rows, ...untimed],
+      ),
     ),
   );
 }

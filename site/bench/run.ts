@@ -44,11 +44,16 @@ function save(rows: Race[]): void {
 }
 
 /** Starts a worker. It first sends the list of contenders, since the page itself does not load the library. */
-function startWorker(take: (answer: Answer) => void): Worker {
-  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
-  worker.onmessage = ({ data }: MessageEvent<Answer>) => take(data);
-  worker.onerror = ({ message }) => take({ failed: message });
-  return worker;
+function startWorker(take: (answer: Answer) => void): Worker | undefined {
+  try {
+    const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
+    worker.onmessage = ({ data }: MessageEvent<Answer>) => take(data);
+    worker.onerror = ({ message }) => take({ failed: message || 'its script could not be run' });
+    return worker;
+  } catch (error) {
+    take({ failed: (error as Error).message }); // where workers are forbidden, the rest of the page still works
+    return undefined;
+  }
 }
 
 export function setUpRun(): void {
@@ -103,14 +108,14 @@ export function setUpRun(): void {
   find('run').addEventListener('submit', (event) => {
     event.preventDefault();
     if (running) {
-      worker.terminate();
+      worker?.terminate();
       worker = startWorker(take);
       return end('Stopped.');
     }
     const names = choices.filter(({ box }) => box.checked && !box.disabled).map(({ box }) => box.value);
     if (names.length === 0) return end('Choose who takes part.');
     running = true;
-    worker.postMessage({ scene: scene.value as SceneName, count: Number(count.value), names } satisfies Order);
+    worker?.postMessage({ scene: scene.value as SceneName, count: Number(count.value), names } satisfies Order);
     progress.hidden = false;
     progress.value = 0;
     start.textContent = 'Stop';
