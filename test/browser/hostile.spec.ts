@@ -75,6 +75,19 @@ test('no file breaks the lab', async ({ page }) => {
   done();
 });
 
+test('without WebAssembly, each showcase says what is missing', async ({ page }) => {
+  test.setTimeout(120_000);
+  await page.addInitScript('delete globalThis.WebAssembly');
+  await page.goto('/showcases/');
+  for (const id of ['nodes', 'chart', 'cloud', 'map', 'belt']) {
+    await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+    const controls = page.locator(`#${id} .controls`);
+    await expect(controls, id).toContainText(/This (stopped|did not start): broadphase needs WebAssembly/, {
+      timeout: 30_000,
+    });
+  }
+});
+
 for (const path of ['', 'narrow-phase/', 'queries/']) {
   test(`without WebAssembly, /${path} says what is missing`, async ({ page }) => {
     await page.addInitScript('delete globalThis.WebAssembly');

@@ -132,12 +132,20 @@ export function runShowcase(show, stage, controls) {
   const status = make('p', { className: 'status', role: 'status' });
   const frames = new Frames();
   const say = (text) => status.textContent !== text && status.replaceChildren(text);
+  /** Does it, and says why if it cannot be done: some browsers switch WebAssembly off to be safer. */
+  const attempt = async (work) => {
+    try {
+      await work();
+    } catch (error) {
+      say(`This stopped: ${error.message}.`);
+    }
+  };
   const demo = show(stage, { wake: frames.wake, say });
   frames.demo = demo;
   const { list, raceAll } = contendersOf(demo);
   const buttons = Object.entries({ ...demo.actions, 'Race again': raceAll }).map(([label, act]) => {
     const button = make('button', { type: 'button', className: 'button', textContent: label });
-    button.addEventListener('click', act);
+    button.addEventListener('click', () => attempt(act));
     return button;
   });
   controls.append(make('div', { className: 'actions' }, ...buttons, frames.stopper), list, status);
@@ -146,7 +154,7 @@ export function runShowcase(show, stage, controls) {
     frames.show(onScreen);
     if (onScreen && !demo.raced) {
       demo.raced = true;
-      void raceAll();
+      void attempt(raceAll);
     }
   }).observe(stage);
   return demo;
