@@ -52,3 +52,6 @@ const nearing = new IntersectionObserver(
   { rootMargin: ahead },
 );
 for (const figure of document.querySelectorAll('figure[data-figure]')) nearing.observe(figure);
+
+// Code in the text can be scrolled by keyboard.
+for (const formula of document.querySelectorAll<HTMLElement>('.formula')) formula.tabIndex = 0;

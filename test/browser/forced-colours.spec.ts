@@ -41,11 +41,33 @@ async function acrossMiddle(page: Page, element: Locator): Promise<{ colours: Se
   return { colours: new Set(row), ends: [row[3]!, row.at(-4)!].map((colour) => colour !== canvas) };
 }
 
-test('who asks for more contrast sees the borders of buttons', async ({ page }) => {
-  await page.emulateMedia({ forcedColors: 'none', contrast: 'more' });
-  await page.goto('/');
-  await expect(page.locator('#step')).toHaveCSS('border-top-color', 'rgb(93, 96, 103)');
-});
+/** The contrast of two colours as WCAG defines it, from 1 to 21. */
+function contrast(a: string, b: string): number {
+  const [darker, lighter] = [a, b]
+    .map((colour) => {
+      const [r, g, blue] = colour.match(/\d+/g)!.map((part) => {
+        const share = Number(part) / 255;
+        return share <= 0.04045 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
+      });
+      return 0.2126 * r! + 0.7152 * g! + 0.0722 * blue!;
+    })
+    .sort((one, other) => one - other);
+  return (lighter! + 0.05) / (darker! + 0.05);
+}
+
+for (const colorScheme of ['light', 'dark'] as const) {
+  test(`who asks for more contrast sees the borders of buttons, and small letters: ${colorScheme}`, async ({
+    page,
+  }) => {
+    await page.emulateMedia({ forcedColors: 'none', contrast: 'more', colorScheme });
+    await page.goto('/');
+    const colourOf = (selector: string, property: 'color' | 'borderTopColor' | 'backgroundColor') =>
+      page.locator(selector).evaluate((element, name) => getComputedStyle(element)[name], property);
+    const behind = await colourOf('body', 'backgroundColor');
+    expect(contrast(await colourOf('#step', 'borderTopColor'), behind)).toBeGreaterThan(5);
+    expect(contrast(await colourOf('.lede', 'color'), behind)).toBeGreaterThan(7);
+  });
+}
 
 for (const colorScheme of ['light', 'dark'] as const) {
   test.describe(colorScheme, () => {
