@@ -256,6 +256,10 @@ async function useView(dimensions: 2 | 3): Promise<void> {
       listen(made);
       return made;
     });
+    solid.catch(() => {
+      solid = undefined; // so that it can be tried again: the network may be back
+      find('solid').hidden = true;
+    });
   }
   view = dimensions === 3 ? await solid! : flat;
   arrange(state.race?.length, view.element.id);
@@ -414,6 +418,14 @@ const openSoon = () => {
 };
 const failed = (reason: unknown) => say(`This stopped: ${reasonOf(reason)}`, true);
 
+/** If the scene of the address cannot be shown, the first of the menu is. */
+async function openFirst(reason: unknown): Promise<void> {
+  if (state.scene === defaults.scene) return failed(reason);
+  const wanted = state.scene;
+  await change({ scene: defaults.scene });
+  say(`${wanted} cannot be shown: ${reasonOf(reason)}`, true);
+}
+
 sceneMenu.addEventListener('change', () => {
   if (sceneMenu.value !== file) void change({ scene: sceneMenu.value });
 });
@@ -478,6 +490,6 @@ fillControls(state);
 setRate(state.rate);
 setInterval(report, refresh);
 const beginning = Math.min(state.frame ?? 0, latestFrame(state.boxes));
-await open(beginning, state.view).catch(failed);
+await open(beginning, state.view).catch(openFirst);
 if (faults.length > 0) say(`In the address, ${faults.join('; ')}.`, true);
 if (!reviving) play(!still.matches && state.frame === undefined);

@@ -75,6 +75,27 @@ test('no file breaks the lab', async ({ page }) => {
   done();
 });
 
+test('without WebGL, the lab says that solid scenes need it, and shows a flat one', async ({ page }) => {
+  await page.addInitScript(() => {
+    const { getContext } = HTMLCanvasElement.prototype;
+    HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, kind: string) {
+      return kind.startsWith('webgl') ? null : getContext.call(this, kind);
+    } as typeof getContext;
+  });
+  await page.goto('/lab/?scene=uniform3d&boxes=100');
+  const note = page.locator('#note');
+  await expect(note).toHaveText(
+    'uniform3d cannot be shown: solid scenes need WebGL, which is switched off or missing here',
+  );
+  await expect(page.locator('#scene')).toHaveValue('uniform2d');
+  await expect(page.locator('[data-number="boxes"]').first()).toHaveText('100');
+  await expect(page.locator('#flat')).toBeVisible();
+  await expect(page.locator('#solid')).toBeHidden();
+  await page.locator('#scene').selectOption('mixed3d');
+  await expect(note).toHaveText(/^mixed3d cannot be shown: solid scenes need WebGL/);
+  await expect(page.locator('#scene')).toHaveValue('uniform2d');
+});
+
 test('without WebAssembly, each showcase says what is missing', async ({ page }) => {
   test.setTimeout(120_000);
   await page.addInitScript('delete globalThis.WebAssembly');

@@ -251,10 +251,18 @@ class Solids {
   }
 }
 
+function rendererFor(canvas: HTMLCanvasElement): WebGLRenderer {
+  try {
+    return new WebGLRenderer({ canvas, antialias: true });
+  } catch (cause) {
+    throw new Error('solid scenes need WebGL, which is switched off or missing here', { cause });
+  }
+}
+
 /** The element holds one canvas. */
 export function createSolidView(element: HTMLElement, moved: () => void): LabView {
   const canvas = element.querySelector('canvas')!;
-  const renderer = new WebGLRenderer({ canvas, antialias: true });
+  const renderer = rendererFor(canvas);
   const solids = new Solids();
   let awaited = 0;
 
