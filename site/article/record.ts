@@ -111,7 +111,7 @@ export type PopulationOperation =
 
 export type QueryOperation =
   | ({ kind: 'visit'; ids: readonly number[] } & Place)
-  | ({ kind: 'look-up'; a: number; b: number; known: boolean } & Place)
+  | ({ kind: 'lookup'; a: number; b: number; known: boolean } & Place)
   | ({ kind: 'mark'; a: number; b: number } & Place)
   | ({ kind: 'test'; a: number; b: number; hit: boolean } & Place);
 
@@ -225,12 +225,12 @@ class GridRecorder implements GridRecord {
     const now = () => ({ a: this.#a, b: this.#b, ...this.#here });
     watch(technique, 'hashChecks', (checks) => {
       // If no test follows, the pair was in the table.
-      if (checks > 0) this.query.push({ kind: 'look-up', known: true, ...now() });
+      if (checks > 0) this.query.push({ kind: 'lookup', known: true, ...now() });
       return checks;
     });
     watch(technique, 'collisionTests', (tests) => {
       const last = this.query.at(-1);
-      if (tests > 0 && last?.kind === 'look-up') {
+      if (tests > 0 && last?.kind === 'lookup') {
         last.known = false;
         this.query.push({ kind: 'mark', ...now() });
       }

@@ -3,7 +3,7 @@
 // which are left out (Zones.reporterOf). For events, the space must also know where every box it sees was at the
 // previous update. So a box that enters comes with its previous box, and is put there first, in an update of its own. A
 // box that leaves stays for one more update. The events are then those of the space itself, in wrapped worlds too.
-// Cost: that of the space, one check per changed box and exchange, two look-ups per pair.
+// Cost: that of the space, one check per changed box and exchange, two lookups per pair.
 import type { BroadPhase } from 'broadphase';
 import { badValue, checkBoolean, checkBox, checkId, checkOptions } from '../errors.ts';
 import { checkSpace, watch } from '../watch.ts';

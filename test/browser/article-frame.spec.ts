@@ -260,7 +260,7 @@ test('figure 13: numbers are handed out in turn and never twice', async ({ page 
   expect(await counter(ids, 'uniq')).toBe(4);
 });
 
-test('figure 14: smaller cells make more look-ups, and no pair is compared twice', async ({ page }) => {
+test('figure 14: smaller cells make more lookups, and no pair is compared twice', async ({ page }) => {
   await page.goto('/article/');
   const table = await figure(page, 'fig-14');
   const ends: number[] = [];

@@ -43,7 +43,7 @@ export function mount(root: HTMLElement): void {
   });
   const write = counters(left, {
     grids: 'Grids',
-    lookUps: 'Look-ups',
+    lookUps: 'Lookups',
     tests: 'Pairs tested',
     pairs: 'Pairs found',
   });

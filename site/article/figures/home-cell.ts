@@ -24,7 +24,7 @@ import {
 const width = 480;
 const height = 320;
 const cellSize = 40;
-const names = { cells: 'Cells searched', compared: 'Compared with', partners: 'Partners', all: 'All look-ups' };
+const names = { cells: 'Cells searched', compared: 'Compared with', partners: 'Partners', all: 'All lookups' };
 
 function smallBoxes(): Box[] {
   const random = createRandom(5);

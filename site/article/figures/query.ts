@@ -6,7 +6,7 @@ import { type QueryOperation, recordGrid } from '../record.ts';
 
 const lights: Readonly<Record<QueryOperation['kind'], string>> = {
   visit: 'this.#forEachCell',
-  'look-up': 'if (checked.has',
+  lookup: 'if (checked.has',
   mark: 'checked.add(hashA)',
   test: 'if (this.aabb2DIntersection',
 };
@@ -19,7 +19,7 @@ function explain(operation: QueryOperation): string {
     return `${where} holds ${ids.slice(0, -1).join(', ')} and ${ids.at(-1)}.`;
   }
   const { a, b } = operation;
-  if (operation.kind === 'look-up') {
+  if (operation.kind === 'lookup') {
     return operation.known
       ? `${a} and ${b} have met in another cell: “${a}:${b}” is in the table. On to the next.`
       : `Have ${a} and ${b} been compared? “${a}:${b}” is not in the table.`;
@@ -48,7 +48,7 @@ export function mount(root: HTMLElement): () => void {
   const say = sayer(right, true);
   const count = counters(right, {
     visits: 'Cells visited',
-    lookups: 'Look-ups',
+    lookups: 'Lookups',
     tests: 'Comparisons',
     pairs: 'Pairs found',
   });
@@ -64,7 +64,7 @@ export function mount(root: HTMLElement): () => void {
       const number = (kind: QueryOperation['kind']) => done.filter((each) => each.kind === kind).length;
       count({
         visits: number('visit'),
-        lookups: number('look-up'),
+        lookups: number('lookup'),
         tests: number('test'),
         pairs: done.filter((each) => each.kind === 'test' && each.hit).length,
       });

@@ -1,4 +1,4 @@
-// Fig. 14: the table of tested pairs, filled look-up by look-up, with cells of a size that the reader chooses.
+// Fig. 14: the table of tested pairs, filled lookup by lookup, with cells of a size that the reader chooses.
 import gridSource from '../../../src/ro/coltech/spatial-grid.ts?raw';
 import { boxOn, cellBox, fitWorld, gridOn, lookOf } from '../kit/drawing.ts';
 import {
@@ -33,11 +33,11 @@ const boxes: readonly Box[] = [
   [104, 78, 38, 30],
   [190, 84, 36, 24],
 ];
-type LookUp = Extract<QueryOperation, { kind: 'look-up' }>;
+type LookUp = Extract<QueryOperation, { kind: 'lookup' }>;
 
-const lookUps = ({ query }: GridRecord) => query.filter((each): each is LookUp => each.kind === 'look-up');
+const lookUps = ({ query }: GridRecord) => query.filter((each): each is LookUp => each.kind === 'lookup');
 
-/** The pairs in the table after these look-ups. */
+/** The pairs in the table after these lookups. */
 const compared = (done: readonly LookUp[]) =>
   new Set(done.filter(({ known }) => !known).map(({ a, b }) => `${a}:${b}`));
 
@@ -67,7 +67,7 @@ export function mount(root: HTMLElement): () => void {
     draw: (sheet) => draw(sheet, recorded, cellSize, run.slice(0, at + 1)),
   });
   const say = sayer(left, true);
-  const count = counters(left, { lookups: 'Look-ups', tests: 'Comparisons', saved: 'Saved' });
+  const count = counters(left, { lookups: 'Lookups', tests: 'Comparisons', saved: 'Saved' });
 
   const source = listing(
     right,
@@ -80,7 +80,7 @@ export function mount(root: HTMLElement): () => void {
 
   const stepper = createStepper(root, {
     steps: run,
-    label: 'Look-up',
+    label: 'Lookup',
     pace: 350,
     show(now, index) {
       at = index;
@@ -105,7 +105,7 @@ export function mount(root: HTMLElement): () => void {
   return () => stepper.stop();
 }
 
-/** The grid and its boxes after these look-ups: those that collide, and those that the last look-up is about. */
+/** The grid and its boxes after these lookups: those that collide, and those that the last lookup is about. */
 function draw(sheet: Sheet, { cells, query }: GridRecord, cellSize: number, done: readonly LookUp[]): void {
   const { ctx, colors } = sheet;
   const fit = fitWorld(sheet, [0, 0, width, height]);

@@ -5,7 +5,7 @@
 // the pairs already tested keeps each test from being made twice. The grid is thrown away and rebuilt by every update,
 // which saves following each entity from cell to cell.
 //
-// Cost: one visit per entity and cell it overlaps, then one look-up per pair in a cell. Wins where entities are about
+// Cost: one visit per entity and cell it overlaps, then one lookup per pair in a cell. Wins where entities are about
 // as large as a cell and spread out. Loses where cells are far smaller (many visits, many arrays), far larger (brute
 // force within a cell), or where sizes differ so much that no cell size suits them all.
 import type { Collidable } from '../aabb.ts';
