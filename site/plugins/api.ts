@@ -9,6 +9,7 @@ import {
   Converter,
   type DeclarationReflection,
   JSX,
+  PageEvent,
   type ProjectReflection,
   ReflectionKind,
   type TranslatedString,
@@ -60,6 +61,11 @@ async function writeReference(folder: string): Promise<void> {
   );
   app.renderer.hooks.on('content.begin', () => JSX.createElement(JSX.Raw, { html: '<main>' }));
   app.renderer.hooks.on('content.end', () => JSX.createElement(JSX.Raw, { html: '</main>' }));
+  app.renderer.on(PageEvent.END, (page) => {
+    page.contents = page
+      .contents!.replace('</title>', ' · broadphase</title>')
+      .replace('"Documentation for API"', '"The API of broadphase, which finds the boxes that overlap."');
+  });
   let ungrouped: string[] = [];
   app.converter.on(Converter.EVENT_RESOLVE_BEGIN, ({ project }) => {
     ungrouped = groupMembers(project);

@@ -70,6 +70,33 @@ const slugOf = (heading: string) =>
     .replace(/[^\p{L}\p{N} _-]/gu, '')
     .replaceAll(' ', '-');
 
+/** The sentences of the first paragraph of a text, without marks. */
+function opening(markdown: string): string {
+  const tokens = paragraph.parse(markdown, {});
+  const { children } = tokens[tokens.findIndex(({ type, level }) => type === 'paragraph_open' && level === 0) + 1];
+  const text = children!.map(({ type, content }) => (type === 'softbreak' ? ' ' : content)).join('');
+  return text.slice(0, text.lastIndexOf('.') + 1);
+}
+
+/** What each guide is about, by its file: as the list of guides says it. */
+const about = new Map(
+  [...read('docs/guides/README.md').matchAll(/^- \[(.*)\]\((.*)\): (.*)$/gm)].map(
+    ([, title, file, text]): [string, string] => [
+      `docs/guides/${file}`,
+      `${title}${title.endsWith('?') ? '' : '.'} ${text[0].toUpperCase()}${text.slice(1).replaceAll('`', '')}.`,
+    ],
+  ),
+);
+
+/** A page in a sentence or two, for those who meet it as a link. */
+function descriptionOf(file: string): string {
+  const manifestOf = `${file}/package.json`;
+  if (existsSync(repository + manifestOf)) return JSON.parse(read(manifestOf)).description;
+  if (!folders.has(file)) return about.get(file) ?? opening(read(file));
+  const text = `${file}/${readme}`;
+  return existsSync(repository + text) ? opening(read(text)) : `The code of ${file}, file by file.`;
+}
+
 /** Where a link of a file leads, as seen from its page; undefined for a file of the repository that has no page. */
 function linkFrom(file: string, page: string, href: string): string | undefined {
   if (/^(https?:|#)/.test(href)) return href;
@@ -189,6 +216,7 @@ function documentOf(page: string): string {
   <head>
     <!-- head -->
     <title>${title} · broadphase</title>
+    <meta name="description" content="${paragraph.utils.escapeHtml(descriptionOf(file))}" />
     <link rel="stylesheet" href="${rootFrom(page)}shared/documents.css" />
     <script type="module" src="${rootFrom(page)}shared/copy.ts"></script>
   </head>

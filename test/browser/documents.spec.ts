@@ -35,6 +35,22 @@ test('no link within the site is dead, and none leaves the path that the site st
   expect(dead).toEqual([]);
 });
 
+test('each page says what it is to those who meet it as a link', () => {
+  const pages = readdirSync(dist, { recursive: true, encoding: 'utf8' })
+    .filter((file) => file.endsWith('.html'))
+    .filter((file) => !/^(live\/|404)/.test(file));
+  const titles = new Map<string, string>();
+  for (const page of pages) {
+    const html = readFileSync(dist + page, 'utf8');
+    const title = /<title>([^<]+)<\/title>/.exec(html)![1]!;
+    const description = /<meta\s+name="description"\s+content="([^"]*)"/.exec(html)?.[1] ?? '';
+    expect(description.length, page).toBeGreaterThan(25);
+    if (/^(api|guides|examples)\//.test(page)) expect(title, page).toMatch(/ broadphase$/);
+    if (!page.startsWith('api/')) expect([titles.get(title), page], title).toContain(undefined);
+    titles.set(title, page);
+  }
+});
+
 test('no page of the site asks others for anything', async ({ page, baseURL }) => {
   const strangers: string[] = [];
   page.on('request', (request) => {
