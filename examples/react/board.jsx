@@ -90,7 +90,12 @@ export function Board() {
       </div>
       <footer className="bar">
         <p role="status">
-          <b>{selected.size}</b> of {boxes.length} tiles selected, asked in <b>{took.toFixed(2)} ms</b>
+          <b>{selected.size}</b> of {boxes.length} tiles selected
+          {took !== undefined && (
+            <>
+              , asked in <b>{took.toFixed(2)} ms</b>
+            </>
+          )}
         </p>
         <a href="?show=notes">Notes that overlap</a>
       </footer>

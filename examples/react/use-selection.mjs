@@ -22,7 +22,7 @@ const unionOf = (a, b) => [
 /** Ids in either of two sets. */
 const both = (a, b) => new Set([...a, ...b]);
 
-const nothing = { selected: new Set(), before: new Set(), band: undefined, active: 0, anchor: 0, took: 0 };
+const nothing = { selected: new Set(), before: new Set(), band: undefined, active: 0, anchor: 0, took: undefined };
 
 /**
  * boxes: [minX, minY, maxX, maxY] of each id, in pixels of the board; the same array while they do not move.
