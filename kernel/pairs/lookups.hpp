@@ -49,7 +49,9 @@ class Lookups {
       if (!any(has)) continue;
       for (u64 k = p; k < smaller(p + 2, pairs.count); k++) {
         u32 one = u32(list[k]), other = u32(list[k] >> 32);
-        if (one == id || other == id) answers.grow(u64(count) + 1, count)[count++] = one == id ? other : one;
+        if (one != id && other != id) continue;
+        answers.grow(u64(count) + 1, count);
+        answers[count++] = one == id ? other : one;
       }
     }
     return count;
