@@ -72,7 +72,7 @@ export function readBox(instance: KernelInstance, id: number, out: Float32Array 
   if (!fits && !Array.isArray(out)) {
     badValue('get: out', out, `an array, or a Float64Array or Float32Array of ${instance.width} numbers`, true);
   }
-  if (instance.kernel.get(id) === 0) return false;
+  if (instance.reader.get(id) === 0) return false;
   const io = instance.io();
   for (let k = 0; k < instance.width; k++) out[k] = io[k]!;
   return true;
@@ -86,7 +86,7 @@ export function badInPlace(instance: KernelInstance, where: string, id: number):
 }
 
 export const hasBox = (instance: KernelInstance, id: number): boolean =>
-  instance.ring.knows(id) || instance.kernel.has(id) === 1;
+  instance.ring.knows(id) || instance.reader.has(id) === 1;
 
 /** The ids of all present boxes, except those that are deleted before their turn. */
 export const present = (instance: KernelInstance): IterableIterator<number> => stillThere(instance, listIds(instance));

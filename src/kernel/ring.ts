@@ -164,8 +164,13 @@ export class Ring {
 
   /** Flushes the ring and closes it, as the kernel is about to be called. */
   close(): void {
-    if (this.next > this.step) this.settle(none);
+    this.flush();
     this.shut();
+  }
+
+  /** Flushes the ring and leaves it open. */
+  flush(): void {
+    if (this.next > this.step) this.settle(none);
   }
 
   /** Drops the boxes that wait, with the memory they are in. */

@@ -18,6 +18,38 @@ const all = 0xffffffff;
 const stacked = (dimensions: 2 | 3, count: number) =>
   Float32Array.from({ length: 2 * dimensions * count }, (_, k) => (k % (2 * dimensions) < dimensions ? 0 : 1));
 
+test('rules are set and read back while boxes wait to be flushed', () => {
+  const space = new BroadPhase();
+  const at = (id: number) => space.set(id, 0, 0, 1, 1);
+  const rules = (id: number) => [space.filterOf(id), space.isStatic(id), space.isEnabled(id), space.groupOf(id)];
+  const none = [{ layer: all, mask: all }, false, true, 0];
+  for (const id of [0, 1, 2]) at(id);
+  space.update();
+  for (let frame = 0; frame < 3; frame++) {
+    at(0).setFilter(0, 1, 2).setStatic(0).setEnabled(0, false).setGroup(0, 7).setReach(0, 0.5);
+    expect(rules(0)).toEqual([{ layer: 1, mask: 2 }, true, false, 7]);
+    expect(space.reachOf(0)).toBe(0.5);
+    at(1).setFilter(1, all, all).setStatic(1, false).setEnabled(1, true).setGroup(1, 0).setReach(1, 0);
+    expect(rules(1)).toEqual(none);
+    expect(space.update().pairCount).toBe([1, 3, 1][frame]); // of boxes 1 and 2; of 1, 2 and 3; while 2 is off
+    space.delete(0);
+    expect(at(0).setGroup(0, 0).groupOf(0)).toBe(0); // a new box without rules
+    expect(rules(0)).toEqual(none);
+    at(3)
+      .setEnabled(2, frame > 0)
+      .setGroup(3, 5)
+      .setGroup(1, 5); // box 3 is new and waits
+    expect([space.groupOf(3), space.groupOf(1), space.isEnabled(2)]).toEqual([5, 5, frame > 0]);
+    at(1).setGroup(1, 0).setGroup(1, 0);
+    at(2)
+      .setEnabled(2, true)
+      .setEnabled(2, frame !== 1);
+    expect(space.isEnabled(2)).toBe(frame !== 1);
+  }
+  expect(() => space.setFilter(9, 1, 1)).toThrow('setFilter: there is no box 9');
+  expect(space.filterOf(9)).toBeUndefined();
+});
+
 describe.each(combinations)('%s in %d dimensions', (technique, dimensions) => {
   test('finds the wanted pairs after any sequence of calls', () => {
     for (let seed = 1; seed <= 2; seed++) {
