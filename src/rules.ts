@@ -81,8 +81,8 @@ function ruleOf(instance: KernelInstance, where: string, id: number): Float64Arr
 }
 
 /**
- * The same, without flushing the ring, which takes as long as setting 20 boxes: rules never wait there. `undefined` if
- * the box does, or if there is none.
+ * The same without flushing the ring, which would take as long as setting 20 boxes: rules never wait there. `undefined`
+ * if the box itself waits, or if there is none.
  */
 function toldRule(instance: KernelInstance, where: string, id: number): Float64Array | undefined {
   checkId(where, id);

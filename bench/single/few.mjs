@@ -4,15 +4,9 @@
 import { bundle } from '../../scripts/bundle.mjs';
 import { median, quantile } from '../harness/statistics.mjs';
 
-const { BroadPhase } = await import(await bundle('bench/library.ts', 'build/bench/library.mjs'));
+const { BroadPhase, createRandom } = await import(await bundle('bench/library.ts', 'build/bench/library.mjs'));
 const counts = process.argv.slice(2).map(Number);
 const [warmUp, rounds] = [400, 400];
-
-let state = 7;
-function random() {
-  state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
-  return state / 2 ** 32;
-}
 
 /** Each answers with a number that does not depend on the order of the boxes. */
 const queries = {
@@ -58,6 +52,7 @@ const queries = {
 
 /** Plays the frames: the boxes move by up to a tenth of their size. Returns the times of each frame, in µs. */
 function play({ ours, loop }, count, asked) {
+  const random = createRandom(7);
   const side = 2 * Math.sqrt(count);
   const things = Array.from({ length: count }, () => ({ x: random() * side, y: random() * side }));
   const space = new BroadPhase();

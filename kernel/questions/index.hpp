@@ -4,9 +4,10 @@
 // over the extents without outliers, so that one far box does not spoil it. Boxes that are off are not in it. If an
 // update knows that few boxes changed, the index is updated in place: a box that stays within the bounds of its block
 // is written there, and one that leaves them, or is new, goes to the spare blocks at the end. It leaves a hole. When
-// there is no spare place left, or many boxes changed, the next query rebuilds the index. It retains the previous order
-// while boxes in one block are still close together, and while the blocks visited since the last sort have cost less
-// than a sort. So one query per frame, among boxes that all move, does not pay for an order it hardly uses.
+// there is no spare place left, or many boxes changed, the index is rebuilt, unless queries are few and each scans all
+// boxes instead (scan.hpp). It retains the previous order while boxes in one block are still close together, and
+// while the blocks visited since the last sort have cost less than a sort. So one query per frame, among boxes that all
+// move, does not pay for an order it hardly uses.
 // Cost: about 27 (2D) or 30 (3D) ns per box to build, less than half of it with the previous order; 0.1 us for each box
 // updated in place; 28 (2D) or 38 (3D) bytes per box, and 16 or 24 more for boxes in doubles. If boxes change after the
 // update, also a copy of them, so that queries see those of the last update.

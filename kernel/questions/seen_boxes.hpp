@@ -41,7 +41,7 @@ template <class T> struct Lent {
 struct SeenArrays {
   const u32 width;
 
-  Lent<f32> boxes;  // if `rounded`: rounded outward, as far as an index needs them
+  Lent<f32> boxes;  // if `rounded`: what an index is built from; then room to round boxes outward that change
   Lent<f64> exact;
   Lent<u32> ids;
   Lent<Rule> rules;
