@@ -1,6 +1,7 @@
 // Rays, sweeps and nearest boxes: the queries whose answers are in order. All queries see the boxes of the last update;
 // the index is built at the first query after it. The other queries are in place-queries.ts and plane-queries.ts.
 import {
+  cut,
   finite,
   isNumber,
   isPlace,
@@ -165,13 +166,12 @@ export function nearest(
   const words = instance.wordView();
   const first = instance.kernel.hits_address();
   for (let n = 0; n < count; n++) out[n] = words[(first >>> 2) + 4 * n + 2]!;
-  out.length = count;
   if (distances !== undefined) {
     const doubles = instance.doubleView();
     for (let n = 0; n < count; n++) distances[n] = doubles[(first >>> 3) + 2 * n]!;
-    distances.length = count;
+    cut(distances, count);
   }
-  return out;
+  return cut(out, count);
 }
 
 /** Writes a ray, with its limit, to the io array, after the options, which follow the numbers. */
