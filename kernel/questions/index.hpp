@@ -178,6 +178,9 @@ template <int D> class Index {
     return built_ || world() || !low ? nullptr : rounded() ? nearest : seen_.boxes.at;
   }
 
+  /// Records a query that searches the index, whatever others do: after the next update, a scan would be wasted.
+  void note_search() { demand_.is_low(0, scans_per_build + 1); }
+
   /// Builds the index, if necessary. It stays the same until the next update, since answers may be read in parts.
   /// `nearest`: its boxes, rounded to the nearest, which takes less time to read than doubles; null if there are none.
   NOINLINE void build(const f32* nearest) {

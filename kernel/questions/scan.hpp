@@ -16,8 +16,8 @@ template <int D> class Scan {
   /// Makes an index of those boxes of another that can be answers. Null if building the other takes less time, or if
   /// answers may be left after `most` of those in an area: they would be read in the order of the other. `boxes`: all
   /// of them, rounded to the nearest. `hits`: has begun.
-  SMALL const Index<D>* find(const Index<D>& all, const f32* boxes, const Question<D>& asked, Search kind, u32 most,
-                             Hits& hits) {
+  SMALL Index<D>* find(const Index<D>& all, const f32* boxes, const Question<D>& asked, Search kind, u32 most,
+                       Hits& hits) {
     f64 bounds[2 * D];
     if (kind == Search::ahead) {
       asked.path(bounds);

@@ -32,12 +32,12 @@ template <int D> class Questions {
   /// Finds the boxes that touch the box or circle of the query: see Queries::area.
   SMALL u32 ask_area(u32& from, u32 most) {
     if (store_.seen.lost()) return unknown;
-    const Index<D>* searched = index_for(Search::area, most, from == 0);
+    Index<D>* searched = index_for(Search::area, most, from == 0);
     if (!searched) return 0;
     wrap();
     Queries<D> queries(*searched, asked);
     u32 found = queries.area(from, most, answers);
-    index().looked_at(queries.looks());
+    searched->looked_at(queries.looks());
     return found;
   }
 
@@ -56,14 +56,14 @@ template <int D> class Questions {
   SMALL u32 ask_order(bool moving, u32 most, const Hit* after) {
     if (store_.seen.lost()) return unknown;
     hits.begin(most, asked.limit, after);
-    const Index<D>* searched = index_for(moving ? Search::ahead : Search::near, most);
+    Index<D>* searched = index_for(moving ? Search::ahead : Search::near, most);
     if (!searched) return 0;
     wrap();
     hits.begin(most, asked.limit, after);
     Queries<D> queries(*searched, asked);
     if (moving) queries.cast(hits);
     else queries.near(hits);
-    index().looked_at(queries.looks());
+    searched->looked_at(queries.looks());
     return hits.finish();
   }
 
@@ -140,13 +140,15 @@ template <int D> class Questions {
   }
 
   /// The index to search for one query; null if it cannot have answers. `begins`: no part of them has been read before.
-  SMALL const Index<D>* index_for(Search kind, u32 most, bool begins = true) {
+  SMALL Index<D>* index_for(Search kind, u32 most, bool begins = true) {
     const f32* nearest = look();
     if (index().count() == 0) return nullptr;
     const f32* boxes = index().to_scan(nearest, kind == Search::near ? 2 : 1);
-    const Index<D>* found = boxes && begins ? scan_.find(index(), boxes, asked, kind, most, hits) : nullptr;
-    if (!found) index().build(nearest);
-    const Index<D>* searched = found ? found : &index();
+    Index<D>* searched = boxes && begins ? scan_.find(index(), boxes, asked, kind, most, hits) : nullptr;
+    if (!searched) {
+      index().build(nearest);
+      searched = &index();
+    }
     return searched->places() > 0 ? searched : nullptr;
   }
 
@@ -154,7 +156,7 @@ template <int D> class Questions {
   SMALL bool can_answer() {
     const f32* nearest = look();
     if (index().count() == 0) return false;
-    index().to_scan(nullptr, 1);
+    index().note_search();
     index().build(nearest);
     return index().places() > 0;
   }
