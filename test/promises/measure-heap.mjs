@@ -40,8 +40,8 @@ const uses = {
     space.update();
     // Often enough that the engine finds it worth compiling.
     for (let k = 0; k < 10; k++) {
-      if (space.dimensions === 2) askFlat(space);
-      else askSolid(space);
+      if (space.dimensions === 2) askFlat(space, sizes[k % 2]);
+      else askSolid(space, sizes[k % 2]);
     }
     return near.out[0];
   },
@@ -95,9 +95,11 @@ const ways = {
   3: new Float64Array([0, 0, 0, 9, 9, 9, 900, 900, 900]),
 };
 
-// What is asked, and where the answers go, is kept: only the asking is measured.
-// (An array that becomes empty gives its memory back: where there may be no answer a visitor is asked.)
-const [inBox, inCircle, near] = Array.from({ length: 3 }, () => ({ out: [] }));
+// What is asked, and where the answers go, is kept: only the asking is measured. Answers are many and few in turns, or
+// none.
+const sizes = [900, 1];
+const [inBox, inCircle, there, near] = Array.from({ length: 4 }, () => ({ out: [] }));
+const partners = [];
 const seen = { last: 0 };
 const atPoint = {
   visit: (id) => {
@@ -110,32 +112,36 @@ const view = { out: [] };
 const planes = { 2: new Float32Array([1, 0, 1, -1, 0, 900]), 3: new Float64Array([1, 0, 0, 1, -1, 0, 0, 900]) };
 const swept = { out: { id: 0, time: 0, normal: [] } };
 
-function askFlat(space) {
-  space.queryBox(0, 0, 900, 900, inBox);
+function askFlat(space, size) {
+  space.queryBox(0, 0, size, size, inBox);
+  space.queryPoint(50, 50, there);
   space.queryPoint(50, 50, atPoint);
-  space.queryCircle(50, 50, 500, inCircle);
+  space.queryCircle(50, 50, size, inCircle);
   space.nearest(50, 50, 10, near);
   space.rayCast(0, 0, 1, 1, ray);
-  space.rayCastAll(0, 0, 1, 1, rays);
+  space.rayCastAll(size, size, 1, 1, rays);
   space.setSwept(7, 0, 0, 9, 9, 900, 900);
   space.setCentred(8, 50, 50, 9, 9);
   space.sweep(0, 0, 9, 9, 900, 900, swept);
   space.queryPlanes(planes[2], view);
   space.isColliding(7, 8);
+  space.collisionsOf(7, partners);
 }
 
-function askSolid(space) {
-  space.queryBox(0, 0, 0, 900, 900, 900, inBox);
+function askSolid(space, size) {
+  space.queryBox(0, 0, 0, size, size, size, inBox);
+  space.queryPoint(50, 50, 50, there);
   space.queryPoint(50, 50, 50, atPoint);
-  space.querySphere(50, 50, 50, 500, inCircle);
+  space.querySphere(50, 50, 50, size, inCircle);
   space.nearest(50, 50, 50, 10, near);
   space.queryPlanes(planes[3], view);
   space.rayCast(0, 0, 0, 1, 1, 1, ray);
-  space.rayCastAll(0, 0, 0, 1, 1, 1, rays);
+  space.rayCastAll(size, size, size, 1, 1, 1, rays);
   space.setSwept(7, 0, 0, 0, 9, 9, 9, 900, 900, 900);
   space.setCentred(8, 50, 50, 50, 9, 9, 9);
   space.sweep(0, 0, 0, 9, 9, 9, 900, 900, 900, swept);
   space.isColliding(7, 8);
+  space.collisionsOf(7, partners);
 }
 
 function setEach(space, boxes) {
