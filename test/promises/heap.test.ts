@@ -28,7 +28,12 @@ const uses = [
 ];
 
 /** Whose answers do not depend on the technique. */
-const usesOfAuto = ['many queries in a call, with out', 'pairs with another space', 'set in three loops of a function'];
+const usesOfAuto = [
+  'many queries in a call, with out',
+  'pairs with another space',
+  'events, rules and reading back',
+  'set in three loops of a function',
+];
 
 let results: Result[] = [];
 let library: string;

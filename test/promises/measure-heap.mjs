@@ -58,6 +58,16 @@ const uses = {
     space.update();
     return space.pairsWith(level).length + level.pairsWith(space).length;
   },
+  'events, rules and reading back': (space, { objects }, frame) => {
+    const events = withEvents[space.dimensions];
+    setEach(events, objects);
+    events.setFilter(frame % count, 1 + (frame & 1), 3).setGroup(frame % count, frame & 1);
+    events.setStatic(frame % 9, (frame & 1) === 0).setReach(frame % 7, frame & 1);
+    events.setEnabled(frame % 5, (frame & 1) === 0);
+    events.update();
+    events.get(frame % count, box);
+    return events.began.length + events.ended.length + events.groupOf(frame % count);
+  },
   'set in three loops of a function': (space, { floats }) => {
     if (space.dimensions === 2) moveFlat(space, floats);
     else moveSolid(space, floats);
@@ -66,8 +76,15 @@ const uses = {
   },
 };
 
-const usesOfAuto = ['many queries in a call, with out', 'pairs with another space', 'set in three loops of a function'];
+const usesOfAuto = [
+  'many queries in a call, with out',
+  'pairs with another space',
+  'events, rules and reading back',
+  'set in three loops of a function',
+];
 
+const withEvents = { 2: new BroadPhase({ events: true }), 3: new BroadPhase({ events: true, dimensions: 3 }) };
+const box = new Float64Array(6);
 const others = { 2: { level: new BroadPhase() }, 3: { level: new BroadPhase({ dimensions: 3 }) } };
 
 const options = () => ({ boxes: {}, points: {}, circles: {}, rays: {}, ways: {}, near: {}, all: {} });
