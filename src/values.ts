@@ -24,9 +24,10 @@ export const isModule = (value: unknown): value is WebAssembly.Module => tagOf(v
 
 /**
  * Any view of bytes, or all of a buffer, as bytes. Undefined for anything else.
- * @throws TypeError if its memory was transferred or resized; `where` names the function
+ * @param where the call that got it, for errors
+ * @throws TypeError if its memory was transferred or resized
  */
-export function bytesOf(value: unknown, where = 'a recording'): Uint8Array | undefined {
+export function bytesOf(value: unknown, where: string): Uint8Array | undefined {
   try {
     if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
     if (/^(Shared)?ArrayBuffer$/.test(tagOf(value))) return new Uint8Array(value as ArrayBuffer);

@@ -22,7 +22,7 @@ export const infoCommand: Command = {
       name,
       ...[min, median, mean, p95, max].map(show),
     ];
-    const numbers = `${found.doubles ? 'doubles' : 'float32'}${found.ids ? ', with explicit ids' : ''}${found.rules ? ', with filters or static boxes' : ''}${found.wrap ? `, in a world of ${found.wrap.join(' × ')} that wraps around` : ''}${found.touching === false ? ', where boxes that only touch are no pairs' : ''}`;
+    const numbers = `${found.doubles ? 'doubles' : 'float32'}${found.ids ? ', with explicit ids' : ''}${found.rules ? ', with rules' : ''}${found.wrap ? `, in a world of ${found.wrap.join(' × ')} that wraps around` : ''}${found.touching === false ? ', where boxes that only touch are no pairs' : ''}`;
     terminal.out(`${input.operands[0]}: ${dimensions}D, ${counted(frames, 'frame')}, ${numbers}\n\n`);
     terminal.out(
       table(

@@ -3,9 +3,9 @@ import { badValue } from '../errors.ts';
 import { bytesOf } from '../values.ts';
 import { TraceError } from './format.ts';
 
-/** What a caller gave as bytes. @throws TypeError if it is anything else */
+/** What a caller gave as bytes. @throws TypeError if it is anything else, or detached */
 export const givenBytes = (where: string, given: unknown): Uint8Array =>
-  bytesOf(given) ?? badValue(where, given, 'a Uint8Array or an ArrayBuffer', true);
+  bytesOf(given, where) ?? badValue(where, given, 'a Uint8Array or an ArrayBuffer', true);
 
 export class ByteWriter {
   bytes = new Uint8Array(1024);

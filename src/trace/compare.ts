@@ -2,14 +2,14 @@
 import { BroadPhase, type TechniqueName } from 'broadphase';
 import { badNumber, checkOptions } from '../errors.ts';
 import { checkProgress, checkSource, checkTechniques, type FrameSource, worldOf } from './format.ts';
-import { begin, type ReplayOptions, spaceOptions, timeUpdate } from './replay.ts';
+import { begin, type ReplayOptions, spaceOptions, timeUpdate, withSpaces } from './replay.ts';
 import { type Summary, summarize } from './statistics.ts';
 
 /** Options of {@link compare}, including those of the spaces to compare. */
 export interface CompareOptions extends Omit<ReplayOptions, 'technique'> {
   /** Which techniques. Default: all of {@link BroadPhase.techniques}. */
   techniques?: readonly TechniqueName[] | undefined;
-  /** How often the frames are run; each frame counts with its fastest time. Default 3. */
+  /** How many times the frames are run, from 1 on; each frame counts with its fastest time. Default 3. */
   passes?: number | undefined;
   /** Called after each frame of each pass. */
   progress?: ((done: number, total: number) => void) | undefined;
@@ -23,9 +23,9 @@ export interface Compared {
   times: number[];
   /** The summary of the times. */
   ms: Summary;
-  /** Tests of one box against another, on average. */
+  /** Tests of one box against another in a frame, on average. */
   tests: number;
-  /** The most memory in use. */
+  /** The most memory in use, in bytes. */
   bytes: number;
   /** The technique that ran: with `auto`, the one it chose. */
   ran: TechniqueName[];
@@ -55,9 +55,22 @@ export function compare(source: FrameSource, options: CompareOptions = {}): Comp
   checkTechniques('compare', techniques);
   if (!(Number.isInteger(passes) && passes > 0)) badNumber('compare: passes', passes, 'an integer, 1 or more');
   checkProgress('compare', progress);
-  const contenders = techniques.map((technique) => ({
+  const { dimensions } = source;
+  const each = techniques.map((technique) => ({ ...worldOf(source, settings), technique, dimensions }));
+  return withSpaces(each, (spaces) => race(source, techniques, spaces, passes, progress));
+}
+
+/** Runs the frames in the space of each technique, `passes` times. */
+function race(
+  source: FrameSource,
+  techniques: readonly TechniqueName[],
+  spaces: readonly BroadPhase<2 | 3>[],
+  passes: number,
+  progress: CompareOptions['progress'],
+): Compared[] {
+  const contenders = techniques.map((technique, k) => ({
     technique,
-    space: new BroadPhase({ ...worldOf(source, settings), technique, dimensions: source.dimensions }),
+    space: spaces[k],
     times: [] as number[],
     tests: 0,
     bytes: 0,
@@ -83,19 +96,15 @@ export function compare(source: FrameSource, options: CompareOptions = {}): Comp
       progress?.(pass * source.frames + frame.index + 1, passes * source.frames);
     }
   }
-  return contenders.map(({ technique, space, times, tests, bytes, ran, disagrees }) => {
-    space.dispose();
-    const frames = Math.max(1, source.frames);
-    return {
-      technique,
-      times,
-      ms: summarize(times.length > 1 ? times.slice(1) : times),
-      tests: tests / frames,
-      bytes,
-      ran: [...ran],
-      disagrees,
-    };
-  });
+  return contenders.map(({ technique, times, tests, bytes, ran, disagrees }) => ({
+    technique,
+    times,
+    ms: summarize(times.length > 1 ? times.slice(1) : times),
+    tests: tests / Math.max(1, source.frames),
+    bytes,
+    ran: [...ran],
+    disagrees,
+  }));
 }
 
 /** A hash of the pairs that does not depend on their order. */

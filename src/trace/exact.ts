@@ -7,9 +7,9 @@ import { checkBoxes, checkLength, marks } from './format.ts';
 const idLimit = 2 ** 24;
 
 /**
- * The pairs of closed boxes that overlap and may meet. Box k has the id `ids[k]`, or k; `rules` are those of {@link
- * Frame.rules}, `own` has its groups and reaches, and says whether boxes that only touch are pairs. In a world that
- * wraps around, all pairs of boxes are compared.
+ * The pairs of boxes that overlap and may meet. Box k has the id `ids[k]`, or k; `rules` are those of {@link
+ * Frame.rules}. `own` has the groups and reaches of the boxes, and says whether boxes that only touch are pairs, which is
+ * true by default. In a world that wraps around, all pairs of boxes are compared.
  *
  * @param given minima then maxima, box after box
  * @throws RangeError for dimensions other than 2 and 3, for a box with NaN or a minimum above its maximum, for a bad size

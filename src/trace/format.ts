@@ -79,7 +79,8 @@ export interface Frame extends Own, World {
   /** The id of each box, all different; `undefined` if they are 0 … count - 1. */
   readonly ids: Uint32Array | undefined;
   /**
-   * Layer, mask, and flags of each box: 1 if it is static, plus 2 if it is off. Absent if no box has a rule.
+   * Layer, mask, and marks of each box: 1 if it is static, plus 2 if it is off. Absent if no box is static or off, or has
+   * a filter.
    */
   readonly rules?: Uint32Array | undefined;
   /** Minima then maxima of each box: as float32 if that represents all of them exactly. */

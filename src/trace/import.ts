@@ -191,7 +191,7 @@ export function exportRecording(source: FrameSource): Uint8Array<ArrayBuffer> {
     if (frame.count !== count) throw new RangeError(`${where} it has ${frame.count} boxes, the first had ${count}`);
     if (frame.ids) throw new RangeError(`${where} its boxes have ids of their own`);
     if (frame.rules || frame.groups || frame.reaches)
-      throw new RangeError(`${where} some of its boxes are static, or have filters, groups or reaches`);
+      throw new RangeError(`${where} some of its boxes are static or off, or have filters, groups or reaches`);
     if (isFloat64Array(frame.boxes)) throw new RangeError(`${where} its numbers are doubles`);
     const { buffer, byteOffset, byteLength } = frame.boxes;
     all.set(new Uint8Array(buffer, byteOffset, byteLength), rawHeaderBytes + frame.index * byteLength);

@@ -18,7 +18,7 @@ export const rawHeaderBytes = 16;
 
 /** Reads a recording from its bytes, gunzipped; with `salvage` the whole frames of one of another length. */
 export function readRecording(bytes: ArrayBuffer | Uint8Array, salvage = false): RawRecording {
-  const source = bytesOf(bytes) ?? new Uint8Array();
+  const source = bytesOf(bytes, 'readRecording') ?? new Uint8Array();
   if (source.byteLength < rawHeaderBytes) {
     throw new RangeError(
       `Not a recording: ${source.byteLength} bytes, fewer than the ${rawHeaderBytes} of the header.`,

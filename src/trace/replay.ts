@@ -178,21 +178,38 @@ export function* replay(source: FrameSource, options: ReplayOptions = {}, verify
   const { dimensions } = source;
   const world = worldOf(source, options);
   const space = new BroadPhase({ ...world, dimensions });
-  for (const frame of source) {
-    if (frame.index === 0) begin(space, frame, true);
-    const ms = timeUpdate(space, frame);
-    const { technique, tests, candidates, pairs, cells, entries, bytes } = space.stats;
-    const { index, count: boxes, changed } = frame;
-    const result = { index, boxes, changed, ms, technique, tests, candidates, pairs, cells, entries, bytes };
-    if (!verify) {
-      yield result;
-      continue;
+  try {
+    for (const frame of source) {
+      if (frame.index === 0) begin(space, frame, true);
+      const ms = timeUpdate(space, frame);
+      const { technique, tests, candidates, pairs, cells, entries, bytes } = space.stats;
+      const { index, count: boxes, changed } = frame;
+      const result = { index, boxes, changed, ms, technique, tests, candidates, pairs, cells, entries, bytes };
+      if (!verify) {
+        yield result;
+        continue;
+      }
+      const own = { ...frame, touching: world.touching };
+      const expected = exactPairs(frame.boxes, dimensions, frame.ids, frame.rules, world.wrap, own);
+      yield { ...result, difference: differenceOf(pairKeys(space.pairs), expected) ?? null };
     }
-    const own = { ...frame, touching: world.touching };
-    const expected = exactPairs(frame.boxes, dimensions, frame.ids, frame.rules, world.wrap, own);
-    yield { ...result, difference: differenceOf(pairKeys(space.pairs), expected) ?? null };
+  } finally {
+    space.dispose();
   }
-  space.dispose();
+}
+
+/** Runs with a space for each of the options. All are disposed of, however it ends: a page holds about 100. */
+export function withSpaces<Result>(
+  options: readonly BroadPhaseOptions<2 | 3>[],
+  run: (spaces: readonly BroadPhase<2 | 3>[]) => Result,
+): Result {
+  const spaces: BroadPhase<2 | 3>[] = [];
+  try {
+    for (const each of options) spaces.push(new BroadPhase(each as { dimensions: 2 | 3 }));
+    return run(spaces);
+  } finally {
+    for (const space of spaces) space.dispose();
+  }
 }
 
 /**

@@ -1,9 +1,9 @@
 // What is in a trace: how many boxes, how large, how dense, how many move, how many pairs.
 
-import { BroadPhase } from 'broadphase';
+import type { BroadPhase } from 'broadphase';
 import { isFloat64Array } from '../values.ts';
 import { checkProgress, checkSource, type Frame, type FrameSource, worldOf } from './format.ts';
-import { applyFrame } from './replay.ts';
+import { applyFrame, withSpaces } from './replay.ts';
 import { type Bin, doublingHistogram, type Summary, summarize } from './statistics.ts';
 
 /** The contents of a trace: see {@link survey}. Sizes are in the units of the boxes. */
@@ -14,7 +14,7 @@ export interface Survey {
   frames: number;
   /** Whether any box has an id other than its place. */
   ids: boolean;
-  /** Whether any box is static or has a filter. */
+  /** Whether any box has a rule: a filter, a group or a reach, or is static or off. */
   rules: boolean;
   /** The size of the world along each axis, if it wraps around. */
   wrap?: readonly number[] | undefined;
@@ -58,9 +58,13 @@ export interface Survey {
 export function survey(source: FrameSource, progress?: (done: number, total: number) => void): Survey {
   checkSource('survey', source);
   checkProgress('survey', progress);
+  const options = { ...worldOf(source), dimensions: source.dimensions };
+  return withSpaces([options], ([space]) => surveyWith(space, source, progress));
+}
+
+function surveyWith(space: BroadPhase<2 | 3>, source: FrameSource, progress: Parameters<typeof survey>[1]): Survey {
   const { dimensions } = source;
   const middle = source.frames >> 1;
-  const space = new BroadPhase({ ...worldOf(source), dimensions });
   const counts: number[] = [];
   const pairs: number[] = [];
   const moving: number[] = [];
@@ -76,7 +80,7 @@ export function survey(source: FrameSource, progress?: (done: number, total: num
     pairs.push(space.pairCount);
     if (frame.index > 0) moving.push(frame.count === 0 ? 0 : frame.changed / frame.count);
     ids ||= frame.ids !== undefined;
-    rules ||= frame.rules !== undefined;
+    rules ||= (frame.rules ?? frame.groups ?? frame.reaches) !== undefined;
     doubles ||= isFloat64Array(frame.boxes);
     if (frame.index === middle) {
       shape = shapeOf(frame, dimensions);
@@ -84,7 +88,6 @@ export function survey(source: FrameSource, progress?: (done: number, total: num
     }
     progress?.(frame.index + 1, source.frames);
   }
-  space.dispose();
   shape ??= shapeOf({ boxes: new Float32Array() }, dimensions);
   return {
     dimensions,

@@ -8,7 +8,7 @@ import { BroadPhase, type TechniqueName } from 'broadphase';
 import { badNumber, checkBoolean, checkOptions, isSize } from '../errors.ts';
 import type { World } from '../watch.ts';
 import { checkProgress, checkSource, checkTechniques, type Frame, type FrameSource, worldOf } from './format.ts';
-import { applyFrame, begin, timeUpdate } from './replay.ts';
+import { applyFrame, begin, timeUpdate, withSpaces } from './replay.ts';
 import { percentile, type Summary, summarize } from './statistics.ts';
 import { longestSides } from './survey.ts';
 
@@ -144,8 +144,8 @@ const mostPasses = 25;
 const worthwhile = 1.03;
 export const timesNoise = 2;
 /**
- * Milliseconds per frame: a smaller gain does not justify an option; nor, below 1/160 of a frame at 60 Hz, loading
- * 'broadphase/all'.
+ * Milliseconds per frame: a gain below the first does not justify an option, nor one below the second, 0.6 % of a frame
+ * at 60 Hz, loading 'broadphase/all'.
  */
 const worthAnOption = 0.01;
 const worthLoading = 0.1;
@@ -311,7 +311,10 @@ function counted<T>(frames: readonly Frame[], values: readonly T[]): T[] {
  * noise. Frames differ, and a frame cannot be timed again on its own, so only their sum counts.
  */
 function measure(candidate: Candidate, dimensions: 2 | 3, frames: readonly Frame[], limit: number): number {
-  const space = new BroadPhase({ ...worldOf(frames[0]), ...candidate, dimensions });
+  return withSpaces([optionsOf(candidate, dimensions, frames)], ([space]) => measureIn(space, frames, limit));
+}
+
+function measureIn(space: BroadPhase<2 | 3>, frames: readonly Frame[], limit: number): number {
   const times: number[] = [];
   const { least, most } = screenPasses;
   const allowed = limit * counted(frames, [...frames.keys()]).length;
@@ -327,10 +330,16 @@ function measure(candidate: Candidate, dimensions: 2 | 3, frames: readonly Frame
     }
     if (spent > allowed) strikes++;
   }
-  space.dispose();
   const mean = meanOf(counted(frames, times));
   return strikes < 2 ? mean : Math.max(limit, mean);
 }
+
+/** The options of a space for a candidate, in the world of the frames. */
+const optionsOf = (candidate: Candidate, dimensions: 2 | 3, [first]: readonly Frame[]) => ({
+  ...worldOf(first),
+  ...candidate,
+  dimensions,
+});
 
 const meanOf = (times: readonly number[]) => times.reduce((sum, ms) => sum + ms, 0) / times.length;
 
@@ -342,22 +351,20 @@ export function heeds(
   frames: readonly Frame[],
 ): boolean {
   const typical = typicalSide(frames[0], dimensions);
-  const counters = [1, 8].map((factor) => {
-    const space = new BroadPhase({
-      ...worldOf(frames[0]),
-      ...candidate,
-      dimensions,
-      [parameter]: rounded(factor * typical),
-    });
-    const counted = frames.map((frame) => {
-      applyFrame(space, frame);
-      const { tests, cells, entries } = space.update().stats;
-      return `${tests} ${cells} ${entries}`;
-    });
-    space.dispose();
-    return counted.join();
-  });
-  return counters[0] !== counters[1];
+  const two = [1, 8].map((factor) => ({
+    ...optionsOf(candidate, dimensions, frames),
+    [parameter]: rounded(factor * typical),
+  }));
+  return withSpaces(two, (spaces) =>
+    frames.some((frame) => {
+      const [one, other] = spaces.map((space) => {
+        applyFrame(space, frame);
+        const { tests, cells, entries } = space.update().stats;
+        return `${tests} ${cells} ${entries}`;
+      });
+      return one !== other;
+    }),
+  );
 }
 
 /** The median of the boxes' longest sides. */
@@ -404,11 +411,18 @@ function runFinal(
   seconds: number,
   progress: (done: number) => void,
 ): { candidate: Candidate; measured: Measured }[] {
-  const runs = candidates.map((candidate) => ({
-    candidate,
-    space: new BroadPhase({ ...worldOf(frames[0]), ...candidate, dimensions }),
-    times: [] as number[],
-  }));
+  const each = candidates.map((candidate) => optionsOf(candidate, dimensions, frames));
+  return withSpaces(each, (spaces) => runIn(spaces, candidates, frames, seconds, progress));
+}
+
+function runIn(
+  spaces: readonly BroadPhase<2 | 3>[],
+  candidates: readonly Candidate[],
+  frames: readonly Frame[],
+  seconds: number,
+  progress: (done: number) => void,
+): { candidate: Candidate; measured: Measured }[] {
+  const runs = candidates.map((candidate, k) => ({ candidate, space: spaces[k], times: [] as number[] }));
   const started = performance.now();
   for (let pass = 0; pass < mostPasses; pass++) {
     const spent = (performance.now() - started) / 1000 / seconds;
@@ -423,8 +437,7 @@ function runFinal(
     }
   }
   return runs
-    .map(({ candidate, space, times }) => {
-      space.dispose();
+    .map(({ candidate, times }) => {
       const those = counted(frames, times);
       return { candidate, measured: { ...candidate, times: those, ms: summarize(those) } };
     })
@@ -432,11 +445,13 @@ function runFinal(
 }
 
 function describeFrames(frames: readonly Frame[], dimensions: 2 | 3): Tuned['frames'] {
-  const space = new BroadPhase({ ...worldOf(frames[0]), dimensions });
-  return frames.map((frame) => {
-    timeUpdate(space, frame);
-    return { index: frame.index, boxes: frame.count, changed: frame.changed, pairs: space.pairCount };
-  });
+  return withSpaces([optionsOf({ technique: 'auto' }, dimensions, frames)], ([space]) =>
+    frames.map((frame) => {
+      applyFrame(space, frame);
+      const pairs = space.update().pairCount;
+      return { index: frame.index, boxes: frame.count, changed: frame.changed, pairs };
+    }),
+  );
 }
 
 /** The techniques of `import 'broadphase'`; for others, the code to paste imports from 'broadphase/all'. */
