@@ -1,4 +1,4 @@
-// A growing buffer to write bytes to, and a cursor that reads bytes within their bounds.
+// Bytes that a caller gave, pieces put together, a growing buffer to write to, and a cursor that reads within bounds.
 import { badValue } from '../errors.ts';
 import { bytesOf } from '../values.ts';
 import { TraceError } from './format.ts';
@@ -6,6 +6,17 @@ import { TraceError } from './format.ts';
 /** What a caller gave as bytes. @throws TypeError if it is anything else, or detached */
 export const givenBytes = (where: string, given: unknown): Uint8Array =>
   bytesOf(given, where) ?? badValue(where, given, 'a Uint8Array or an ArrayBuffer', true);
+
+/** All pieces, one after the other. */
+export function joined(pieces: readonly Uint8Array[]): Uint8Array<ArrayBuffer> {
+  const all = new Uint8Array(pieces.reduce((sum, piece) => sum + piece.length, 0));
+  let at = 0;
+  for (const piece of pieces) {
+    all.set(piece, at);
+    at += piece.length;
+  }
+  return all;
+}
 
 export class ByteWriter {
   bytes = new Uint8Array(1024);

@@ -57,54 +57,45 @@ export function compare(source: FrameSource, options: CompareOptions = {}): Comp
   checkProgress('compare', progress);
   const { dimensions } = source;
   const each = techniques.map((technique) => ({ ...worldOf(source, settings), technique, dimensions }));
-  return withSpaces(each, (spaces) => race(source, techniques, spaces, passes, progress));
-}
-
-/** Runs the frames in the space of each technique, `passes` times. */
-function race(
-  source: FrameSource,
-  techniques: readonly TechniqueName[],
-  spaces: readonly BroadPhase<2 | 3>[],
-  passes: number,
-  progress: CompareOptions['progress'],
-): Compared[] {
-  const contenders = techniques.map((technique, k) => ({
-    technique,
-    space: spaces[k],
-    times: [] as number[],
-    tests: 0,
-    bytes: 0,
-    ran: new Set<TechniqueName>(),
-    disagrees: null as number | null,
-  }));
-  for (let pass = 0; pass < passes; pass++) {
-    for (const frame of source) {
-      let expected: number | undefined;
-      for (const contender of contenders) {
-        const { space, times } = contender;
-        if (frame.index === 0) begin(space, frame, pass === 0);
-        const ms = timeUpdate(space, frame);
-        times[frame.index] = pass === 0 ? ms : Math.min(ms, times[frame.index]);
-        if (pass > 0) continue;
-        contender.tests += space.stats.tests;
-        contender.bytes = Math.max(contender.bytes, space.stats.bytes);
-        contender.ran.add(space.stats.technique);
-        const digest = pairsDigest(space.pairs);
-        expected ??= digest;
-        if (digest !== expected) contender.disagrees ??= frame.index;
+  return withSpaces(each, (spaces) => {
+    const contenders = techniques.map((technique, k) => ({
+      technique,
+      space: spaces[k],
+      times: [] as number[],
+      tests: 0,
+      bytes: 0,
+      ran: new Set<TechniqueName>(),
+      disagrees: null as number | null,
+    }));
+    for (let pass = 0; pass < passes; pass++) {
+      for (const frame of source) {
+        let expected: number | undefined;
+        for (const contender of contenders) {
+          const { space, times } = contender;
+          if (frame.index === 0) begin(space, frame, pass === 0);
+          const ms = timeUpdate(space, frame);
+          times[frame.index] = pass === 0 ? ms : Math.min(ms, times[frame.index]);
+          if (pass > 0) continue;
+          contender.tests += space.stats.tests;
+          contender.bytes = Math.max(contender.bytes, space.stats.bytes);
+          contender.ran.add(space.stats.technique);
+          const digest = pairsDigest(space.pairs);
+          expected ??= digest;
+          if (digest !== expected) contender.disagrees ??= frame.index;
+        }
+        progress?.(pass * source.frames + frame.index + 1, passes * source.frames);
       }
-      progress?.(pass * source.frames + frame.index + 1, passes * source.frames);
     }
-  }
-  return contenders.map(({ technique, times, tests, bytes, ran, disagrees }) => ({
-    technique,
-    times,
-    ms: summarize(times.length > 1 ? times.slice(1) : times),
-    tests: tests / Math.max(1, source.frames),
-    bytes,
-    ran: [...ran],
-    disagrees,
-  }));
+    return contenders.map(({ technique, times, tests, bytes, ran, disagrees }) => ({
+      technique,
+      times,
+      ms: summarize(times.length > 1 ? times.slice(1) : times),
+      tests: tests / Math.max(1, source.frames),
+      bytes,
+      ran: [...ran],
+      disagrees,
+    }));
+  });
 }
 
 /** A hash of the pairs that does not depend on their order. */

@@ -4,7 +4,7 @@
 import { Cursor } from './bytes.ts';
 import { doublesFlag, type Frame, frameKind, marks, maxBoxes, ruleBits, rulesFlag, worldBits } from './format.ts';
 import { predict, takeDistance } from './numbers.ts';
-import { all, grown, IdSet, TraceState } from './state.ts';
+import { all, grown, IdSet, isRuled, TraceState } from './state.ts';
 
 export class FrameDecoder {
   readonly #state: TraceState;
@@ -120,7 +120,7 @@ export class FrameDecoder {
   /** Adjusts the counts of rules, groups and reaches. */
   #countRule(place: number, more: 1 | -1): void {
     const { rules, groups, reaches } = this.#state;
-    if (isOwn(rules, place)) this.#ruled += more;
+    if (isRuled(rules, place)) this.#ruled += more;
     if (groups[place] !== 0) this.#grouped += more;
     if (reaches[place] !== 0) this.#reaching += more;
   }
@@ -238,10 +238,6 @@ export class FrameDecoder {
     if (cursor.left > 0) cursor.fail(`${cursor.left} bytes too many in the frame`);
   }
 }
-
-/** Whether the box at this place has a rule. */
-const isOwn = (rules: Uint32Array, place: number): boolean =>
-  rules[3 * place] !== all || rules[3 * place + 1] !== all || rules[3 * place + 2] !== 0;
 
 const knownBits = ruleBits.still | ruleBits.filter | ruleBits.off | ruleBits.group | ruleBits.reach;
 

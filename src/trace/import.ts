@@ -2,7 +2,7 @@
 
 import { badNumber, isSize } from '../errors.ts';
 import { isFloat64Array } from '../values.ts';
-import { givenBytes, uint32At } from './bytes.ts';
+import { givenBytes, joined, uint32At } from './bytes.ts';
 import { checkSource, type Frame, type FrameSource, firstBad, maxBoxes, TraceError } from './format.ts';
 import { type RawRecording, rawHeaderBytes, rawMagic, readRecording } from './raw.ts';
 import { isSalvage, type OpenOptions, openTrace } from './reader.ts';
@@ -54,13 +54,7 @@ async function collect(unpacked: ReadableStream<Uint8Array>, most: number): Prom
       throw new TraceError(`unpacked, it exceeds the limit of ${most} bytes`, -1, length);
     }
   }
-  const plain = new Uint8Array(length);
-  let at = 0;
-  for (const piece of pieces) {
-    plain.set(piece, at);
-    at += piece.length;
-  }
-  return { plain, fault };
+  return { plain: joined(pieces), fault };
 }
 
 /** Bytes that are unpacked at once. */
@@ -71,7 +65,7 @@ const pieceBytes = 2 ** 14;
  * more is given: nothing is lost of a file that was cut off, and at most a piece before a place that is damaged.
  * Not by a Blob, since those of jsdom give no stream; and pieces are copies, as shared memory is refused in browsers.
  */
-function unpack(bytes: Uint8Array, most = maxUnpackedBytes, salvage = false): Promise<Unpacked> {
+function unpack(bytes: Uint8Array, most: number, salvage = false): Promise<Unpacked> {
   const { readable, writable } = new DecompressionStream('gzip');
   const writer = writable.getWriter();
   const give = async () => {
@@ -158,7 +152,7 @@ export async function openAny(bytes: Uint8Array | ArrayBuffer, options?: OpenOpt
   const given = givenBytes('openAny', bytes);
   if (given[0] !== 0x1f || given[1] !== 0x8b) return openPlain(given, options);
   if (!options?.salvage) return openPlain(await gunzip(given), options);
-  const { plain, fault } = await unpack(given, undefined, true);
+  const { plain, fault } = await unpack(given, maxUnpackedBytes, true);
   const source = openPlain(plain, options);
   // A trace has checksums of its own; a raw recording has none but that of gzip.
   return fault && !source.fault && isRecording(plain) ? { ...source, fault } : source;

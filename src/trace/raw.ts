@@ -1,7 +1,6 @@
 // The raw layout, which physics engines write easily: a header of four little-endian int32 [magic, dimensions, boxes,
 // frames] and then float32, for each frame, for each box, the minima then the maxima, which is the order
 // `BroadPhase.setAll` takes. Reading copies nothing (one copy when the bytes do not lie on a multiple of 4).
-import { bytesOf } from '../values.ts';
 
 export interface RawRecording {
   readonly dimensions: 2 | 3;
@@ -17,8 +16,7 @@ export const rawMagic = 0x424f5841;
 export const rawHeaderBytes = 16;
 
 /** Reads a recording from its bytes, gunzipped; with `salvage` the whole frames of one of another length. */
-export function readRecording(bytes: ArrayBuffer | Uint8Array, salvage = false): RawRecording {
-  const source = bytesOf(bytes, 'readRecording') ?? new Uint8Array();
+export function readRecording(source: Uint8Array, salvage = false): RawRecording {
   if (source.byteLength < rawHeaderBytes) {
     throw new RangeError(
       `Not a recording: ${source.byteLength} bytes, fewer than the ${rawHeaderBytes} of the header.`,

@@ -4,6 +4,7 @@
 import type { BroadPhase } from 'broadphase';
 import { badValue, checkOptions } from '../errors.ts';
 import { checkSpace, type Watcher, watch } from '../watch.ts';
+import { joined } from './bytes.ts';
 import { TraceWriter } from './writer.ts';
 
 /** The parts of a Node stream that a recording uses. */
@@ -104,14 +105,7 @@ export class Recording {
   bytes(): Uint8Array<ArrayBuffer> {
     const { kept } = this.#sink;
     if (!kept) throw new Error('bytes: this recording went to its stream and was not kept');
-    const pieces = this.#stopped ? kept : [...kept, this.#writer.end()];
-    const all = new Uint8Array(pieces.reduce((sum, piece) => sum + piece.length, 0));
-    let at = 0;
-    for (const piece of pieces) {
-      all.set(piece, at);
-      at += piece.length;
-    }
-    return all;
+    return joined(this.#stopped ? kept : [...kept, this.#writer.end()]);
   }
 
   /**

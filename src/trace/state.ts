@@ -3,6 +3,10 @@
 /** The layer and the mask of a box that has no filter. */
 export const all = 0xffffffff;
 
+/** Whether the box at this place has a filter, or is static or off. */
+export const isRuled = (rules: Uint32Array, place: number): boolean =>
+  rules[3 * place] !== all || rules[3 * place + 1] !== all || rules[3 * place + 2] !== 0;
+
 export class TraceState {
   readonly width: number;
   count = 0;
@@ -75,9 +79,8 @@ export class TraceState {
   lookAtRules(): void {
     if (!this.#keepsRules) return;
     const { rules, groups, reaches, count } = this;
-    let own = false;
-    for (let k = 0; k < 3 * count && !own; k += 3) own = rules[k] !== all || rules[k + 1] !== all || rules[k + 2] !== 0;
-    this.ruled = own;
+    this.ruled = false;
+    for (let place = 0; place < count && !this.ruled; place++) this.ruled = isRuled(rules, place);
     if (this.grouped) this.grouped = groups.subarray(0, count).some((group) => group !== 0);
     if (this.reaching) this.reaching = reaches.subarray(0, count).some((reach) => reach !== 0);
   }

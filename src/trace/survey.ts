@@ -1,6 +1,5 @@
 // What is in a trace: how many boxes, how large, how dense, how many move, how many pairs.
 
-import type { BroadPhase } from 'broadphase';
 import { isFloat64Array } from '../values.ts';
 import { checkProgress, checkSource, type Frame, type FrameSource, worldOf } from './format.ts';
 import { applyFrame, withSpaces } from './replay.ts';
@@ -58,52 +57,50 @@ export interface Survey {
 export function survey(source: FrameSource, progress?: (done: number, total: number) => void): Survey {
   checkSource('survey', source);
   checkProgress('survey', progress);
-  const options = { ...worldOf(source), dimensions: source.dimensions };
-  return withSpaces([options], ([space]) => surveyWith(space, source, progress));
-}
-
-function surveyWith(space: BroadPhase<2 | 3>, source: FrameSource, progress: Parameters<typeof survey>[1]): Survey {
   const { dimensions } = source;
-  const middle = source.frames >> 1;
-  const counts: number[] = [];
-  const pairs: number[] = [];
-  const moving: number[] = [];
-  let ids = false;
-  let rules = false;
-  let doubles = false;
-  let shape: ReturnType<typeof shapeOf> | undefined;
-  let overlaps: Bin[] = [];
-  for (const frame of source) {
-    applyFrame(space, frame);
-    space.update();
-    counts.push(frame.count);
-    pairs.push(space.pairCount);
-    if (frame.index > 0) moving.push(frame.count === 0 ? 0 : frame.changed / frame.count);
-    ids ||= frame.ids !== undefined;
-    rules ||= (frame.rules ?? frame.groups ?? frame.reaches) !== undefined;
-    doubles ||= isFloat64Array(frame.boxes);
-    if (frame.index === middle) {
-      shape = shapeOf(frame, dimensions);
-      overlaps = doublingHistogram(overlapsOf(frame, space.pairs));
+  const options = { ...worldOf(source), dimensions };
+  return withSpaces([options], ([space]) => {
+    const middle = source.frames >> 1;
+    const counts: number[] = [];
+    const pairs: number[] = [];
+    const moving: number[] = [];
+    let ids = false;
+    let rules = false;
+    let doubles = false;
+    let shape: ReturnType<typeof shapeOf> | undefined;
+    let overlaps: Bin[] = [];
+    for (const frame of source) {
+      applyFrame(space, frame);
+      space.update();
+      counts.push(frame.count);
+      pairs.push(space.pairCount);
+      if (frame.index > 0) moving.push(frame.count === 0 ? 0 : frame.changed / frame.count);
+      ids ||= frame.ids !== undefined;
+      rules ||= (frame.rules ?? frame.groups ?? frame.reaches) !== undefined;
+      doubles ||= isFloat64Array(frame.boxes);
+      if (frame.index === middle) {
+        shape = shapeOf(frame, dimensions);
+        overlaps = doublingHistogram(overlapsOf(frame, space.pairs));
+      }
+      progress?.(frame.index + 1, source.frames);
     }
-    progress?.(frame.index + 1, source.frames);
-  }
-  shape ??= shapeOf({ boxes: new Float32Array() }, dimensions);
-  return {
-    dimensions,
-    frames: source.frames,
-    ids,
-    rules,
-    ...worldOf(source),
-    doubles,
-    boxes: summarize(counts),
-    pairs: summarize(pairs),
-    moving: summarize(moving),
-    sides: shape.sides,
-    world: shape.world,
-    density: shape.density,
-    histograms: { side: shape.histogram, overlaps },
-  };
+    shape ??= shapeOf({ boxes: new Float32Array() }, dimensions);
+    return {
+      dimensions,
+      frames: source.frames,
+      ids,
+      rules,
+      ...worldOf(source),
+      doubles,
+      boxes: summarize(counts),
+      pairs: summarize(pairs),
+      moving: summarize(moving),
+      sides: shape.sides,
+      world: shape.world,
+      density: shape.density,
+      histograms: { side: shape.histogram, overlaps },
+    };
+  });
 }
 
 /** The longest side of each box. */

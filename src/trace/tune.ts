@@ -230,7 +230,7 @@ function screenAll(
     // Each parameter is searched with the best of those before it.
     let found: Candidate = { technique };
     for (const { parameter, least, most } of searched) {
-      if (!heeds(found, parameter, dimensions, few)) continue;
+      if (!usesParameter(found, parameter, dimensions, few)) continue;
       const begun = screened.length;
       const at = (steps: number) => screen({ ...found, [parameter]: rounded(typical * 2 ** (steps / 4)) });
       if (exhaustive) for (let steps = least; steps <= most; steps++) at(steps);
@@ -311,27 +311,29 @@ function counted<T>(frames: readonly Frame[], values: readonly T[]): T[] {
  * noise. Frames differ, and a frame cannot be timed again on its own, so only their sum counts.
  */
 function measure(candidate: Candidate, dimensions: 2 | 3, frames: readonly Frame[], limit: number): number {
-  return withSpaces([optionsOf(candidate, dimensions, frames)], ([space]) => measureIn(space, frames, limit));
-}
-
-function measureIn(space: BroadPhase<2 | 3>, frames: readonly Frame[], limit: number): number {
-  const times: number[] = [];
-  const { least, most } = screenPasses;
-  const allowed = limit * counted(frames, [...frames.keys()]).length;
-  const started = performance.now();
-  let strikes = 0;
-  for (let pass = 0; pass < most && (pass < least || performance.now() - started < screenTime) && strikes < 2; pass++) {
-    let spent = 0;
-    for (let k = 0; k < frames.length && spent <= allowed; k++) {
-      if (k === 0) begin(space, frames[0], pass === 0);
-      const ms = timeUpdate(space, frames[k]);
-      if (!leads(frames, k)) spent += ms;
-      times[k] = Math.min(ms, times[k] ?? Infinity);
+  return withSpaces([optionsOf(candidate, dimensions, frames)], ([space]) => {
+    const times: number[] = [];
+    const { least, most } = screenPasses;
+    const allowed = limit * counted(frames, [...frames.keys()]).length;
+    const started = performance.now();
+    let strikes = 0;
+    for (
+      let pass = 0;
+      pass < most && (pass < least || performance.now() - started < screenTime) && strikes < 2;
+      pass++
+    ) {
+      let spent = 0;
+      for (let k = 0; k < frames.length && spent <= allowed; k++) {
+        if (k === 0) begin(space, frames[0], pass === 0);
+        const ms = timeUpdate(space, frames[k]);
+        if (!leads(frames, k)) spent += ms;
+        times[k] = Math.min(ms, times[k] ?? Infinity);
+      }
+      if (spent > allowed) strikes++;
     }
-    if (spent > allowed) strikes++;
-  }
-  const mean = meanOf(counted(frames, times));
-  return strikes < 2 ? mean : Math.max(limit, mean);
+    const mean = meanOf(counted(frames, times));
+    return strikes < 2 ? mean : Math.max(limit, mean);
+  });
 }
 
 /** The options of a space for a candidate, in the world of the frames. */
@@ -344,17 +346,14 @@ const optionsOf = (candidate: Candidate, dimensions: 2 | 3, [first]: readonly Fr
 const meanOf = (times: readonly number[]) => times.reduce((sum, ms) => sum + ms, 0) / times.length;
 
 /** Whether another value of a parameter changes the technique's counters, on some frames. */
-export function heeds(
+export function usesParameter(
   candidate: Candidate,
   parameter: Parameter,
   dimensions: 2 | 3,
   frames: readonly Frame[],
 ): boolean {
-  const typical = typicalSide(frames[0], dimensions);
-  const two = [1, 8].map((factor) => ({
-    ...optionsOf(candidate, dimensions, frames),
-    [parameter]: rounded(factor * typical),
-  }));
+  const options = optionsOf(candidate, dimensions, frames);
+  const two = [1, 8].map((sides) => ({ ...options, [parameter]: rounded(sides * typicalSide(frames[0], dimensions)) }));
   return withSpaces(two, (spaces) =>
     frames.some((frame) => {
       const [one, other] = spaces.map((space) => {
@@ -412,36 +411,28 @@ function runFinal(
   progress: (done: number) => void,
 ): { candidate: Candidate; measured: Measured }[] {
   const each = candidates.map((candidate) => optionsOf(candidate, dimensions, frames));
-  return withSpaces(each, (spaces) => runIn(spaces, candidates, frames, seconds, progress));
-}
-
-function runIn(
-  spaces: readonly BroadPhase<2 | 3>[],
-  candidates: readonly Candidate[],
-  frames: readonly Frame[],
-  seconds: number,
-  progress: (done: number) => void,
-): { candidate: Candidate; measured: Measured }[] {
-  const runs = candidates.map((candidate, k) => ({ candidate, space: spaces[k], times: [] as number[] }));
-  const started = performance.now();
-  for (let pass = 0; pass < mostPasses; pass++) {
-    const spent = (performance.now() - started) / 1000 / seconds;
-    progress(Math.min(1, Math.max(spent, pass / mostPasses)));
-    if (pass >= leastPasses && spent > 1) break;
-    for (const { space, times } of runs) {
-      for (const [k, frame] of frames.entries()) {
-        if (k === 0) begin(space, frame, pass === 0);
-        const ms = timeUpdate(space, frame);
-        times[k] = pass === 0 ? ms : Math.min(ms, times[k]);
+  return withSpaces(each, (spaces) => {
+    const runs = candidates.map((candidate, k) => ({ candidate, space: spaces[k], times: [] as number[] }));
+    const started = performance.now();
+    for (let pass = 0; pass < mostPasses; pass++) {
+      const spent = (performance.now() - started) / 1000 / seconds;
+      progress(Math.min(1, Math.max(spent, pass / mostPasses)));
+      if (pass >= leastPasses && spent > 1) break;
+      for (const { space, times } of runs) {
+        for (const [k, frame] of frames.entries()) {
+          if (k === 0) begin(space, frame, pass === 0);
+          const ms = timeUpdate(space, frame);
+          times[k] = pass === 0 ? ms : Math.min(ms, times[k]);
+        }
       }
     }
-  }
-  return runs
-    .map(({ candidate, times }) => {
-      const those = counted(frames, times);
-      return { candidate, measured: { ...candidate, times: those, ms: summarize(those) } };
-    })
-    .sort((a, b) => a.measured.ms.mean - b.measured.ms.mean);
+    return runs
+      .map(({ candidate, times }) => {
+        const those = counted(frames, times);
+        return { candidate, measured: { ...candidate, times: those, ms: summarize(those) } };
+      })
+      .sort((a, b) => a.measured.ms.mean - b.measured.ms.mean);
+  });
 }
 
 function describeFrames(frames: readonly Frame[], dimensions: 2 | 3): Tuned['frames'] {

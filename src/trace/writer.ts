@@ -18,7 +18,7 @@ import {
   worldBits,
 } from './format.ts';
 import { predict, putDistance } from './numbers.ts';
-import { all, IdSet, TraceState } from './state.ts';
+import { all, IdSet, isRuled, TraceState } from './state.ts';
 
 /**
  * Turns frames into the bytes of a trace. A file is `header()`, then `frame()` for each frame, then `end()`; the caller
@@ -207,7 +207,7 @@ export class TraceWriter {
       // If there are no rules any more, all become the default.
       const same = rules
         ? were[k] === rules[k] && were[k + 1] === rules[k + 1] && were[k + 2] === marksOf(rules[k + 2])
-        : were[k] === all && were[k + 1] === all && were[k + 2] === 0;
+        : !isRuled(were, place);
       const own = state.groups[place] === (groups?.[place] ?? 0) && state.reaches[place] === (reaches?.[place] ?? 0);
       if (!(same && own)) changed.push(place);
     }

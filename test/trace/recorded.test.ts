@@ -12,14 +12,14 @@ const frames = [
   [0.1, 1, 2, 3, -4.5, 5, 6, 7.5],
 ].map((frame) => Float32Array.from(frame));
 
-function encode(magic: number, body: Uint8Array, header: number[] = [2, 2, 2]): ArrayBuffer {
+function encode(magic: number, body: Uint8Array, header: number[] = [2, 2, 2]): Uint8Array {
   const bytes = new Uint8Array(16 + body.length);
   const view = new DataView(bytes.buffer);
   [magic, ...header].forEach((value, k) => {
     view.setInt32(4 * k, value, true);
   });
   bytes.set(body, 16);
-  return bytes.buffer;
+  return bytes;
 }
 
 const raw = new Uint8Array(Float32Array.from(frames.flatMap((frame) => [...frame])).buffer);
@@ -49,7 +49,7 @@ test('the frames of a trace, or a part of them, are at hand', () => {
 
 test('bytes that start anywhere in a buffer are read', () => {
   const whole = new Uint8Array(1 + 16 + raw.length);
-  whole.set(new Uint8Array(encode(rawMagic, raw)), 1);
+  whole.set(encode(rawMagic, raw), 1);
   expect(readRecording(whole.subarray(1)).frame(1)).toEqual(frames[1]);
 });
 
@@ -59,7 +59,7 @@ test('a recording without frames or boxes is one', () => {
 });
 
 test('what is not a recording is an error that says why', () => {
-  expect(() => readRecording(new ArrayBuffer(3))).toThrow('3 bytes');
+  expect(() => readRecording(new Uint8Array(3))).toThrow('3 bytes');
   expect(() => readRecording(encode(0x12345678, raw))).toThrow('0x12345678');
   expect(() => readRecording(Uint8Array.from({ length: 16 }, (_, k) => [0x1f, 0x8b][k] ?? 0))).toThrow('gzip');
   expect(() => readRecording(encode(rawMagic, raw, [4, 2, 2]))).toThrow('4 dimensions');

@@ -6,7 +6,7 @@ import { type Frame, TraceWriter } from 'broadphase/trace';
 import type { SceneName } from '../../../src/scenes/index.ts';
 import { pairsDigest } from '../../../src/trace/compare.ts';
 import { begin, timeUpdate } from '../../../src/trace/replay.ts';
-import { heeds, typicalSide } from '../../../src/trace/tune.ts';
+import { typicalSide, usesParameter } from '../../../src/trace/tune.ts';
 import { cellSlot, chosenSlot, Groups, heatSlot, heats, partnerSlot } from '../../shared/groups.ts';
 import { heapSize } from '../../shared/heap.ts';
 import { type Feed, generate, play } from './feed.ts';
@@ -130,7 +130,8 @@ export class Engine implements Record<keyof Requests, unknown> {
 
   cellSizes(): CellSizes {
     const { frame, dimensions } = this.#need();
-    const heeded = frame.count > 0 && heeds({ technique: this.#setup.technique }, 'cellSize', dimensions, [frame]);
+    const heeded =
+      frame.count > 0 && usesParameter({ technique: this.#setup.technique }, 'cellSize', dimensions, [frame]);
     return { heeded, typical: frame.count > 0 ? typicalSide(frame, dimensions) : 1 };
   }
 
