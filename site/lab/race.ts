@@ -3,6 +3,7 @@
 // cells over the boxes, and a bar for the median of its last frames.
 import type { TechniqueName } from 'broadphase';
 import { Camera, type World } from '../shared/camera.ts';
+import { density } from '../shared/density.ts';
 import { formatCount, formatMilliseconds } from '../shared/format.ts';
 import { makePalette } from '../shared/palette.ts';
 import { createRenderer } from '../shared/renderer.ts';
@@ -180,7 +181,7 @@ class Pictures {
   draw(racers: readonly Racer[], shown: Picture | undefined): void {
     const style = getComputedStyle(this.#tiles);
     this.#renderer.setPalette(makePalette(this.#dark.matches, style.getPropertyValue('--page').trim()));
-    const side = Math.round((this.#tiles.firstElementChild?.clientWidth ?? 200) * Math.min(2, devicePixelRatio));
+    const side = Math.round((this.#tiles.firstElementChild?.clientWidth ?? 200) * density());
     const [backdrop, camera] = [this.#backdrop, this.#camera];
     if (backdrop.width !== side || backdrop.height !== side) {
       backdrop.width = backdrop.height = side;
@@ -255,7 +256,7 @@ function drawCells(
   ctx.strokeStyle = color;
   // Many cells are drawn faintly, so that the boxes show through.
   ctx.globalAlpha = Math.min(strongest, Math.max(faintest, (strongest * clearCells) / cells));
-  ctx.lineWidth = Math.max(1, devicePixelRatio / 2);
+  ctx.lineWidth = 1;
   ctx.beginPath();
   for (let at = 0; at < cells * 2 * dimensions; at += stride) {
     const left = clamp(width / 2 + (drawn[at] - x) * scale, width);

@@ -10,6 +10,7 @@ import {
   shapes,
   world,
 } from '../../examples/narrow-phase/scenes.mjs';
+import { density } from '../shared/density.ts';
 import { find, showPlaying } from '../shared/elements.ts';
 import { formatCount } from '../shared/format.ts';
 import { FrameLoop } from '../shared/loop.ts';
@@ -17,7 +18,6 @@ import { numberPanel } from '../shared/numbers.ts';
 import '../shared/stopped.ts';
 import { Timings } from '../shared/timings.ts';
 
-const sharpest = 2;
 const refresh = 250;
 /** Frames before the first one shown. */
 const settling = 60;
@@ -98,7 +98,7 @@ function draw(): void {
   context.setTransform(scale, 0, 0, scale, (width - scale * world) / 2, (height - scale * world) / 2);
   touching.clear();
   for (const id of scene.hits) touching.add(id);
-  const sharpness = Math.min(sharpest, devicePixelRatio);
+  const sharpness = density();
   drawSpace(context, scene.space, { colors: { boxes: ink.line, pairs: ink.muted }, lineWidth: sharpness });
   const pixel = sharpness / scale;
   for (const [id, thing] of scene.things.entries()) {
@@ -217,9 +217,8 @@ function dress(): void {
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', dress);
 
 function fitCanvas(): void {
-  const density = Math.min(sharpest, devicePixelRatio);
-  canvas.width = Math.round(canvas.clientWidth * density);
-  canvas.height = Math.round(canvas.clientHeight * density);
+  canvas.width = Math.round(canvas.clientWidth * density());
+  canvas.height = Math.round(canvas.clientHeight * density());
   draw();
 }
 

@@ -2,6 +2,7 @@
 // aimed by dragging or with the arrow keys, and chosen by the URL.
 import { BroadPhase } from 'broadphase';
 import { Camera } from '../shared/camera.ts';
+import { density } from '../shared/density.ts';
 import { find, showPlaying } from '../shared/elements.ts';
 import { formatCount } from '../shared/format.ts';
 import { FrameLoop } from '../shared/loop.ts';
@@ -15,7 +16,6 @@ import type { Ask, Desk } from './ask.ts';
 import { asks, setLayers } from './asks.ts';
 import { Pen } from './pen.ts';
 
-const sharpest = 2;
 /** Milliseconds between two updates of text that changes all the time. */
 const refresh = 200;
 /** Answers before the first that is timed: the browser compiles what runs often. */
@@ -94,7 +94,7 @@ function answer(): void {
 function draw(): void {
   if (!scene) return;
   renderer.draw(scene.boxes, desk.slots, scene.count, camera);
-  pen.begin(Math.min(sharpest, devicePixelRatio));
+  pen.begin(density());
   ask.draw(desk);
 }
 
@@ -221,10 +221,10 @@ function fillAsks(): void {
 
 const place = { x: 0, y: 0 };
 function toWorld(event: PointerEvent): void {
-  const density = camera.width / view.clientWidth;
+  const pixels = camera.width / view.clientWidth;
   const frame = view.getBoundingClientRect();
-  place.x = camera.x + ((event.clientX - frame.left) * density - camera.width / 2) / camera.scale;
-  place.y = camera.y - ((event.clientY - frame.top) * density - camera.height / 2) / camera.scale;
+  place.x = camera.x + ((event.clientX - frame.left) * pixels - camera.width / 2) / camera.scale;
+  place.y = camera.y - ((event.clientY - frame.top) * pixels - camera.height / 2) / camera.scale;
 }
 
 let pressed: { id: number; x: number; y: number } | undefined;
@@ -317,9 +317,8 @@ function dress(): void {
 dark.addEventListener('change', dress);
 
 function fitCanvas(): void {
-  const density = Math.min(sharpest, devicePixelRatio);
-  const width = Math.round(canvas.clientWidth * density);
-  const height = Math.round(canvas.clientHeight * density);
+  const width = Math.round(canvas.clientWidth * density());
+  const height = Math.round(canvas.clientHeight * density());
   for (const each of [canvas, upper]) {
     each.width = width;
     each.height = height;

@@ -2,6 +2,7 @@
 // Each frame: step the scene, find the pairs (this alone is timed), colour, draw. Nothing is allocated.
 import type { BroadPhase } from 'broadphase';
 import { Camera } from './camera.ts';
+import { density } from './density.ts';
 import { Groups } from './groups.ts';
 import { FrameLoop } from './loop.ts';
 import { makePalette } from './palette.ts';
@@ -9,8 +10,6 @@ import { panZoom } from './pan-zoom.ts';
 import { type BoxRenderer, createRenderer, type RendererKind } from './renderer.ts';
 import type { LiveScene } from './scenes.ts';
 import { Timings } from './timings.ts';
-
-const sharpest = 2;
 
 export class Figure {
   readonly camera = new Camera();
@@ -87,9 +86,8 @@ export class Figure {
   };
 
   #fitCanvas(): void {
-    const density = Math.min(sharpest, devicePixelRatio);
-    const width = Math.round(this.#canvas.clientWidth * density);
-    const height = Math.round(this.#canvas.clientHeight * density);
+    const width = Math.round(this.#canvas.clientWidth * density());
+    const height = Math.round(this.#canvas.clientHeight * density());
     if (width === this.camera.width && height === this.camera.height) return;
     this.#canvas.width = width;
     this.#canvas.height = height;

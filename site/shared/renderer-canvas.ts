@@ -1,15 +1,13 @@
 // Without a GPU: paints boxes into an array of pixels, in one pass, with the same look as the shaders. This is far
 // faster than the rectangles of a 2D canvas, or WebGL in software.
 import type { Camera } from './camera.ts';
+import { density } from './density.ts';
 import { cellSlot, slotCount } from './groups.ts';
+import { light, lightFrom, outlineFrom, outlineWidth, overhang, solid } from './look.ts';
 import type { Palette } from './palette.ts';
 import type { BoxRenderer } from './renderer.ts';
 
 const opaque = 256;
-/** Smaller boxes are solid; from this many pixels on, a box has an outline and a light inside. */
-const outlineFrom = 4;
-const solid = 0.94;
-const light = 0.3;
 
 /** A colour over another, with alpha from 0 to 256. Red and blue are mixed at once: there is a byte between them. */
 function mix(under: number, over: number, alpha: number): number {
@@ -61,13 +59,13 @@ export class CanvasRenderer implements BoxRenderer {
     const edges = this.#edges;
     const originX = width / 2 - x * scale;
     const originY = height / 2 + y * scale;
-    const density = devicePixelRatio;
+    const pixels = density();
     for (let id = 0; id < count; id++) {
       const i = 4 * id;
-      const minX = clamp(originX + boxes[i] * scale, -9, width + 9);
-      const maxX = clamp(originX + boxes[i + 2] * scale, -9, width + 9);
-      const minY = clamp(originY - boxes[i + 3] * scale, -9, height + 9);
-      const maxY = clamp(originY - boxes[i + 1] * scale, -9, height + 9);
+      const minX = clamp(originX + boxes[i] * scale, -overhang, width + overhang);
+      const maxX = clamp(originX + boxes[i + 2] * scale, -overhang, width + overhang);
+      const minY = clamp(originY - boxes[i + 3] * scale, -overhang, height + overhang);
+      const maxY = clamp(originY - boxes[i + 1] * scale, -overhang, height + overhang);
       // The smallest box is still a pixel wide.
       const padX = Math.max(0, 1 - (maxX - minX)) / 2;
       const padY = Math.max(0, 1 - (maxY - minY)) / 2;
@@ -75,11 +73,12 @@ export class CanvasRenderer implements BoxRenderer {
       edges[1] = minY - padY;
       edges[2] = maxX + padX;
       edges[3] = maxY + padY;
-      this.#paint(slots[id], density);
+      this.#paint(slots[id], pixels);
     }
     this.#context.putImageData(this.#image, 0, 0);
   }
 
+  /** @param density how many pixels of the canvas a CSS pixel has */
   #paint(slot: number, density: number): void {
     const pixels = this.#pixels;
     const { width, height } = this.#image;
@@ -106,10 +105,10 @@ export class CanvasRenderer implements BoxRenderer {
       return;
     }
 
-    const ease = Math.min(1, (extent - outlineFrom) / 10);
+    const ease = Math.min(1, (extent - outlineFrom) / (lightFrom - outlineFrom));
     const least = slot === cellSlot ? 0 : light;
     const fill = solid - (solid - least) * ease * ease * (3 - 2 * ease);
-    const reach = 1.25 * density + 0.5;
+    const reach = outlineWidth * density + 0.5;
     const band = Math.ceil(reach + 1);
     for (let y = y0; y < y1; y++) {
       const row = strength * (Math.min(bottom, y + 1) - Math.max(top, y));

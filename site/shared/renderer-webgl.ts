@@ -1,8 +1,14 @@
 // All boxes in one instanced draw call, straight from their Float32Array. The fragment shader computes how much of
 // each pixel a box covers, so boxes of a pixel or less glide instead of flickering, and draws an outline inside the
 // boxes that are large enough to show one.
+import { density } from './density.ts';
 import { cellSlot, slotCount } from './groups.ts';
+import * as look from './look.ts';
 import type { BoxRenderer } from './renderer.ts';
+
+/** A number as GLSL takes it. */
+const float = (value: number) => value.toFixed(2);
+const [outlineFrom, lightFrom] = [float(look.outlineFrom), float(look.lightFrom)];
 
 const vertexSource = `#version 300 es
 layout(location = 0) in vec4 box;
@@ -15,12 +21,12 @@ flat out vec4 colour;
 flat out float light;
 out vec2 pixel;
 void main() {
-  vec4 placed = clamp((box - centre.xyxy) * scale + size.xyxy * 0.5, vec4(-9.0), size.xyxy + 9.0);
+  vec4 placed = clamp((box - centre.xyxy) * scale + size.xyxy * 0.5, vec4(${float(-look.overhang)}), size.xyxy + ${float(look.overhang)});
   vec2 middle = (placed.xy + placed.zw) * 0.5;
   vec2 reach = max((placed.zw - placed.xy) * 0.5, 0.5);
   edges = vec4(middle - reach, middle + reach);
   colour = palette[slot];
-  light = slot == ${cellSlot}u ? 0.0 : 0.3;
+  light = slot == ${cellSlot}u ? 0.0 : ${float(look.light)};
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
   pixel = middle + corner * (reach + 0.5);
   gl_Position = vec4(pixel / size * 2.0 - 1.0, 0.0, 1.0);
@@ -38,8 +44,8 @@ void main() {
   vec2 covered = clamp(min(edges.zw, pixel + 0.5) - max(edges.xy, pixel - 0.5), 0.0, 1.0);
   vec2 inside = min(pixel - edges.xy, edges.zw - pixel);
   vec2 extent = edges.zw - edges.xy;
-  float fill = mix(0.92, light, smoothstep(4.0, 14.0, min(extent.x, extent.y) / density));
-  float outline = clamp(1.25 * density + 0.5 - min(inside.x, inside.y), 0.0, 1.0);
+  float fill = mix(${float(look.solid)}, light, smoothstep(${outlineFrom}, ${lightFrom}, min(extent.x, extent.y) / density));
+  float outline = clamp(${float(look.outlineWidth)} * density + 0.5 - min(inside.x, inside.y), 0.0, 1.0);
   float alpha = colour.a * covered.x * covered.y * mix(fill, 1.0, outline);
   result = vec4(colour.rgb * alpha, alpha);
 }`;
@@ -133,7 +139,7 @@ export function createWebglRenderer(canvas: HTMLCanvasElement, redraw: () => voi
       gl.uniform2f(program.uniform('centre'), camera.x, camera.y);
       gl.uniform2f(program.uniform('size'), camera.width, camera.height);
       gl.uniform1f(program.uniform('scale'), camera.scale);
-      gl.uniform1f(program.uniform('density'), devicePixelRatio);
+      gl.uniform1f(program.uniform('density'), density());
       gl.bindBuffer(gl.ARRAY_BUFFER, program.boxes);
       gl.bufferData(gl.ARRAY_BUFFER, boxes, gl.STREAM_DRAW, 0, count * 4);
       gl.bindBuffer(gl.ARRAY_BUFFER, program.slots);

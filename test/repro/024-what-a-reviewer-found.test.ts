@@ -112,3 +112,39 @@ describe('detached bytes are refused by the call that got them', () => {
     await expect((async () => call(detached))()).rejects.toThrow(`${name}: got detached memory`);
   });
 });
+
+describe('boxes of the pages', () => {
+  /** The pixels of a large box, on a canvas of two pixels per CSS pixel, by a display with more or as many. */
+  async function painted(devicePixelRatio: number): Promise<Uint8ClampedArray> {
+    const shown: { data: Uint8ClampedArray }[] = [];
+    const context = { putImageData: (image: { data: Uint8ClampedArray }) => shown.push(image) };
+    vi.stubGlobal('devicePixelRatio', devicePixelRatio);
+    vi.stubGlobal(
+      'ImageData',
+      class {
+        readonly data: Uint8ClampedArray;
+        readonly width: number;
+        readonly height: number;
+        constructor(width: number, height: number) {
+          this.data = new Uint8ClampedArray(4 * width * height);
+          this.width = width;
+          this.height = height;
+        }
+      },
+    );
+    const { CanvasRenderer } = await import('../../site/shared/renderer-canvas.ts');
+    const { Camera } = await import('../../site/shared/camera.ts');
+    const { makePalette } = await import('../../site/shared/palette.ts');
+    const renderer = new CanvasRenderer({ getContext: () => context } as unknown as HTMLCanvasElement);
+    renderer.setPalette(makePalette(false, '#ffffff'));
+    const camera = new Camera();
+    camera.resize(80, 80);
+    camera.fit([0, 0, 80, 80]);
+    renderer.draw(Float32Array.of(10, 10, 70, 70), Uint8Array.of(1), 1, camera);
+    return shown[0].data;
+  }
+
+  test('have outlines as thin on a display with three pixels per CSS pixel, where canvases have two', async () => {
+    expect(await painted(3)).toEqual(await painted(2));
+  });
+});

@@ -1,5 +1,7 @@
 // Flat scenes: cells and boxes by the renderer of the site, pairs as lines on a canvas above it.
 import { Camera, type World } from '../../shared/camera.ts';
+import { density } from '../../shared/density.ts';
+import { outlineFrom } from '../../shared/look.ts';
 import { locate, panZoom } from '../../shared/pan-zoom.ts';
 import { createRenderer, type RendererKind } from '../../shared/renderer.ts';
 import type { Picture } from '../worker/messages.ts';
@@ -7,8 +9,6 @@ import { type LabView, onPalette, onSize } from './view.ts';
 
 /** A click this near to a box counts for it, in CSS pixels. */
 const fingertip = 14;
-/** The renderer fills boxes smaller than this, in CSS pixels: cells are outlines, so there is nothing left of them. */
-const leastCell = 4;
 const cellsLookedAt = 100;
 const noBoxes = new Float32Array();
 const noSlots = new Uint8Array();
@@ -25,7 +25,7 @@ function drawLines(
   const left = width / 2 - x * scale;
   const top = height / 2 + y * scale;
   context.strokeStyle = getComputedStyle(canvas).color;
-  context.lineWidth = Math.max(1, Math.min(2, devicePixelRatio));
+  context.lineWidth = Math.max(1, density());
   context.globalAlpha = 0.7;
   context.beginPath();
   for (let k = 0; k < ends.length; k += 4) {
@@ -35,7 +35,7 @@ function drawLines(
   context.stroke();
 }
 
-/** Whether most cells are smaller than a size, by a look at some of them. */
+/** Whether most cells are smaller than a size, by a look at some of them. Those without an outline cannot be seen. */
 function mostAreSmaller({ drawn, cells }: Picture, size: number): boolean {
   const every = Math.ceil(cells / cellsLookedAt);
   let [small, all] = [0, 0];
@@ -113,7 +113,7 @@ export function createFlatView(element: HTMLElement, moved: () => void, kind?: R
       redraw();
     },
     get cellsTooSmall() {
-      return picture ? mostAreSmaller(picture, leastCell * pixel()) : false;
+      return picture ? mostAreSmaller(picture, outlineFrom * pixel()) : false;
     },
     place(clientX, clientY) {
       const at = locate(canvas, camera, clientX, clientY);

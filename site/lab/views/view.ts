@@ -1,4 +1,5 @@
 // A view that shows pictures: flat scenes on a canvas, solid ones in three dimensions, with one interface.
+import { density } from '../../shared/density.ts';
 import { makePalette, type Palette } from '../../shared/palette.ts';
 import type { Picture } from '../worker/messages.ts';
 
@@ -33,12 +34,10 @@ export function onClick(element: HTMLElement, clicked: (x: number, y: number) =>
 
 /** Calls `resized` with the size of an element in device pixels now and whenever it changes. */
 export function onSize(element: HTMLElement, resized: (width: number, height: number) => void): void {
-  const sharpest = 2;
   let was = '';
   const look = () => {
-    const density = Math.min(sharpest, devicePixelRatio);
-    const width = Math.max(1, Math.round(element.clientWidth * density));
-    const height = Math.max(1, Math.round(element.clientHeight * density));
+    const width = Math.max(1, Math.round(element.clientWidth * density()));
+    const height = Math.max(1, Math.round(element.clientHeight * density()));
     if (was === `${width} ${height}`) return;
     was = `${width} ${height}`;
     resized(width, height);
