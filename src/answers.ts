@@ -5,12 +5,12 @@
 import { badQuery, badValue, checkBoolean, checkOut, maxId } from './errors.ts';
 import { afterAt, ioLength, orderNear, orderRay, orderWay } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-import { type Asked, everything, heed, type IdsOptions, letGo, nobody } from './query-options.ts';
+import { type Asked, everything, type IdsOptions, nobody, readOptions, release } from './query-options.ts';
 
 /** Instead of a number of planes: the query is for the box or circle in the array. */
 const shape = -1;
 
-/** How many answers a search for a visitor computes ahead, and how many a search for an accepted hit begins with. */
+/** How many answers a search computes ahead for a visitor; for `accept`, which often takes the first, it begins with fewer. */
 const part = 64;
 const firstPart = 4;
 
@@ -63,7 +63,7 @@ export function point(
   } else if (!(good && isPlace(z))) {
     badQuery(where, [x, y, z], point3, finite);
   }
-  const asked = heed(instance, where, options as IdsOptions | undefined, names);
+  const asked = readOptions(instance, where, options as IdsOptions | undefined, names);
   const io = instance.io();
   io[0] = x;
   io[1] = y;
@@ -87,7 +87,7 @@ export function area(instance: KernelInstance, where: string, asked: Asked, plan
   }
   const { mask, ignored, others } = asked;
   const out = checkOut(where, asked.out as number[] | undefined);
-  letGo();
+  release();
   try {
     return copyIds(instance, ids(instance, where, planes, mask, ignored, 0, everything), out, others);
   } catch (error) {
@@ -98,7 +98,7 @@ export function area(instance: KernelInstance, where: string, asked: Asked, plan
 /** Finds the first boxes that the box in the io array meets, or the nearest ones; returns how many. */
 export function order(instance: KernelInstance, where: string, kind: number, asked: Asked, most: number): number {
   const { mask, ignored, others } = asked;
-  letGo();
+  release();
   try {
     const wanted = Math.min(most + (others?.length ?? 0), everything);
     const count = known(where, instance.kernel.ask_order(kind, mask, ignored, nobody, wanted));
@@ -153,8 +153,8 @@ function visitArea(instance: KernelInstance, where: string, planes: number, aske
       for (let k = 0; k < count; k++) {
         const id = visit.ids[k]!; // for planes, the bits above it say whether it is in front of all
         if (others?.includes(id & maxId)) continue;
-        const told = planes === shape ? (visitor as (id: number) => unknown)(id) : visitor(id & maxId, id > maxId);
-        if (ends(instance, where, visit, told)) return;
+        const returned = planes === shape ? (visitor as (id: number) => unknown)(id) : visitor(id & maxId, id > maxId);
+        if (ends(instance, where, visit, returned)) return;
       }
     }
   } catch (error) {
@@ -191,8 +191,8 @@ export function walk(
         if (others?.includes(id)) continue;
         left--;
         if (hit !== undefined) writeHit(instance, visit, k, kind, hit);
-        const told = into ? call(id, into) : call(id, visit.ranks[k]!, hit);
-        if (ends(instance, where, visit, told, into)) return true;
+        const returned = into ? call(id, into) : call(id, visit.ranks[k]!, hit);
+        if (ends(instance, where, visit, returned, into)) return true;
       }
       if (count < wanted) return false;
       after = visit.ids[count - 1]!;
@@ -237,7 +237,7 @@ function writeNormal(instance: KernelInstance, side: number, normal: number[]): 
 
 /** Saves the query that is in the io array. */
 function startVisit(instance: KernelInstance): Visit {
-  letGo();
+  release();
   const level = visiting++;
   let visit = visits[level];
   if (visit === undefined) {
@@ -290,11 +290,11 @@ export function known(where: string, count: number): number {
 }
 
 /** Whether what a visitor, or an `accept` with its hit, has returned ends the search. */
-function ends(instance: KernelInstance, where: string, visit: Visit, told: unknown, into?: Hit): boolean {
+function ends(instance: KernelInstance, where: string, visit: Visit, returned: unknown, into?: Hit): boolean {
   const by = into ? 'accept' : 'visit';
-  if (told && (into ? told !== true : (told as { then?: unknown }).then))
-    checkBoolean(`${where}: ${by} returned`, told);
-  if (told === !!into) return true;
+  if (returned && (into ? returned !== true : (returned as { then?: unknown }).then))
+    checkBoolean(`${where}: ${by} returned`, returned);
+  if (returned === !!into) return true;
   if (instance.turn === visit.turn) return false;
   throw new Error(`${where}: update or restore was called by ${by}, or memory ran out: expected after the search`);
 }

@@ -4,7 +4,7 @@ import { badBox, badValue, checkBoxCount, checkNumberArray, isBoxCount } from '.
 import type { KernelInstance } from './kernel/instance.ts';
 import { isFloat32Array, isFloat64Array } from './values.ts';
 
-/** Boxes for {@link BroadPhase.setAll}: interleaved, minima then maxima, box after box. */
+/** Boxes in one array, such as for {@link BroadPhase.setAll}: the minima, then the maxima, box after box. */
 export type Boxes = Float32Array | Float64Array | readonly number[];
 
 /** Replaces all boxes. `where` is the name of the call in errors. */

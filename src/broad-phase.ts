@@ -12,6 +12,7 @@ import type {
   Dimensions,
   MovingBoxOfId,
   NearestQuery,
+  Numbers,
   PointQuery,
   RayQuery,
   RoundQuery,
@@ -77,8 +78,8 @@ function inspected(this: BroadPhase, _depth: number, options: unknown, inspect: 
 /**
  * Finds every overlapping pair among boxes that move. Reads like a Map from id to box.
  *
- * Boxes are closed: touching boxes overlap, unless `touching` is false. Boxes of zero size are points, infinite ones
- * are half-planes; both are legal. Every technique finds exactly the pairs of the numbers given, doubles included.
+ * Boxes are closed: touching boxes overlap, unless `touching` is false. A box may have zero size, as a point has, and
+ * infinite sides, as a half-plane has. Every technique finds exactly the pairs of the numbers given, doubles included.
  *
  * Rays and sweeps hit a box if their path leads into one of its faces; a path along a face or away from it is no hit.
  *
@@ -89,6 +90,7 @@ function inspected(this: BroadPhase, _depth: number, options: unknown, inspect: 
  * reuse the options object with an `out` in it, with roughly constant numbers of answers. All queries throw RangeError
  * for NaN, a minimum above its maximum, infinite points, motions and directions, negative distances, and masks and ids
  * out of range; TypeError for values other than numbers and for a wrong number of arguments, undefined ones included.
+ * Any call throws RangeError if memory runs out.
  *
  * @example
  * const space = new BroadPhase();
@@ -376,7 +378,7 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   querySphere(x: number, y: number, z: number, radius: number, options?: IdsOptions): number[] {
     return places.querySphere(given(this, 'querySphere', arguments.length, 5), x, y, z, radius, options);
   }
-  queryPlanes(planes: Float32Array | Float64Array | readonly number[], options?: PlanesOptions): number[] {
+  queryPlanes(planes: Numbers, options?: PlanesOptions): number[] {
     return queryPlanes(given(this, 'queryPlanes', arguments.length, 2), planes, options);
   }
   rayCast(...query: RayQuery<D, RayOptions>): RayHit | undefined;
@@ -411,19 +413,19 @@ export class BroadPhase<D extends Dimensions = 2> implements Api<D> {
   queryBoxes(boxes: Boxes, options?: ManyBoxOptions): ManyIds {
     return askMany(given(this, 'queryBoxes', arguments.length, 2), 'queryBoxes', boxes, options, 1);
   }
-  queryPoints(points: Boxes, options?: ManyAreaOptions): ManyIds {
+  queryPoints(points: Numbers, options?: ManyAreaOptions): ManyIds {
     return askMany(given(this, 'queryPoints', arguments.length, 2), 'queryPoints', points, options, 1);
   }
-  queryCircles(circles: Boxes, options?: ManyAreaOptions): ManyIds {
+  queryCircles(circles: Numbers, options?: ManyAreaOptions): ManyIds {
     return askMany(given(this, 'queryCircles', arguments.length, 2), 'queryCircles', circles, options, 1);
   }
-  rayCasts(rays: Boxes, options?: ManyFarOptions<ManyRayHits>): ManyRayHits {
+  rayCasts(rays: Numbers, options?: ManyFarOptions<ManyRayHits>): ManyRayHits {
     return askMany(given(this, 'rayCasts', arguments.length, 2), 'rayCasts', rays, options, 1) as ManyRayHits;
   }
-  sweeps(boxes: Boxes, options?: ManyOptions<ManySweepHits>): ManySweepHits {
+  sweeps(boxes: Numbers, options?: ManyOptions<ManySweepHits>): ManySweepHits {
     return askMany(given(this, 'sweeps', arguments.length, 2), 'sweeps', boxes, options, 1) as ManySweepHits;
   }
-  nearests(points: Boxes, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest {
+  nearests(points: Numbers, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest {
     return askMany(given(this, 'nearests', arguments.length, 3), 'nearests', points, options, k) as ManyNearest;
   }
   nearestsOfAll(k: number, options?: Omit<ManyFarOptions<ManyNearestOfAll>, 'ignoreEach'>): ManyNearestOfAll {

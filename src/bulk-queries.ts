@@ -33,7 +33,7 @@ import {
 } from './query-options.ts';
 import { isTypedArray } from './values.ts';
 
-/** Which arrays each kind of answer has. */
+/** The answer to any kind of query. */
 export type Answer = ManyIds & {
   distances?: Float64Array;
   times?: Float64Array;
@@ -133,7 +133,7 @@ export function askMany(
   checkFar(instance, where, kind, numbers, maxDistance);
   if (ignoreEach !== undefined) checkIgnored(where, ignoreEach, count);
   if (out !== undefined) checkAnswer(instance, where, out, parts);
-  const ignored = kept(instance, ignoreEach);
+  const ignored = outside(instance, ignoreEach);
   try {
     const at = instance.kernel.stage_questions(length + count) >>> 3;
     const doubles = instance.doubleView();
@@ -146,7 +146,7 @@ export function askMany(
     io[touchingAt] = Number(touching);
     io[limitAt] = kind === asks.way ? 1 : maxDistance;
     const asked = known(where, instance.kernel.ask_many(kind, count, mask, Math.min(most, everything)));
-    return collect(instance, kind, asked, parts, out);
+    return collect(instance, asked, parts, out);
   } catch (error) {
     instance.recover(error, where);
   }
@@ -176,13 +176,7 @@ function checkFar(
 }
 
 /** Copies what the kernel has found. */
-function collect(
-  instance: KernelInstance,
-  kind: number,
-  count: number,
-  names: readonly Part[],
-  out: Answer | undefined,
-): Answer {
+function collect(instance: KernelInstance, count: number, names: readonly Part[], out: Answer | undefined): Answer {
   const words = instance.wordView();
   const ends = instance.kernel.offsets_address() >>> 2;
   const total = words[ends + count]!;
@@ -198,7 +192,7 @@ function collect(
   const ranks = names.includes('times') ? answer.times! : answer.distances!;
   const normals = names.includes('normals') ? answer.normals : undefined;
   const of = names.includes('of') ? answer.of : undefined;
-  const ordered = kind < asks.box || kind === asks.others;
+  const ordered = names !== idParts; // hits, each with a distance or a time
   const first = (ordered ? instance.kernel.many_hits_address() : instance.kernel.many_ids_address()) >>> 2;
   for (let k = 0; k <= count; k++) offsets[k] = words[ends + k]!;
   for (let n = 0; n < total; n++) {
@@ -247,8 +241,8 @@ function checkIgnored(where: string, ids: ArrayLike<number>, count: number): voi
   for (let k = 0; k < count; k++) if (!isId(ids[k])) badId(`${where}[${k}]`, ids[k]);
 }
 
-/** Copies ids in this space's memory, such as `pairs`, which growing memory would detach. */
-function kept(instance: KernelInstance, ids: Options['ignoreEach']): Options['ignoreEach'] {
+/** The same ids; copied if they are in this space's memory, as `pairs` is, which growing memory would detach. */
+function outside(instance: KernelInstance, ids: Options['ignoreEach']): Options['ignoreEach'] {
   return ArrayBuffer.isView(ids) && ids.buffer === instance.exports.memory.buffer ? ids.slice() : ids;
 }
 

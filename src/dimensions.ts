@@ -3,6 +3,9 @@
 /** How many axes boxes have. */
 export type Dimensions = 2 | 3;
 
+/** Numbers of many things in one array, one thing after the other: points, rays, planes and so on. */
+export type Numbers = Float32Array | Float64Array | readonly number[];
+
 /** The numbers of a box: minima, then maxima. */
 export type Box<D extends Dimensions> = D extends 2
   ? [minX: number, minY: number, maxX: number, maxY: number]

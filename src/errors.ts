@@ -1,5 +1,5 @@
-// Errors for bad input: they name the call, the value, and what was expected. One function per kind of input. Each
-// throws, and is called before anything has changed.
+// Checks of input, one function per kind, and the errors that they throw: these name the call, the value, and what was
+// expected. A call checks its input before it changes anything.
 
 import { isAttached, isFloat32Array, isFloat64Array } from './values.ts';
 

@@ -113,7 +113,7 @@ export function open(options: BroadPhaseOptions<Dimensions, TechniqueName> = {})
   const cells = cellSize === undefined ? undefined : checkCellSize(cellSize, dimensions);
   if (bounds !== undefined) checkBounds(bounds, dimensions);
   if (margin !== undefined && !isFinitePositive(margin)) badNumber('margin', margin, 'a number above 0');
-  checkHeeded({ cellSize, bounds, margin });
+  checkOfAll({ cellSize, bounds, margin });
   if (wrap !== undefined) checkWrap(wrap, dimensions);
 
   const instance = new KernelInstance(dimensions, wrap && [...wrap], touching, events);
@@ -149,8 +149,8 @@ function checkDimensions(dimensions: Dimensions): void {
   badValue('dimensions', dimensions, `${builtDimensions.join(' or ')}${more}`);
 }
 
-/** Options that only `broadphase/all` takes: those of its own techniques. */
-function checkHeeded(options: Record<string, unknown>): void {
+/** Refuses options of the techniques that only `broadphase/all` has. */
+function checkOfAll(options: Record<string, unknown>): void {
   if (isBuilt('spatial-grid')) return;
   for (const [name, value] of Object.entries(options)) {
     if (value === undefined) continue;

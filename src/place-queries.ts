@@ -3,7 +3,7 @@ import { area, copyIds, isNumber, number, point } from './answers.ts';
 import { badQuery, checkDistance, checkId, checkOut, corners, isSize } from './errors.ts';
 import { radiusAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-import { type BoxOptions, boxOptions, heed, type IdsOptions, idsOptions } from './query-options.ts';
+import { type BoxOptions, boxOptions, type IdsOptions, idsOptions, readOptions } from './query-options.ts';
 
 export function isColliding(instance: KernelInstance, a: number, b: number): boolean {
   checkId('isColliding: a', a);
@@ -43,7 +43,7 @@ export function queryBox(
   } else if (!(good && isNumber(e) && isNumber(f) && a <= d && b <= e && c <= f)) {
     badQuery('queryBox', [a, b, c, d, e, f], corners[3], number);
   }
-  const asked = heed(instance, 'queryBox', options, boxOptions);
+  const asked = readOptions(instance, 'queryBox', options, boxOptions);
   const io = instance.io();
   io[0] = a;
   io[1] = b;

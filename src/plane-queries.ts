@@ -1,19 +1,16 @@
 // The query with planes: what a camera sees.
 import { area } from './answers.ts';
+import type { Numbers } from './dimensions.ts';
 import { badValue, checkNumberArray } from './errors.ts';
 import { planesAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
-import { heed, idsOptions, type PlanesOptions } from './query-options.ts';
+import { idsOptions, type PlanesOptions, readOptions } from './query-options.ts';
 
 /** How many planes a query may have. */
 const most = 8;
 const names = ['nx, ny, d', 'nx, ny, nz, d'];
 
-export function queryPlanes(
-  instance: KernelInstance,
-  planes: Float32Array | Float64Array | readonly number[],
-  options?: PlanesOptions,
-): number[] {
+export function queryPlanes(instance: KernelInstance, planes: Numbers, options?: PlanesOptions): number[] {
   const where = 'queryPlanes';
   checkNumberArray(where, planes);
   const width = instance.dimensions + 1;
@@ -27,7 +24,7 @@ export function queryPlanes(
       badValue(`${where}: planes[${k}]`, value, 'a finite number', typeof value !== 'number');
     }
   }
-  const asked = heed(instance, where, options, idsOptions);
+  const asked = readOptions(instance, where, options, idsOptions);
   const io = instance.io();
   asked.distances = planes; // a mark, which any other query would replace
   instance.copyIn(where, io, planesAt, planes, length);

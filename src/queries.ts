@@ -23,13 +23,13 @@ import {
   checkMost,
   everything,
   farOptions,
-  heed,
   type NearestOptions,
   nearestOptions,
   type RayAllOptions,
   type RayHit,
   type RayOptions,
   rayOptions,
+  readOptions,
   type SweepHit,
   type SweepOptions,
   sweepOptions,
@@ -117,7 +117,7 @@ export function sweep(
   } else if (!(good && a <= d && b <= e && c <= f && isPlace(g) && isPlace(h) && isPlace(i))) {
     badQuery('sweep', [a, b, c, d, e, f, g, h, i], sweep3, number);
   }
-  const asked = heed(instance, 'sweep', options, sweepOptions);
+  const asked = readOptions(instance, 'sweep', options, sweepOptions);
   const io = instance.io();
   io[0] = a;
   io[1] = b;
@@ -195,7 +195,7 @@ function ray(
   } else if (!(good && isPlace(e) && isPlace(f))) {
     badQuery(where, [a, b, c, d, e, f], ray3, finite);
   }
-  const asked = heed(instance, where, options as RayOptions | undefined, names);
+  const asked = readOptions(instance, where, options as RayOptions | undefined, names);
   const io = instance.io();
   io[0] = a;
   io[1] = b;

@@ -157,23 +157,23 @@ export interface ManyIds {
 
 /** Answers to {@link BroadPhase.nearests}. */
 export interface ManyNearest extends ManyIds {
-  /** The distance of each answer. */
+  /** The distance of each answer, in units of the world. */
   distances: Float64Array;
 }
 
-/** Answers of {@link BroadPhase.nearestsOfAll}. */
+/** Answers to {@link BroadPhase.nearestsOfAll}. */
 export interface ManyNearestOfAll extends ManyNearest {
   /** The ids of the boxes whose neighbours are listed. */
   of: Uint32Array;
 }
 
-/** Answers of {@link BroadPhase.rayCasts}. */
+/** Answers to {@link BroadPhase.rayCasts}. */
 export interface ManyRayHits extends ManyNearest {
   /** The normals of all answers, one number per axis: as in {@link RayHit}. */
   normals: Int8Array;
 }
 
-/** Answers of {@link BroadPhase.sweeps}. */
+/** Answers to {@link BroadPhase.sweeps}. */
 export interface ManySweepHits extends ManyIds {
   /** The time of each answer: as in {@link SweepHit}. */
   times: Float64Array;
@@ -265,14 +265,14 @@ const asked = {
 };
 export type Asked = typeof asked;
 
-/** Called once all is known, so that nothing is kept from the garbage collector until the next query. */
-export function letGo(): void {
+/** Called once all options are read, so that none of them stays in memory until the next query. */
+export function release(): void {
   asked.others = asked.out = asked.distances = asked.visit = asked.accept = undefined;
 }
 
-/** What holds without options. */
-function unasked(instance: KernelInstance): Asked {
-  letGo();
+/** The options of a query without any. */
+function defaults(instance: KernelInstance): Asked {
+  release();
   asked.mask = asked.ignored = -1; // all bits
   const io = instance.io();
   io[touchingAt] = Number(instance.touching);
@@ -286,13 +286,13 @@ function unasked(instance: KernelInstance): Asked {
  * query itself. So callers write their own numbers to the io array after this call, and nothing of theirs runs before
  * the kernel is asked.
  */
-export function heed(
+export function readOptions(
   instance: KernelInstance,
   where: string,
   options: AnyOptions | undefined,
   names: readonly string[],
 ): Asked {
-  if (options === undefined) return unasked(instance);
+  if (options === undefined) return defaults(instance);
   checkOptions(where, options, names);
   const {
     mask,

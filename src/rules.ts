@@ -16,9 +16,9 @@ type Call = 'set_filter' | 'set_static' | 'set_enabled' | 'set_group' | 'set_rea
 export function setFilter(instance: KernelInstance, id: number, layer: number, mask: number): void {
   checkBits('setFilter: layer', layer);
   checkBits('setFilter: mask', mask);
-  const rule = toldRule(instance, 'setFilter', id);
+  const rule = ruleInKernel(instance, 'setFilter', id);
   if (rule?.[layerAt] === layer && rule[maskAt] === mask) return;
-  tell(instance, 'setFilter', 'set_filter', id, layer, mask);
+  send(instance, 'setFilter', 'set_filter', id, layer, mask);
 }
 
 export function setStatic(instance: KernelInstance, id: number, isStatic: boolean): void {
@@ -41,12 +41,12 @@ export function setReach(instance: KernelInstance, id: number, distance: number)
   change(instance, 'setReach', 'set_reach', id, reachAt, distance);
 }
 
-/** Sets the number at this place of a rule. */
+/** Sets the number at this place of a rule, unless it is the same. */
 function change(instance: KernelInstance, where: string, call: Call, id: number, place: number, value: number): void {
-  if (toldRule(instance, where, id)?.[place] !== value) tell(instance, where, call, id, value);
+  if (ruleInKernel(instance, where, id)?.[place] !== value) send(instance, where, call, id, value);
 }
 
-function tell(instance: KernelInstance, where: string, call: Call, id: number, value: number, mask = 0): void {
+function send(instance: KernelInstance, where: string, call: Call, id: number, value: number, mask = 0): void {
   try {
     if (instance.kernel[call](id, value, mask) === 0) noBox(where, id);
   } catch (error) {
@@ -77,14 +77,14 @@ export function reachOf(instance: KernelInstance, id: number): number | undefine
 
 /** The kernel's io array, with the rule of this box in it. */
 function ruleOf(instance: KernelInstance, where: string, id: number): Float64Array | undefined {
-  return toldRule(instance, where, id) ?? (instance.reader.get_rule(id) === 1 ? instance.io() : undefined);
+  return ruleInKernel(instance, where, id) ?? (instance.reader.get_rule(id) === 1 ? instance.io() : undefined);
 }
 
 /**
  * The same without flushing the ring, which would take as long as setting 20 boxes: rules never wait there. `undefined`
  * if the box itself waits, or if there is none.
  */
-function toldRule(instance: KernelInstance, where: string, id: number): Float64Array | undefined {
+function ruleInKernel(instance: KernelInstance, where: string, id: number): Float64Array | undefined {
   checkId(where, id);
   const io = instance.io();
   return instance.exports.get_rule(id) === 1 ? io : undefined;

@@ -124,7 +124,7 @@ export interface Contents<D extends Dimensions> {
   boxes(count: number): Float32Array;
 
   /**
-   * Removes box `id`, with its filter.
+   * Removes box `id`, with its rules: its filter, its group, its reach, and whether it is static or off.
    * @param id an integer from 0 to 2^24 - 1, in use or not
    * @returns whether there was one
    * @throws RangeError or TypeError for a bad id
@@ -138,7 +138,7 @@ export interface Contents<D extends Dimensions> {
   delete(id: number): boolean;
 
   /**
-   * Removes all boxes, with their filters.
+   * Removes all boxes, with their rules.
    *
    * @example
    * const space = new BroadPhase();

@@ -1,5 +1,6 @@
 // Many queries in one call: all their numbers in, all their answers out.
 import type { Boxes } from '../boxes.ts';
+import type { Numbers } from '../dimensions.ts';
 import type {
   ManyAreaOptions,
   ManyBoxOptions,
@@ -35,25 +36,30 @@ export interface ManyQueries {
   /**
    * The boxes at each of many points: as {@link BroadPhase.queryBoxes}.
    *
+   * @param points 2 numbers (3D: 3) for each point
+   *
    * @example
    * const space = new BroadPhase().set(7, 0, 0, 10, 10).update();
    * space.queryPoints([10, 3, 11, 3]).offsets; // → Uint32Array [0, 1, 1]
    */
-  queryPoints(points: Boxes, options?: ManyAreaOptions): ManyIds;
+  queryPoints(points: Numbers, options?: ManyAreaOptions): ManyIds;
 
   /**
-   * The boxes in each of many circles, in 3D of many spheres: for each its centre, then its radius. As {@link
-   * BroadPhase.queryBoxes}.
+   * The boxes in each of many circles, in 3D of many spheres: as {@link BroadPhase.queryBoxes}.
+   *
+   * @param circles 3 numbers (3D: 4) for each: its centre, then its radius
    *
    * @example
    * const space = new BroadPhase().set(7, 0, 0, 10, 10).update();
    * space.queryCircles([13, 14, 5, 14, 14, 5]).offsets; // → Uint32Array [0, 1, 1]
    */
-  queryCircles(circles: Boxes, options?: ManyAreaOptions): ManyIds;
+  queryCircles(circles: Numbers, options?: ManyAreaOptions): ManyIds;
 
   /**
    * The first box that each of many rays hits, as `rayCast`: at most one answer per ray. As {@link
    * BroadPhase.queryBoxes}, with the distances and the normals, each of one number per axis.
+   *
+   * @param rays 4 numbers (3D: 6) for each: its origin, then its direction
    *
    * @example
    * const space = new BroadPhase().set(7, 10, -5, 20, 5).update();
@@ -62,21 +68,26 @@ export interface ManyQueries {
    * hits.distances; // → Float64Array [10]
    * hits.normals; // → Int8Array [-1, 0]
    */
-  rayCasts(rays: Boxes, options?: ManyFarOptions<ManyRayHits>): ManyRayHits;
+  rayCasts(rays: Numbers, options?: ManyFarOptions<ManyRayHits>): ManyRayHits;
 
   /**
-   * The first box that each of many moving boxes hits, as `sweep`: for each its box, then its motion. As {@link
-   * BroadPhase.rayCasts}.
+   * The first box that each of many moving boxes hits, as `sweep`: as {@link BroadPhase.rayCasts}, with times instead of
+   * distances.
+   *
+   * @param boxes 6 numbers (3D: 9) for each: its box, then how far it moves along each axis
    *
    * @example
    * const space = new BroadPhase().set(7, 21, -5, 22, 5).update();
    * space.sweeps([0, 0, 1, 1, 40, 0]).times; // → Float64Array [0.5]
    */
-  sweeps(boxes: Boxes, options?: ManyOptions<ManySweepHits>): ManySweepHits;
+  sweeps(boxes: Numbers, options?: ManyOptions<ManySweepHits>): ManySweepHits;
 
   /**
    * The `k` boxes nearest to each of many points, the nearest first, as `nearest`. As {@link BroadPhase.queryBoxes}, with
    * the distances.
+   *
+   * @param points 2 numbers (3D: 3) for each point
+   * @param k an integer from 1 on, or Infinity for all
    *
    * @example
    * const space = new BroadPhase().set(7, 0, 0, 10, 10).set(9, 15, 0, 20, 5).update();
@@ -84,7 +95,7 @@ export interface ManyQueries {
    * ids; // → Uint32Array [9, 7]
    * distances; // → Float64Array [2, 0]
    */
-  nearests(points: Boxes, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest;
+  nearests(points: Numbers, k: number, options?: ManyFarOptions<ManyNearest>): ManyNearest;
 
   /**
    * The `k` other boxes nearest to each box, by the distance between boxes, then by id: those of box `of[n]` are

@@ -3,6 +3,7 @@ import type {
   BoxQuery,
   Dimensions,
   NearestQuery,
+  Numbers,
   PointQuery,
   RayQuery,
   RoundQuery,
@@ -120,7 +121,7 @@ export interface Queries<D extends Dimensions> {
    * space.set(7, 0, 0, 1, 1).set(8, 4, 4, 6, 6).update();
    * space.queryPlanes([-1, -1, 3]); // → [7]
    */
-  queryPlanes(planes: Float32Array | Float64Array | readonly number[], options?: PlanesOptions): number[];
+  queryPlanes(planes: Numbers, options?: PlanesOptions): number[];
 
   /**
    * The first box that a ray hits, or `undefined`; ties are decided as in `sweep`. The direction may have any length;

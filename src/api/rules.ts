@@ -66,7 +66,7 @@ export interface Rules {
   isStatic(id: number): boolean;
 
   /**
-   * Switches box `id` off, or on again. A box that is off keeps its numbers and its filter, and can be set, moved and
+   * Switches box `id` off, or on again. A box that is off keeps its numbers and its rules, and can be set, moved and
    * deleted. From the next update on it is in no pair and in no answer, and its pairs have ended. The setting belongs
    * to the id, as filters do.
    *

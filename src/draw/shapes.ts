@@ -101,7 +101,6 @@ export class Shapes {
     const origin = ray.slice(0, dimensions);
     const way = ray.slice(dimensions, 2 * dimensions);
     const [maxDistance = Infinity] = ray.slice(2 * dimensions);
-    // That checks every number of the ray.
     const asked = [...origin, ...way, { maxDistance }] as unknown as Parameters<BroadPhase<2>['rayCast']>;
     const hit = (this.#space as unknown as BroadPhase<2>).rayCast(...asked);
     const reach = this.#reach(origin);

@@ -40,6 +40,7 @@ export class KernelInstance {
   exposedIsOpen = false;
   /** The number of the selected technique. */
   technique = 0;
+  /** Whether updates determine which pairs began and ended. */
   readonly events: boolean;
   /** The counters, once somebody has asked for them. */
   stats: Stats | undefined;
@@ -53,6 +54,7 @@ export class KernelInstance {
   private pairs: Uint32Array[][] = [];
   private staged: (Float32Array | Float64Array)[] = [];
   private counters = new Float64Array();
+  /** Where the kernel's stack begins, to go back to after an exception. */
   private readonly top: number;
   private losses = 0; // how often memory has run out
 

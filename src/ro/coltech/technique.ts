@@ -6,7 +6,7 @@ import type { Entity } from '../entity.ts';
 /** Two entities whose boxes overlap; in a world, the one that was added first comes first. */
 export type Pair<E> = [a: E, b: E];
 
-/** What a world needs of a technique. Anything with these four methods can be its `coltech`. */
+/** What a world needs of a technique. Anything with `entities` and these four methods can be its `coltech`. */
 export interface Technique<E extends Collidable = Entity> {
   /** The entities it looks after. */
   readonly entities: readonly E[];
