@@ -1,5 +1,6 @@
-// Rays, sweeps and nearest boxes: the queries whose answers are in order. All queries see the boxes of the last update;
-// the index is built at the first query after it. The other queries are in place-queries.ts and plane-queries.ts.
+// Rays, sweeps and nearest boxes: the queries whose answers are in order. All queries see the boxes of the last update:
+// the kernel scans them for the first few queries after it, and searches an index if there are more. The other queries
+// are in place-queries.ts and plane-queries.ts.
 import {
   cut,
   finite,

@@ -84,7 +84,8 @@ export interface Pairs<D extends Dimensions> {
   get ended(): Uint32Array;
 
   /**
-   * Whether boxes `a` and `b` are a pair of the last update, in constant time after the first query.
+   * Whether boxes `a` and `b` are a pair of the last update. Up to eight calls after an update look through all pairs; more
+   * make a table first, and then take constant time.
    * @param a an integer from 0 to 2^24 - 1, in use or not; so is `b`
    * @throws RangeError or TypeError for a bad id
    *
@@ -97,8 +98,9 @@ export interface Pairs<D extends Dimensions> {
   isColliding(a: number, b: number): boolean;
 
   /**
-   * The ids of the boxes that are in a pair with box `id` as of the last update, in the order of `pairs`. Takes time
-   * proportional to the answer, after the first query.
+   * The ids of the boxes that are in a pair with box `id` as of the last update, in the order of `pairs`. Up to
+   * eight calls after an update look through all pairs; more make a table first, and then take time proportional to the
+   * answer.
    *
    * @param id an integer from 0 to 2^24 - 1, in use or not
    * @param out filled and returned, if given; otherwise a new array
