@@ -96,7 +96,9 @@ export interface Upkeep {
   validate(): this;
 
   /**
-   * Frees the memory at once; otherwise it is freed with the object. Any later call that needs the boxes throws.
+   * Lets go of the memory: the next garbage collection frees it, although something may still refer to the space. A space
+   * that nothing refers to needs no such call. An array that is a view of the memory, such as `pairs`, keeps it. Any later
+   * call that needs the boxes throws.
    *
    * @example
    * const space = new BroadPhase();

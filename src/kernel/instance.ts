@@ -92,7 +92,7 @@ export class KernelInstance {
     return this.exports === disposed;
   }
 
-  /** Releases the memory at once. Any call after this throws. */
+  /** Lets go of the memory. Any call after this throws. */
   dispose(): void {
     this.exports = disposed;
     this.ring.dispose();

@@ -198,7 +198,7 @@ export function* replay(source: FrameSource, options: ReplayOptions = {}, verify
   }
 }
 
-/** Runs with a space for each of the options. All are disposed of, however it ends: a page holds about 100. */
+/** Runs with a space for each of the options. All are disposed of, however it ends. */
 export function withSpaces<Result>(
   options: readonly BroadPhaseOptions<2 | 3>[],
   run: (spaces: readonly BroadPhase<2 | 3>[]) => Result,

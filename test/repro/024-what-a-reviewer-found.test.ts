@@ -1,4 +1,4 @@
-// What a reader of the code found: spaces that stayed after a replay, rules that a survey left out, errors that named
+// What a reader of the code found: spaces that a replay did not dispose of, rules that a survey left out, errors that named
 // no call, and pages that drew too thick on displays of three pixels per pixel.
 import { BroadPhase } from 'broadphase';
 import {

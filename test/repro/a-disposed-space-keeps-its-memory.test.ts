@@ -1,5 +1,5 @@
-// `dispose` promises to let go of the memory at once. Views of the ids and of the counters kept it, as long as somebody
-// held the space itself.
+// `dispose` promises to let go of the memory. Views of the ids and of the counters kept it, as long as somebody held the
+// space itself.
 import { setFlagsFromString } from 'node:v8';
 import { runInNewContext } from 'node:vm';
 import { BroadPhase } from 'broadphase';
