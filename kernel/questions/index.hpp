@@ -6,8 +6,7 @@
 // is written there, and one that leaves them, or is new, goes to the spare blocks at the end. It leaves a hole. When
 // there is no spare place left, or many boxes changed, the index is rebuilt, unless queries are few and each scans all
 // boxes instead (scan.hpp). It retains the previous order while boxes in one block are still close together, and
-// while the blocks visited since the last sort have cost less than a sort. So one query per frame, among boxes that all
-// move, does not pay for an order it hardly uses.
+// while queries visit few more blocks for it (wear.hpp).
 // Cost: about 27 (2D) or 30 (3D) ns per box to build, less than half of it with the previous order; 0.1 us for each box
 // updated in place; 28 (2D) or 38 (3D) bytes per box, and 16 or 24 more for boxes in doubles. If boxes change after the
 // update, also a copy of them, so that queries see those of the last update.
@@ -15,6 +14,7 @@
 #pragma once
 #include "base/demand.hpp"
 #include "questions/seen_boxes.hpp"
+#include "questions/wear.hpp"
 #include "search/hilbert.hpp"
 
 template <int D> class Index {
@@ -34,7 +34,7 @@ template <int D> class Index {
   u32 sorted_ = 0, used_ = 0, room_ = 0;  // ends of places: of sorted boxes, of those added after them, of spare ones
   bool holes_ = false;
   u32 known_ = 0;  // slots that have an entry in `places_`
-  u64 looks_ = 0;  // blocks that queries visited since boxes were sorted: a visit costs about as much as sorting a box
+  Wear wear_;
   f32 width_ = 0;  // mean width of groups when boxes were sorted
   Demand demand_;
   RadixSort sort_;
@@ -167,8 +167,8 @@ template <int D> class Index {
     return true;
   }
 
-  /// Records that a query has visited this many blocks.
-  void looked_at(u64 blocks) { looks_ += blocks; }
+  /// Records that queries have visited this many blocks.
+  void looked_at(u64 blocks, u32 queries = 1) { wear_.looked_at(blocks, queries); }
 
   /// Records a query, which takes as long as `work` scans of all boxes. If scans cost less than building the index, as
   /// for the first few queries after an update, returns the boxes, rounded to the nearest; else null. `nearest`: see
@@ -191,7 +191,7 @@ template <int D> class Index {
     if (reads_nearest) seen_.boxes.at = nearest;
     else if (rounded()) seen_.round(0, seen_.count);
     room_ = seen_.count + seen_.count / 32 + 64;
-    if (known_ == 0 || looks_ >= seen_.count || !keep_order()) put_in_order();
+    if (known_ == 0 || wear_.is_worn(seen_.count) || !keep_order()) put_in_order();
     make_blocks(reads_nearest);
     if (reads_nearest) seen_.boxes.at = to;
     built_ = true;
@@ -367,7 +367,8 @@ template <int D> class Index {
   /// Fills slots_ with the boxes that are not off.
   SMALL void put_in_order() {
     u32 n = seen_.count, some = 0;
-    looks_ = sorted_ = 0;
+    sorted_ = 0;
+    wear_.restart();
     make_room(0);
     if (n == 0) return;
     SceneItems<D> items{{seen_.boxes.at, n, nullptr}, AxisOrder<D>::make(0)};

@@ -30,6 +30,8 @@ template <int D> class Queries {
   const u32* const names_;  // what answers consist of: ids, or slots if another space asks
   const Wanted<D> wanted_;
   const bool all_wanted_;
+  // A float's bits, shifted by this, are those of a float below 2^-126, in the same order.
+  static constexpr u32 around_shift = 8;
   f32 most_rank_ = 0;  // the limit, in the unit of the lower bounds
   u32 from_ = 0, most_ = 0, found_ = 0, looks_ = 0;
 
@@ -232,19 +234,23 @@ template <int D> class Queries {
     return true;
   }
 
-  /// Ranks eight boxes by lower bounds for their squared distances from the point, reduced by the possible rounding error.
+  /// Ranks eight boxes by lower bounds for their squared distances from the point, reduced by the possible rounding
+  /// error. Of those around it, the smallest come first, since what is near is probably there: their ranks follow from
+  /// their sizes, and are so small that no limit leaves them out.
   NOINLINE void rank_by_distance(const Block& block, Ranks& to) const {
     f32x4 most = splat(most_rank_);
     ROLLED for (u32 half = 0; half < 8; half += 4) {
-      f32x4 sum = {};
+      f32x4 sum = {}, size = {};
       for (int a = 0; a < D; a++) {
-        f32x4 away = max(load<f32x4>(block.lo[a] + half) - above_[a], below_[a] - load<f32x4>(block.hi[a] + half));
-        away = max(away, f32x4{});
+        f32x4 lo = load<f32x4>(block.lo[a] + half), hi = load<f32x4>(block.hi[a] + half);
+        f32x4 away = max(max(lo - above_[a], below_[a] - hi), f32x4{});
         sum += away * away;
+        size += hi - lo;
       }
       f32x4 least = min(sum * splat(0.999999f), splat(1e38f));
       i32x4 is_box = load<f32x4>(block.lo[0] + half) == load<f32x4>(block.lo[0] + half);
-      to.set(half, least, is_box & (least <= most));
+      u32x4 around = (bits<u32x4>(size) >> around_shift) & bits<u32x4>(sum == f32x4{});
+      to.set(half, bits<f32x4>(bits<u32x4>(least) | around), is_box & (least <= most));
     }
   }
 
@@ -278,8 +284,8 @@ template <int D> class Queries {
     else aim_.most = most_rank_ = is_tame_ ? round_up(limit * scale_) : __builtin_inff();
   }
   /// An upper bound for the square of every distance within the limit, in float32 too, where the smallest squares are
-  /// rounded to multiples of 2^-149.
-  static f64 squared_limit(f64 limit) { return limit * limit * (1 + 0x1p-49) + 0x1p-145; }
+  /// rounded to multiples of 2^-149, and above all ranks of boxes around the point.
+  static f64 squared_limit(f64 limit) { return limit * limit * (1 + 0x1p-49) + 0x1p-126; }
 
   /// The distance to a box, given its square, which may have lost digits.
   f64 distance(u32 place, f64 squared) const {

@@ -75,7 +75,7 @@ template <int D> class Questions {
     if (kind == Asks::others) count = index().count();
     if (can) bulk.answer(index(), asked, kind, count, most, hits);
     else bulk.answer_nothing(count);
-    if (can) index().looked_at(bulk.looks);
+    if (can) index().looked_at(bulk.looks, count);
     if (kind == Asks::others) {
       answers.reserve(count);
       for (u32 s = 0; s < count; s++) answers[s] = index().id_of_slot(s);
