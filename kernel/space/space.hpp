@@ -259,7 +259,8 @@ template <int D> class Space {
     lookups_.forget();
     stats.pairs = f64(pairs.count);
     // Growing memory later would detach the views of the pairs in the middle of a loop over them.
-    RoomAhead<D>::take(store.ids.count(), pairs.count * RoomAhead<D>::lookup + RoomAhead<D>::spare);
+    u64 more = pairs.count * RoomAhead<D>::lookup + RoomAhead<D>::spare;
+    RoomAhead<D>::take(store.ids.count(), more, store.keeps_events);
     end();
   }
 

@@ -182,7 +182,7 @@ template <int D> class Store {
     }
     numbers.written.begin();
     // Growing memory later would detach the caller's view.
-    RoomAhead<D>::take(count, RoomAhead<D>::in_place);
+    RoomAhead<D>::take(count, RoomAhead<D>::in_place, keeps_events);
     return numbers.boxes();
   }
 

@@ -361,6 +361,23 @@ describe('views of memory', () => {
     },
   );
 
+  // Deletions are recorded in a bit per id: see events.hpp.
+  test.each([
+    ['delete', (space: BroadPhase, id: number) => space.delete(id)],
+    ['set and delete', (space: BroadPhase) => space.set(2 ** 24 - 7, 0, 0, 1, 1).delete(2 ** 24 - 7)],
+    ['clear', (space: BroadPhase) => space.clear()],
+  ] as const)('of pairs stay while boxes of high ids are deleted: %s', (_, call) => {
+    for (const id of [1, 2 ** 20, 2 ** 22, 2 ** 23, 2 ** 24 - 1]) {
+      const space = new BroadPhase({ events: true }).set(0, 0, 0, 1, 1).set(id, 0, 0, 1, 1).update();
+      const { pairs, began } = space;
+      call(space, id);
+      expect(Array.from(pairs), `id ${id}`).toEqual([0, id]);
+      expect(Array.from(began)).toEqual([0, id]);
+      space.queryPoint(0, 0);
+      expect(pairs.length).toBe(2);
+    }
+  });
+
   test('a bad box written in place is named by its id, though another was deleted since', () => {
     const space = new BroadPhase();
     const view = space.boxes(3);
