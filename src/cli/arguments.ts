@@ -60,6 +60,9 @@ export interface Range {
   whole?: boolean;
 }
 
+/** The value of an option, as errors name it. */
+export const named = (text: string): string => text.trim() || 'empty';
+
 /** The arguments of a command, as given; each is checked when it is asked for. */
 export class Input {
   readonly operands: readonly string[];
@@ -86,14 +89,17 @@ export class Input {
     const inRange = value >= least && value <= most && value < Infinity;
     if (text.trim() === '' || !inRange || (whole && !Number.isInteger(value))) {
       const upTo = most < Infinity ? ` to ${most}` : '';
-      throw new UsageError(`--${name} is ${text}, expected ${whole ? 'an integer' : 'a number'} from ${least}${upTo}`);
+      const expected = `${whole ? 'an integer' : 'a number'} from ${least}${upTo}`;
+      throw new UsageError(`--${name} is ${named(text)}, expected ${expected}`);
     }
     return value;
   }
 
   /** One of the names, or several, separated by commas. */
   names<Name extends string>(name: string, known: readonly Name[]): Name[] | undefined {
-    const names = this.text(name)?.split(/ *, */);
+    const names = this.text(name)
+      ?.trim()
+      .split(/\s*,\s*/);
     for (const each of names ?? []) {
       if (!known.includes(each as Name)) {
         throw new UsageError(`--${name}: no ${each || 'empty name'}, expected one of ${known.join(', ')}`);

@@ -2,7 +2,7 @@
 import { open, readFile, stat, unlink, writeFile } from 'node:fs/promises';
 import { gzipSync } from 'node:zlib';
 import { exportRecording, type Frame, type FrameSource, openAny, TraceError, TraceWriter } from 'broadphase/trace';
-import { type Input, type Option, type Terminal, UsageError } from './arguments.ts';
+import { type Input, named, type Option, type Terminal, UsageError } from './arguments.ts';
 import { complain, counted } from './terminal.ts';
 
 /** A file that cannot be read or written. */
@@ -113,7 +113,7 @@ function slice(source: FrameSource, range: string): Selected {
   if (!(from <= to && to < source.frames)) {
     const last = source.frames - 1;
     const expected = `expected two numbers from 0 to ${last}, such as 0..${Math.min(9, last)}`;
-    throw new UsageError(`--frames is ${range}, ${last < 0 ? 'but the trace has no frames' : expected}`);
+    throw new UsageError(`--frames is ${named(range)}, ${last < 0 ? 'but the trace has no frames' : expected}`);
   }
   const chosen: FrameSource = {
     dimensions: source.dimensions,

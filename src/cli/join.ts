@@ -3,7 +3,7 @@ import { once } from 'node:events';
 import { stat } from 'node:fs/promises';
 import { availableParallelism } from 'node:os';
 import { Worker } from 'node:worker_threads';
-import { type Command, exitCode, type Input, UsageError } from './arguments.ts';
+import { type Command, exitCode, type Input, named, UsageError } from './arguments.ts';
 import { checkWritable, FileError } from './files.ts';
 import { loadDuckDB } from './join/duckdb.ts';
 import { DataError, openSource, type Source } from './join/source.ts';
@@ -29,7 +29,7 @@ function readMemory(input: Input): number {
   const text = input.text('memory') ?? '1GB';
   const [, value, unit = ''] = /^([\d.]+)\s*([a-z]*)$/i.exec(text) ?? [];
   const memory = Number(value) * (units[unit.toLowerCase()] ?? Number.NaN);
-  if (!(memory >= 400e6)) throw new UsageError(`--memory is ${text}, expected a size from 400MB, such as 1GB`);
+  if (!(memory >= 400e6)) throw new UsageError(`--memory is ${named(text)}, expected a size from 400MB, such as 1GB`);
   return memory;
 }
 

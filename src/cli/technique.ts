@@ -1,7 +1,7 @@
 // Options that name techniques and the size of their cells, for `replay`, `compare` and `tune`.
 import { BroadPhase } from 'broadphase';
 import type { ReplayOptions } from 'broadphase/trace';
-import { type Input, type Option, UsageError } from './arguments.ts';
+import { type Input, named, type Option, UsageError } from './arguments.ts';
 
 export const techniqueHelp = BroadPhase.techniques.join(', ');
 
@@ -15,7 +15,9 @@ export function readCellSize(input: Input, dimensions: 2 | 3): Pick<ReplayOption
   if (text === undefined) return {};
   const sizes = text.split(',').map(Number);
   if ((sizes.length !== 1 && sizes.length !== dimensions) || !sizes.every((size) => size > 0 && size < Infinity)) {
-    throw new UsageError(`--cell-size is ${text}, expected a number above 0, or ${dimensions} separated by commas`);
+    throw new UsageError(
+      `--cell-size is ${named(text)}, expected a number above 0, or ${dimensions} separated by commas`,
+    );
   }
   return { cellSize: sizes.length === 1 ? sizes[0] : sizes };
 }

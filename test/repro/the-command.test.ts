@@ -32,6 +32,26 @@ beforeAll(async () => {
 });
 afterAll(() => rmSync(folder, { recursive: true }));
 
+test('spaces around all names of --techniques are no part of a name', async () => {
+  const { code, out } = await run(['compare', small, '--json', '--techniques', ' auto ,\tbrute-force ']);
+  expect(code).toBe(0);
+  const names: string[] = JSON.parse(out).techniques.map(({ technique }: { technique: string }) => technique);
+  expect(names.sort()).toEqual(['auto', 'brute-force']); // they come by speed
+});
+
+test.each([
+  ['--frames', ['info', small]],
+  ['--cell-size', ['replay', small]],
+  ['--seed', ['generate', 'crowd', file('none.trace')]],
+  ['--memory', ['join', small, file('pairs.parquet')]],
+])('an empty value of %s is called empty', async (option, argv) => {
+  for (const value of ['', ' ']) {
+    const { code, err } = await run([...argv, option, value]);
+    expect(code).toBe(2);
+    expect(err).toContain(`${option} is empty, expected`);
+  }
+});
+
 describe('what would be lost is refused before the work', () => {
   test('a report that cannot be written', async () => {
     for (const path of [file('no/such/folder.html'), folder]) {
