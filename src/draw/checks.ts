@@ -20,7 +20,10 @@ export function checkSpace(where: string, space: BroadPhase<2 | 3>, dimensions: 
 
 /** A wrong argument: `badValue`, but smaller. */
 export function bad(where: string, value: unknown, expected: string, Kind = TypeError): never {
-  let shown = typeof value === 'string' ? `"${value}"` : String(value);
-  if (Array.isArray(value)) shown = `[${value.map(String).join(', ')}]`;
+  let shown: string = typeof value; // an object without a prototype, or with a symbol in it, does not become text
+  try {
+    if (shown === 'string') shown = `"${value}"`;
+    else shown = Array.isArray(value) ? `[${value.map(String).join(', ')}]` : String(value);
+  } catch {}
   throw new Kind(`${where}: got ${shown}, expected ${expected}`);
 }

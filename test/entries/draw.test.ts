@@ -287,6 +287,13 @@ describe('drawSpace', () => {
     ]) {
       expect(() => drawSpace(ctx, space(), { rays: [ray as number[]] })).toThrow(/^drawSpace: rays: got \[0, /);
     }
+    // Neither text nor a number can be made of these.
+    for (const value of [Symbol('x'), Object.create(null)]) {
+      expect(() => drawSpace(ctx, space(), { rays: [[0, 0, value, 1]] })).toThrow(/^drawSpace: rays: got .*expected/);
+      expect(() => drawSpace(ctx, space(), { rays: value })).toThrow(/^drawSpace: rays: got .*expected/);
+      expect(() => drawSpace(ctx, space(), { boxes: value })).toThrow(/^drawSpace: boxes: got .*expected/);
+      expect(() => boxesInCells(value)).toThrow(/^boxesInCells: got .*expected/);
+    }
     for (const value of [Symbol('wide'), 5n, null]) {
       const message = `drawSpace: lineWidth: got ${String(value)}, expected a number above 0`;
       expect(() => drawSpace(ctx, space(), { lineWidth: value as never })).toThrow(message);
