@@ -294,8 +294,7 @@ function ends(instance: KernelInstance, where: string, visit: Visit, returned: u
   const by = into ? 'accept' : 'visit';
   if (returned && (into ? returned !== true : (returned as { then?: unknown }).then))
     checkBoolean(`${where}: ${by} returned`, returned);
-  if (returned === !!into) return true;
-  if (instance.turn === visit.turn) return false;
+  if (instance.turn === visit.turn) return returned === !!into;
   throw new Error(`${where}: update or restore was called by ${by}, or memory ran out: expected after the search`);
 }
 

@@ -125,6 +125,14 @@ describe('an error says what is wrong', () => {
       () => space.queryBox(0, 0, 1, 1, { visit: () => space.update() }),
     ],
     ['nearest: update or restore was called by visit', () => space.nearest(0, 0, 1, { visit: () => space.update() })],
+    [
+      'queryBox: update or restore was called by visit',
+      () => space.queryBox(0, 0, 1, 1, { visit: () => !space.update() }), // ends the search, too
+    ],
+    [
+      'rayCast: update or restore was called by accept',
+      () => space.rayCast(0, 0, 1, 0, { accept: () => Boolean(space.update()) }),
+    ],
   ])('%s', (message, call) => {
     expect(call).toThrow(message);
   });
