@@ -30,8 +30,8 @@ template <int D> class Queries {
   const u32* const names_;  // what answers consist of: ids, or slots if another space asks
   const Wanted<D> wanted_;
   const bool all_wanted_;
-  // A float's bits, shifted by this, are those of a float below 2^-126, in the same order.
-  static constexpr u32 around_shift = 8;
+  // The bits of a float without its sign, shifted by this, are those of one below 2^-126, in the same order.
+  static constexpr u32 around_shift = 9;
   f32 most_rank_ = 0;  // the limit, in the unit of the lower bounds
   u32 from_ = 0, most_ = 0, found_ = 0, looks_ = 0;
 
@@ -249,7 +249,8 @@ template <int D> class Queries {
       }
       f32x4 least = min(sum * splat(0.999999f), splat(1e38f));
       i32x4 is_box = load<f32x4>(block.lo[0] + half) == load<f32x4>(block.lo[0] + half);
-      u32x4 around = (bits<u32x4>(size) >> around_shift) & bits<u32x4>(sum == f32x4{});
+      // Infinity less infinity is NaN, of either sign: its sign is cut off first.
+      u32x4 around = (bits<u32x4>(size) << 1 >> around_shift) & bits<u32x4>(sum == f32x4{});
       to.set(half, bits<f32x4>(bits<u32x4>(least) | around), is_box & (least <= most));
     }
   }
