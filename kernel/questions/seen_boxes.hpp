@@ -49,7 +49,7 @@ struct SeenArrays {
   u32 count = 0;
   const f64* world = nullptr;  // if it wraps around: boxes are then in `exact`, and moved into it when rounded
   bool rounded = false, named = false, filtered = false, reached = false;
-  bool lent = false;  // all but rounded boxes is read where the space has it
+  bool lent = false;  // all but rounded boxes are read where the space has it
 
   constexpr explicit SeenArrays(u32 numbers) : width(numbers) {}
 

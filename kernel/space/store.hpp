@@ -347,7 +347,7 @@ template <int D> class Store {
     own.stage(count);
   }
 
-  /// The ids become 0 … count - 1, once they are prepared; boxes that were there keep their filters.
+  /// The ids become 0 … count - 1, once they are prepared; boxes that were there keep their rules.
   SMALL void renumber(u32 count) {
     changes().note_all();
     numbers.written.renamed = true;
