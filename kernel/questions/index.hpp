@@ -6,7 +6,7 @@
 // is written there, and one that leaves them, or is new, goes to the spare blocks at the end. It leaves a hole. When
 // there is no spare place left, or many boxes changed, the index is rebuilt, unless queries are few and each scans all
 // boxes instead (scan.hpp). It retains the previous order while boxes in one block are still close together, and
-// while queries visit few more blocks for it (wear.hpp).
+// while queries visit few more blocks than right after boxes were sorted (wear.hpp).
 // Cost: about 27 (2D) or 30 (3D) ns per box to build, less than half of it with the previous order; 0.1 us for each box
 // updated in place; 28 (2D) or 38 (3D) bytes per box, and 16 or 24 more for boxes in doubles. If boxes change after the
 // update, also a copy of them, so that queries see those of the last update.
@@ -179,7 +179,7 @@ template <int D> class Index {
   }
 
   /// Records a query that searches the index, whatever others do: after the next update, a scan would be wasted.
-  void note_search() { demand_.is_low(0, scans_per_build + 1); }
+  void note_search() { demand_.now += scans_per_build + 1; }
 
   /// Builds the index, if necessary. It stays the same until the next update, since answers may be read in parts.
   /// `nearest`: its boxes, rounded to the nearest, which takes less time to read than doubles; null if there are none.

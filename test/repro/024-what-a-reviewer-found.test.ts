@@ -1,5 +1,5 @@
 // What a reader of the code found: spaces that a replay did not dispose of, rules that a survey left out, errors that named
-// no call, and pages that drew too thick on displays of three pixels per pixel.
+// no call, and pages that drew too thick on displays with three pixels per CSS pixel.
 import { BroadPhase } from 'broadphase';
 import {
   compare,

@@ -4,6 +4,7 @@
 import { BroadPhase, type BroadPhaseOptions, findPairsBetween, type Stats } from 'broadphase';
 import { type Frame, TraceWriter } from 'broadphase/trace';
 import type { SceneName } from '../../../src/scenes/index.ts';
+import { joined } from '../../../src/trace/bytes.ts';
 import { pairsDigest } from '../../../src/trace/compare.ts';
 import { begin, timeUpdate } from '../../../src/trace/replay.ts';
 import { typicalSide, usesParameter } from '../../../src/trace/tune.ts';
@@ -159,14 +160,7 @@ export class Engine implements Record<keyof Requests, unknown> {
     if (!this.#recording) throw new Error('nothing is being recorded');
     const { writer, pieces } = this.#recording;
     this.#recording = undefined;
-    pieces.push(writer.end());
-    const all = new Uint8Array(pieces.reduce((sum, piece) => sum + piece.length, 0));
-    let at = 0;
-    for (const piece of pieces) {
-      all.set(piece, at);
-      at += piece.length;
-    }
-    return all;
+    return joined([...pieces, writer.end()]);
   }
 
   #need(): Feed {
