@@ -101,7 +101,7 @@ export function order(instance: KernelInstance, where: string, kind: number, ask
   release();
   try {
     const wanted = Math.min(most + (others?.length ?? 0), everything);
-    const count = known(where, instance.kernel.ask_order(kind, mask, ignored, nobody, wanted));
+    const count = known(instance, where, instance.asker.ask_order(kind, mask, ignored, nobody, wanted));
     return others === undefined ? count : leaveOut(instance, others, count, most);
   } catch (error) {
     instance.recover(error, where);
@@ -111,7 +111,7 @@ export function order(instance: KernelInstance, where: string, kind: number, ask
 /** Removes ignored boxes from the kernel's hits; returns how many are left, at most `most`. */
 function leaveOut(instance: KernelInstance, others: readonly number[], count: number, most: number): number {
   const words = instance.wordView();
-  const first = instance.kernel.hits_address() >>> 2;
+  const first = instance.exports.hits_address() >>> 2;
   let kept = 0;
   for (let k = 0; k < count && kept < most; k++) {
     if (others.includes(words[first + 4 * k + 2]! & maxId)) continue;
@@ -130,12 +130,10 @@ function ids(
   from: number,
   most: number,
 ): number {
-  const { kernel } = instance;
+  const { asker } = instance;
   const count =
-    planes === shape
-      ? kernel.ask_area(mask, ignored, from, most)
-      : kernel.ask_planes(planes, mask, ignored, from, most);
-  return known(where, count);
+    planes === shape ? asker.ask_area(mask, ignored, from, most) : asker.ask_planes(planes, mask, ignored, from, most);
+  return known(instance, where, count);
 }
 
 function visitArea(instance: KernelInstance, where: string, planes: number, asked: Asked): void {
@@ -147,7 +145,7 @@ function visitArea(instance: KernelInstance, where: string, planes: number, aske
       instance.io().set(visit.query);
       const count = ids(instance, where, planes, mask, ignored, from, part);
       from = instance.io()[0]!;
-      const first = instance.kernel.answers_address() >>> 2;
+      const first = instance.exports.answers_address() >>> 2;
       const words = instance.wordView();
       for (let k = 0; k < count; k++) visit.ids[k] = words[first + k]!;
       for (let k = 0; k < count; k++) {
@@ -184,7 +182,7 @@ export function walk(
     for (let left = most, after = nobody, ahead = into ? firstPart : part; left > 0; ahead = part) {
       const wanted = Math.min(left + (others?.length ?? 0), ahead);
       instance.io().set(visit.query);
-      const count = known(where, instance.kernel.ask_order(kind, mask, ignored, after, wanted));
+      const count = known(instance, where, instance.asker.ask_order(kind, mask, ignored, after, wanted));
       keepHits(instance, visit, count);
       for (let k = 0; k < count && left > 0; k++) {
         const id = visit.ids[k]! & maxId;
@@ -208,7 +206,7 @@ export function walk(
 
 /** Copies the kernel's hits, which other queries will overwrite. */
 function keepHits(instance: KernelInstance, visit: Visit, count: number): void {
-  const first = instance.kernel.hits_address();
+  const first = instance.exports.hits_address();
   const words = instance.wordView();
   const doubles = instance.doubleView();
   for (let k = 0; k < count; k++) {
@@ -252,7 +250,7 @@ function startVisit(instance: KernelInstance): Visit {
 /** Copies the first of the kernel's answers. */
 export function copyIds(instance: KernelInstance, count: number, out: number[], others?: readonly number[]): number[] {
   const words = instance.wordView();
-  const first = instance.kernel.answers_address() >>> 2;
+  const first = instance.exports.answers_address() >>> 2;
   let kept = 0;
   if (others === out) others = [...out];
   for (let k = 0; k < count; k++) {
@@ -273,15 +271,16 @@ export function cut<T>(array: T[], length: number): T[] {
 
 /** Reads the k-th of the kernel's hits; returns the place of its rank among the doubles. */
 export function readHit(instance: KernelInstance, k: number, hit: { id: number; normal: number[] }): number {
-  const at = instance.kernel.hits_address() + 16 * k;
+  const at = instance.exports.hits_address() + 16 * k;
   const words = instance.wordView();
   hit.id = words[(at >>> 2) + 2]! & maxId; // the bits above it say whether it was met at a corner
   writeNormal(instance, words[(at >>> 2) + 3]! | 0, hit.normal);
   return at >>> 3;
 }
 
-/** The number of answers; throws if the kernel has no copy of the boxes. */
-export function known(where: string, count: number): number {
+/** After a query: the number of its answers; throws if the kernel has no copy of the boxes. */
+export function known(instance: KernelInstance, where: string, count: number): number {
+  instance.ring.follow();
   if (count !== -1) return count;
   throw new Error(
     `${where}: boxes have changed since the last update, and a large space that was never queried has no copy, ` +

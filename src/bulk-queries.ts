@@ -145,7 +145,7 @@ export function askMany(
     const io = instance.io(); // only now: a getter among the options may have asked a query itself
     io[touchingAt] = Number(touching);
     io[limitAt] = kind === asks.way ? 1 : maxDistance;
-    const asked = known(where, instance.kernel.ask_many(kind, count, mask, Math.min(most, everything)));
+    const asked = known(instance, where, instance.kernel.ask_many(kind, count, mask, Math.min(most, everything)));
     return collect(instance, asked, parts, out);
   } catch (error) {
     instance.recover(error, where);

@@ -103,7 +103,7 @@ function keep(few: KernelInstance, kept: Kept, many: KernelInstance): void {
   const { forth } = kept;
   let running = many;
   try {
-    const epoch = known(forth ? ofOther : where, many.kernel.read_log());
+    const epoch = known(many, forth ? ofOther : where, many.kernel.read_log());
     const log = many.io();
     const total = log[logCountAt]!;
     const reach = log[mostReachAt]!;
@@ -114,6 +114,7 @@ function keep(few: KernelInstance, kept: Kept, many: KernelInstance): void {
     kept.epoch = epoch;
     kept.read = total;
     const asked = known(
+      few,
       forth ? where : ofOther,
       few.kernel.begin_pairs(set, changes, same ? 1 : 0, forth ? 1 : 0, reach),
     );

@@ -1,5 +1,5 @@
 // The queries about places: which boxes collide, and which are in a box, at a point, or in a circle.
-import { area, copyIds, isNumber, number, point } from './answers.ts';
+import { area, copyIds, isNumber, known, number, point } from './answers.ts';
 import { badQuery, checkDistance, checkId, checkOut, corners, isSize } from './errors.ts';
 import { radiusAt } from './generated/abi.ts';
 import type { KernelInstance } from './kernel/instance.ts';
@@ -9,7 +9,7 @@ export function isColliding(instance: KernelInstance, a: number, b: number): boo
   checkId('isColliding: a', a);
   checkId('isColliding: b', b);
   try {
-    return instance.kernel.is_pair(a, b) === 1;
+    return known(instance, 'isColliding', instance.exports.is_pair(a, b)) === 1;
   } catch (error) {
     instance.recover(error, 'isColliding');
   }
@@ -19,7 +19,7 @@ export function collisionsOf(instance: KernelInstance, id: number, given?: numbe
   checkId('collisionsOf', id);
   const out = checkOut('collisionsOf', given);
   try {
-    return copyIds(instance, instance.kernel.partners(id), out);
+    return copyIds(instance, known(instance, 'collisionsOf', instance.exports.partners(id)), out);
   } catch (error) {
     instance.recover(error, 'collisionsOf');
   }

@@ -165,7 +165,7 @@ export function nearest(
   }
   const count = order(instance, 'nearest', orderNear, asked, wanted);
   const words = instance.wordView();
-  const first = instance.kernel.hits_address();
+  const first = instance.exports.hits_address();
   for (let n = 0; n < count; n++) out[n] = words[(first >>> 2) + 4 * n + 2]!;
   if (distances !== undefined) {
     const doubles = instance.doubleView();

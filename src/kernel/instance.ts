@@ -56,6 +56,7 @@ export class KernelInstance {
   private counters = new Float64Array();
   /** Where the kernel's stack begins, to go back to after an exception. */
   private readonly top: number;
+  private asked = false;
   private losses = 0; // how often memory has run out
 
   constructor(dimensions: Dimensions, wrap: readonly number[] | undefined, touching: boolean, events: boolean) {
@@ -81,6 +82,16 @@ export class KernelInstance {
   get reader(): KernelExports {
     this.ring.flush();
     return this.exports;
+  }
+
+  /**
+   * The same for queries. They see the last update, so boxes that wait go on waiting; `ring.follow` has to be called
+   * afterwards. Before the first query boxes are flushed, so that one that comes too late always throws.
+   */
+  get asker(): KernelExports {
+    if (this.asked) return this.exports;
+    this.asked = true;
+    return this.kernel;
   }
 
   /** The number of boxes. */
@@ -134,7 +145,7 @@ export class KernelInstance {
   /** The kernel's array for numbers in and out. */
   io(): Float64Array {
     if (this.numbers.length === 0) {
-      this.numbers = new Float64Array(this.kernel.memory.buffer, this.kernel.io_address(), ioLength);
+      this.numbers = new Float64Array(this.exports.memory.buffer, this.exports.io_address(), ioLength);
     }
     return this.numbers;
   }
@@ -145,19 +156,19 @@ export class KernelInstance {
     return this.words;
   }
   doubleView(): Float64Array {
-    if (this.doubles.length === 0) this.doubles = new Float64Array(this.kernel.memory.buffer);
+    if (this.doubles.length === 0) this.doubles = new Float64Array(this.exports.memory.buffer);
     return this.doubles;
   }
 
   /** Stays the same while the answers of a query do. */
   get turn(): number {
-    return this.kernel.updates() + this.losses;
+    return this.exports.updates() + this.losses;
   }
 
   /** The counters of the last update. */
   statsView(): Float64Array {
     if (this.counters.length === 0) {
-      this.counters = new Float64Array(this.kernel.memory.buffer, this.kernel.stats_address(), statsLength);
+      this.counters = new Float64Array(this.exports.memory.buffer, this.exports.stats_address(), statsLength);
     }
     return this.counters;
   }
@@ -217,9 +228,13 @@ export class KernelInstance {
 
   /** After an exception from the kernel: makes the space usable again, and throws an error that says what was wrong. */
   recover(error: unknown, where: string): never {
-    if (!this.isDisposed) this.exports.__stack_pointer.value = this.top; // the end of the stack is no RuntimeError
+    if (!this.isDisposed) {
+      this.exports.__stack_pointer.value = this.top; // the end of the stack is no RuntimeError
+      this.ring.follow();
+    }
     if ((error as Error | undefined)?.name !== 'RuntimeError') throw error;
-    if (this.kernel.recover() === 0) throw error;
+    if (this.exports.recover() === 0) throw error;
+    this.ring.close();
     this.losses++; // the index for queries is lost
     throw new RangeError(
       `${where}: out of memory: ${this.io()[0]} more bytes are needed for ${this.size} boxes and their pairs, ` +

@@ -1,9 +1,9 @@
 // Boxes that were set and wait in the kernel's memory until it takes them: see kernel/boxes/ring.hpp. A call into
 // WebAssembly for each box would take several times as long as writing it. A box may wait if taking it cannot fail: its
 // id is in the space, or is the next one that there is room for.
-// `BroadPhase.set` writes a box first and asks afterwards, so that it has nothing left to keep across a call. Since any
+// `BroadPhase.set` writes a box first and asks afterwards, so that it has nothing left to keep across a call. Since a
 // call of the kernel may grow its memory, which detaches the ring, the ring is closed before each: the next box is
-// written aside and opens it again.
+// written aside and opens it again. Queries leave it open, since they see the last update: it is found again after them.
 import { badId, maxId } from '../errors.ts';
 import { ringHead } from '../generated/abi.ts';
 import type { KernelInstance } from './instance.ts';
@@ -171,6 +171,11 @@ export class Ring {
   /** Flushes the ring and leaves it open. */
   flush(): void {
     if (this.next > this.step) this.settle(none);
+  }
+
+  /** After a call of the kernel during which boxes went on waiting: growing memory has detached the ring. */
+  follow(): void {
+    if (this.numbers !== this.aside) this.numbers = this.view();
   }
 
   /** Drops the boxes that wait, with the memory they are in. */

@@ -6,6 +6,9 @@ const calls: Record<string, (space: BroadPhase) => unknown> = {
   update: (space) => space.update(),
   get: (space) => space.get(1),
   setFilter: (space) => space.setFilter(1, 1, 1),
+  queryBox: (space) => space.queryBox(0, 0, 9, 9),
+  nearest: (space) => space.nearest(0, 0, 1),
+  collisionsOf: (space) => space.collisionsOf(1),
   setAlone: (space) => space.set(900_000, 70, 70, 71, 71),
 };
 

@@ -76,6 +76,25 @@ describe('with 32 MiB of memory', () => {
     expect(() => findPairsBetween(boxes, boxes, ownSpace)).toThrow(/^findPairsBetween: out of memory/);
   });
 
+  test('boxes that were set are not lost if a query runs out of memory', () => {
+    let failures = 0;
+    for (const count of [200_000, 270_000, 350_000, 420_000]) {
+      const space = new BroadPhase().setAll(Float32Array.from({ length: 4 * count }, (_, k) => (k >> 2) + (k & 2) / 4));
+      space.update().queryPoint(0, 0);
+      for (let id = 0; id < 300; id++) space.set(id, 0, 0, id, 1.25);
+      try {
+        space.nearest(0, 0, count);
+      } catch (error) {
+        expect(String(error)).toMatch(/out of memory|or memory ran out/);
+        if (error instanceof RangeError) failures++;
+      }
+      for (let id = 0; id < 300; id++) expect(Array.from(space.get(id)!)).toEqual([0, 0, id, 1.25]);
+      expect(space.validate().size).toBe(count);
+      space.dispose();
+    }
+    expect(failures).toBeGreaterThan(1);
+  });
+
   test.each(combinations)(
     '%s in %d dimensions recovers from too many pairs',
     { tags: 'long' },
