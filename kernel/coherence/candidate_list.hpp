@@ -16,6 +16,7 @@
 // list. Memory, in addition to that of strip sweep: about 55 (2D) or 70 (3D) bytes per box, and 8 per candidate.
 // From: L. Verlet, "Computer Experiments on Classical Fluids", 1967.
 #pragma once
+#include "coherence/origins.hpp"
 #include "coherence/places.hpp"
 #include "coherence/watch.hpp"
 #include "techniques/strip_sweep.hpp"
@@ -38,20 +39,19 @@ template <int D> class CandidateList {
   } known_;  // of the boxes
   // Per slot:
   Buffer<f32> regions_;
-  Buffer<f32> origins_;  // boxes as they were when the list was made; without a list, when the samples were taken
-  u32 origin_count_ = 0, origin_age_ = 0;  // number of these boxes; updates since
+  Origins<D> origins_;
   Buffer<u32> tags_;  // exclusion bits and class, and below them these marks
   Buffer<u32> groups_;  // while some have one: two boxes of one group are not a candidate
   Buffer<u32> late_;  // slots of late boxes; after them, those that a search finds
   Places<D> places_;  // of late boxes
   bool finished_ = false;  // whether the candidates were found
   u32 late_count_ = 0, resting_ = 0;
+  u64 still_ = 0;  // pairs of two boxes at rest that the sweep found, forbidden ones too
   u64 met_ = 0;  // work of the searches for late boxes in this update, in tests of strip sweep
   Pairs candidates_, extra_, settled_;  // extra: those added by late boxes
   u64 head_ = 0;  // length of the prefix of `settled_` that the last report has
-  Stats built_ = {};  // of the sweep that made the list; its candidates include settled pairs
+  Stats built_ = {};  // of the sweep that made the list; its candidates are all pairs that it found
   f32 margin_ = 0;
-  Shift common_;  // the common motion until the list was made
   Shift shift_;  // undoes the common motion since then
 
  public:
@@ -62,6 +62,7 @@ template <int D> class CandidateList {
   u32 resting() const { return resting_; }
   u32 late_count() const { return late_count_; }
   bool rests_at(u32 slot) const { return tags_[slot] & rests; }
+  Origins<D>& origins() { return origins_; }
   /// Whether the box of this slot, one of the list, will stay in its region if it moves by this much.
   bool stays(const Scene<D>& scene, u32 slot, f32x4 move) const {
     f32 box[width + padding];
@@ -69,9 +70,12 @@ template <int D> class CandidateList {
     if constexpr (D == 3) store(box + D, load<f32x4>(scene.box(slot) + D) + move);
     return is_expected<true>(box, region(slot), tags_[slot], shift_);
   }
+  const Pairs& candidates() const { return candidates_; }
   /// Candidates that are tested in each update.
   u64 tested() const { return candidates_.count + extra_.count; }
-  /// The statistics of the sweep that made the list.
+  /// Pairs of two boxes at rest that the sweep found to make the list, forbidden ones too.
+  u64 still() const { return still_; }
+  /// The statistics of that sweep.
   const Stats& built() const { return built_; }
 
   /// The work of this update for late boxes, and of any update without them. `looked`: boxes that it checks. If some are
@@ -100,29 +104,15 @@ template <int D> class CandidateList {
     forget();
     regions_.release();
     origins_.release();
-    origin_count_ = 0;
     tags_.release();
     groups_.release();
     late_.release();
     places_.release();
     candidates_.list.release();
+    candidates_.doubts.release();
     extra_.list.release();
     settled_.list.release();
   }
-
-  /// Records where boxes are, so that the next list knows which of them move, and how fast.
-  SMALL void remember(const Scene<D>& scene, const Shift& common) {
-    origin_count_ = scene.count;
-    origin_age_ = 0;
-    __builtin_memcpy(origins_.reserve(u64(scene.count) * width + padding), scene.boxes,
-                     u64(scene.count) * width * sizeof(f32));
-    common_ = common;
-  }
-
-  /// Counts an update.
-  void pass() { origin_age_++; }
-  /// The updates since boxes were recorded.
-  u32 origin_age() const { return origin_age_; }
 
   /// Begins a list of these boxes, in place of the one there is. It can be used once `finish` has been called, also with
   /// boxes that have moved since. `some_rest`: some may be at rest. Regions that would reach further ahead than `far` do
@@ -130,13 +120,13 @@ template <int D> class CandidateList {
   SMALL void begin(const Scene<D>& scene, const Plan& plan, const Shift& common, bool some_rest, f32 far) {
     u32 n = scene.count;
     make_room(n, smaller(count_, n));
-    shift_ = common_.after(common.back());
-    u32 known = origin_age_ > 0 ? smaller(n, origin_count_) : 0;
+    shift_ = origins_.common().after(common.back());
+    u32 known = smaller(n, origins_.count());
     if (some_rest) find_resting(scene, known);
     else __builtin_memset(tags_.data(), 0, n * sizeof(u32));
     resting_ = 0;
-    enclose(scene, plan.margin, plan.lead > 0 ? known : 0, f32(plan.lead) / larger(1u, origin_age_), far);
-    remember(scene, common);
+    enclose(scene, plan.margin, plan.lead > 0 ? known : 0, f32(plan.lead) / larger(1u, origins_.age()), far);
+    origins_.record(scene, common);
     known_.rules = scene.rules != nullptr;
     known_.classes = scene.classes;
     known_.groups = scene.groups != nullptr;
@@ -155,10 +145,16 @@ template <int D> class CandidateList {
 
   /// Finds the candidates of a list that has begun. Gives up and returns false if that takes more than `most` tests.
   SMALL bool finish(f64 most) {
+    candidates_.watch = watched_ && resting_ > 0;
+    candidates_.doubt_count = 0;
     if (!strips_.sweep(candidates_, most)) return false;
-    if (known_.groups || known_.classes) candidates_.filter([&](u32 a, u32 b) { return !are_apart(a, b); });
     built_.candidates = f64(candidates_.count);
+    still_ = 0;
     if (resting_ > 0) settle();
+    if (known_.groups || known_.classes) {
+      candidates_.filter([&](u32 a, u32 b) { return !are_apart(a, b); });
+      settled_.filter([&](u32 a, u32 b) { return !are_apart(a, b); });
+    }
     return finished_ = true;
   }
   bool is_finished() const { return finished_; }
@@ -168,7 +164,7 @@ template <int D> class CandidateList {
   SMALL bool follow(const Scene<D>& scene, const Shift& common, f64 most, f32 size, f64 spacing) {
     u32 n = scene.count, had = count_, both = smaller(n, had);
     u32* list = late_.reserve(u64(n) + larger(n, strips_.count()) + 4);  // a search may find all boxes of the strips
-    Shift shift = common_.after(common.back());
+    Shift shift = origins_.common().after(common.back());
     bool shifts = shift.differs(shift_);
     shift_ = shift;
     if (!shift.is_sound()) return false;
@@ -225,15 +221,10 @@ template <int D> class CandidateList {
 
   /// Marks the boxes that have not moved since their origins were recorded.
   NOINLINE void find_resting(const Scene<D>& scene, u32 known) {
-    bool steady = !shift_.differs({});
-    for (u32 slot = 0; slot < known; slot++) {
-      const f32 *box = scene.box(slot), *was = origins_.data() + u64(slot) * width;
-      u32 rested = steady & (bitmask(load<f32x4>(box) == load<f32x4>(was)) == 15);
-      if constexpr (D == 3) rested &= (bitmask(load<f32x4>(box + D) == load<f32x4>(was + D)) & 7) == 7;
-      tags_[slot] = (tags_[slot] & ~rests) | (rested & u32(scene.is_at_home(slot)));
-    }
+    u32 steady = !shift_.differs({});
+    for (u32 slot = 0; slot < known; slot++)
+      tags_[slot] = (tags_[slot] & ~rests) | (steady & u32(origins_.has_rested(scene, slot)));
   }
-
   /// Gives each box its region, which reaches ahead by `lead` times its displacement since its origin was recorded.
   NOINLINE void enclose(const Scene<D>& scene, f32 margin, u32 known, f32 lead, f32 far) {
     for (u32 slot = 0; slot < scene.count; slot++) {
@@ -242,8 +233,7 @@ template <int D> class CandidateList {
       const f32* box = scene.box(slot);
       f32x4 ahead = {};
       if (slot < known)
-        ahead = bounded((shift_(load<f32x4>(box)) - load<f32x4>(origins_.data() + u64(slot) * width)) * splat(lead),
-                        far);
+        ahead = bounded((shift_(load<f32x4>(box)) - load<f32x4>(origins_.box(slot))) * splat(lead), far);
       f32x4 aside = splat(bits<f32>(bits<u32>(margin) & (rest - 1)));
       widen(box, min(ahead, f32x4{}) - aside, max(ahead, f32x4{}) + aside, region(slot));
       tags_[slot] = rest | scene.rule_of(slot);
@@ -259,15 +249,20 @@ template <int D> class CandidateList {
     }
   }
 
-  /// Moves candidates of two boxes at rest to the settled pairs, except those in doubt, if these are recorded.
+  /// Moves candidates of two boxes at rest to the settled pairs, except those in doubt, if these are recorded: only pairs
+  /// in the ranges that the sweep has recorded can be.
   NOINLINE void settle() {
     u64 left = 0;
     u64* list = candidates_.list.data();
     u64* out = settled_.list.reserve(candidates_.count + 1);
+    if (watched_ && some_nowhere<D>(regions_.data(), count_)) candidates_.doubt(list, list + candidates_.count);
+    const u64 *doubts = candidates_.doubts.data(), *last = doubts + 2 * candidates_.doubt_count;
     for (u64 k = 0; k < candidates_.count; k++) {
       u64 pair = list[k];
       bool rest = tags_[u32(pair)] & tags_[u32(pair >> 32)] & rests;
-      if (watched_ && rest) {
+      still_ += rest;
+      while (doubts < last && k >= doubts[1]) doubts += 2;
+      if (rest && doubts < last && k >= doubts[0]) {
         i32x4 touching = {};
         const f32 *one = region(u32(pair)), *other = region(u32(pair >> 32));
         boxes_touch<D>(one, other, touching);
@@ -414,6 +409,7 @@ template <int D> class CandidateList {
       *out++ = pair;
       candidates_.count++;
     }
+    still_ -= settled_.count - left;
     settled_.count = left;
   }
 

@@ -13,6 +13,7 @@
 // jump.
 #pragma once
 #include "coherence/candidate_list.hpp"
+#include "coherence/pair_sample.hpp"
 
 template <int D> class Incremental {
   static constexpr Tuning<D> tuning = {};
@@ -20,6 +21,7 @@ template <int D> class Incremental {
   StripSweep<D>& strips_;
   CandidateList<D> list_;
   Watch<D> watch_;
+  PairSample sample_;
   Prospect<D> prospect_ = {};
   u32 age_ = 0;  // of the list, in updates
   bool ended_ = false;  // a new list is due
@@ -59,6 +61,7 @@ template <int D> class Incremental {
     forget();
     watch_.release();
     list_.release();
+    sample_.release();
     prospect_.fresh = 0;
     pause_ = 0;
     pauses_ = tuning.watched;
@@ -79,8 +82,8 @@ template <int D> class Incremental {
       return false;
     }
     watch_.look(scene, size());
-    list_.pass();
-    if (list_.is_empty() && watch_.is_new()) list_.remember(scene, watch_.common());
+    list_.origins().pass();
+    if (list_.is_empty() && watch_.is_new()) list_.origins().record(scene, watch_.common());
     if (prospect_.fresh == 0) return false;
     f64 most = tuning.build * prospect_.fresh * n;
     if (!list_.is_empty() && !list_.is_finished() && !finish(most)) return false;
@@ -104,9 +107,29 @@ template <int D> class Incremental {
   SMALL Plan choose(const Scene<D>& scene) {
     prospect_.looked = scene.listed() ? f64(scene.changes->count()) / scene.count : 1;
     prospect_.rest = watch_.resting();
+    share_pairs(scene);
     prospect_.planning = tuning.planning / scene.count;
     prospect_.late = tuning.late_among(scene.count);
     return watch_.plan(prospect_, tuning.ahead * prospect_.fresh);
+  }
+
+  /// Estimates which shares of the pairs the next list settles, and which it tests.
+  SMALL void share_pairs(const Scene<D>& scene) {
+    f64 settled = 0, others = 1, listed = 1;
+    if (!list_.is_empty()) {
+      settled = f64(list_.still());
+      others = (list_.built().candidates - settled) / growth_;
+      listed = f64(list_.candidates().count) / growth_;
+      sample_.take(list_.candidates());
+    }
+    bool some_rest = prospect_.rest > 0;
+    auto rests = [&](u32 slot) {
+      return some_rest && slot < list_.origins().count() && list_.origins().has_rested(scene, slot);
+    };
+    PairSample::Shares shares = sample_.shares(scene, rests);
+    f64 all = larger(1.0, settled + others);
+    prospect_.settled = some_rest ? (settled + others * shares.resting) / all : 0;
+    prospect_.listed = (listed * shares.open + (some_rest ? 0 : settled)) / all;
   }
 
   SMALL void rebuild(const Scene<D>& scene, const Options& options, Pairs& pairs, Stats& stats) {
@@ -117,6 +140,7 @@ template <int D> class Incremental {
     prospect_.fresh = strips_.work() / n;
     prospect_.tests = strips_.tested() / n;
     prospect_.pairs = pairs.count / n;
+    if (pause_ == 0) sample_.take(pairs);
     if (scene.count >= Watch<D>::least_watched) learn_sizes(scene.count);
   }
 
@@ -135,8 +159,8 @@ template <int D> class Incremental {
       if (!list_.is_empty() || watch_.known() >= tuning.watched || watch_.wavers()) give_up();
       return false;
     }
-    if (list_.is_empty() && list_.origin_age() > 2 * plan.lead && plan.lead > 0) {  // velocities are out of date
-      list_.remember(scene, watch_.common());
+    if (list_.is_empty() && list_.origins().age() > 2 * plan.lead && plan.lead > 0) {  // velocities are out of date
+      list_.origins().record(scene, watch_.common());
       pause_ = plan.lead;
       return false;
     }
@@ -163,10 +187,12 @@ template <int D> class Incremental {
     prospect_.rest = list_.resting() / n;
     // These two estimates may only go down. One that is too low is corrected by the rebuild after the list is given up.
     // One that is too high would keep the list alive, so it would never be corrected.
-    f64 entering = strips_.work() - strips_.tested(), settled = list_.built().candidates - list_.tested();
+    f64 entering = strips_.work() - strips_.tested(), settled = f64(list_.still());
+    f64 pairs = settled + (list_.built().candidates - settled) / growth;
+    prospect_.settled = settled / larger(1.0, pairs);
     prospect_.tests = smaller(prospect_.tests, strips_.tested() / n / prospect_.more_tests(growth));
     prospect_.fresh = smaller(prospect_.fresh, entering / n + prospect_.tests);
-    prospect_.pairs = (settled + list_.tested() / growth) / n;
+    prospect_.pairs = pairs / n;
     return true;
   }
 

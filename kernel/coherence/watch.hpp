@@ -34,19 +34,19 @@ template <int D> struct Prospect {
   f64 size = 0;  // mean size of boxes along the axis where it is smallest, at least `least`
   f64 least = 0;  // the spacing of boxes, divided by Tuning::apart
   f64 looked = 0;  // the share of boxes that an update checks
-  f64 pairs = 0;  // candidates of a list without a margin
+  f64 pairs = 0;  // that the sweep of a list without a margin finds
   f64 fresh = 0;  // work of a rebuild
   f64 tests = 0;  // the tests in that
   f64 rest = 0;  // the share of boxes that will be known to rest
+  f64 settled = 0;  // the share of pairs in which both will
+  f64 listed = 1;  // the share of pairs that are neither these, nor forbidden
   f64 planning = 0;  // work of choosing the margin
   f64 late = 0;  // work for a late box
 
-  /// Candidates that an update tests: all but the pairs of two boxes at rest.
-  f64 candidates(f64 growth) const { return pairs * growth * (1 - rest * rest); }
-  /// Pairs of two boxes at rest.
-  f64 settled() const { return pairs * rest * rest; }
-  /// How many times as many candidates a list has as without a margin. Boxes at rest have none.
-  f64 widening(f64 growth) const { return 1 + (growth - 1) * (1 - rest * rest); }
+  /// Candidates that an update tests.
+  f64 candidates(f64 growth) const { return pairs * growth * listed; }
+  /// How many times as many pairs the sweep finds as without a margin. Boxes at rest have none.
+  f64 widening(f64 growth) const { return 1 + (growth - 1) * (1 - settled); }
   /// How many times as many tests its sweep takes as a rebuild: the growth along all axes but one.
   f64 more_tests(f64 growth) const {
     f64 root = D == 2 ? __builtin_sqrt(widening(growth)) : cube_root(widening(growth));
@@ -188,7 +188,8 @@ template <int D> class Watch {
   SMALL Plan plan(Prospect<D> prospect, f64 most) const {
     Plan best = cheapest(prospect, most);
     if (prospect.rest == 0) return best;
-    prospect.rest = 0;
+    prospect.listed += prospect.settled;
+    prospect.rest = prospect.settled = 0;
     Plan restless = cheapest(prospect, smaller(most, best.work * tuning.ahead));
     if (restless.work == __builtin_inf()) return best;
     restless.settles = false;
@@ -407,7 +408,7 @@ template <int D> class Watch {
     if (h > 0 && prospect.rest > 0 && horizon.still < horizons_[h - 1].still) {
       // As many boxes at rest begin to move as in the second half of these updates, and all settled pairs are gone through.
       jumps += 2 * share * (horizons_[h - 1].still - horizon.still);
-      looked += tuning.candidate * prospect.settled();
+      looked += tuning.candidate * prospect.pairs * prospect.settled;
     }
     f64 least = looked + tuning.candidate * prospect.candidates(1) + (prospect.planning + prospect.build(1)) / updates;
     Growth<D> all = led ? Growth<D>{} : plain;
