@@ -44,11 +44,6 @@ template <int D> struct Scene {
   u32 excluded_of(u32 slot) const { return rule_of(slot) & ~slot_mask; }
   u32 group_of(u32 slot) const { return groups ? groups[slot] : 0; }
   bool is_at_home(u32 slot) const { return !homes || (homes[slot] & at_home); }
-  /// Whether the classes or the groups of two boxes forbid that they are a pair.
-  bool are_apart(u32 a, u32 b) const {
-    auto class_of = [&](u32 slot) { return (rule_of(slot) & class_mask) / class_bit; };
-    return one_group(group_of(a), group_of(b)) || (classes && !meet(classes[class_of(a)], classes[class_of(b)]));
-  }
   /// Whether it is known which boxes may have changed, and these are not most.
   bool listed() const { return changes && !changes->most(count); }
 };

@@ -152,8 +152,9 @@ template <int D> class CandidateList {
     still_ = 0;
     if (resting_ > 0) settle();
     if (known_.groups || known_.classes) {
-      candidates_.filter([&](u32 a, u32 b) { return !are_apart(a, b); });
-      settled_.filter([&](u32 a, u32 b) { return !are_apart(a, b); });
+      auto may_meet = [&](u32 a, u32 b) { return !are_apart(a, b); };
+      candidates_.filter(may_meet);
+      settled_.filter(may_meet);
     }
     return finished_ = true;
   }
@@ -255,7 +256,10 @@ template <int D> class CandidateList {
     u64 left = 0;
     u64* list = candidates_.list.data();
     u64* out = settled_.list.reserve(candidates_.count + 1);
-    if (watched_ && some_nowhere<D>(regions_.data(), count_)) candidates_.doubt(list, list + candidates_.count);
+    if (watched_ && some_nowhere<D>(regions_.data(), count_)) {  // its pairs are not recorded
+      candidates_.doubt_count = 0;
+      candidates_.doubt(list, list + candidates_.count);
+    }
     const u64 *doubts = candidates_.doubts.data(), *last = doubts + 2 * candidates_.doubt_count;
     for (u64 k = 0; k < candidates_.count; k++) {
       u64 pair = list[k];

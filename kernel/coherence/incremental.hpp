@@ -122,14 +122,16 @@ template <int D> class Incremental {
       listed = f64(list_.candidates().count) / growth_;
       sample_.take(list_.candidates());
     }
-    bool some_rest = prospect_.rest > 0;
-    auto rests = [&](u32 slot) {
-      return some_rest && slot < list_.origins().count() && list_.origins().has_rested(scene, slot);
-    };
-    PairSample::Shares shares = sample_.shares(scene, rests);
-    f64 all = larger(1.0, settled + others);
-    prospect_.settled = some_rest ? (settled + others * shares.resting) / all : 0;
-    prospect_.listed = (listed * shares.open + (some_rest ? 0 : settled)) / all;
+    f64 all = larger(1.0, settled + others), rest = 0;
+    if (prospect_.rest > 0) {
+      rest = sample_.resting(scene, list_.origins());
+      settled += others * rest;
+    } else {
+      listed += settled;
+      settled = 0;
+    }
+    prospect_.settled = settled / all;
+    prospect_.listed = listed * (1 - rest) / all;
   }
 
   SMALL void rebuild(const Scene<D>& scene, const Options& options, Pairs& pairs, Stats& stats) {

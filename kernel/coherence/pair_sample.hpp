@@ -1,9 +1,9 @@
-// A sample of the pairs, which tells how many of them a new list would settle, and how many it would test.
+// A sample of the pairs, which tells how many of them a new list would settle.
 // Boxes at rest are often where the density is another than elsewhere, such as in a heap, or in a pool of bullets that
-// wait at one place. So the share of pairs of two boxes at rest cannot be told from the share of boxes that rest.
-// Cost: a cache miss per sampled pair.
+// wait at one place. So the share of pairs of two boxes at rest does not follow from the share of boxes that rest.
+// Cost: two or three cache misses per sampled pair.
 #pragma once
-#include "boxes/box.hpp"
+#include "coherence/origins.hpp"
 #include "pairs/pairs.hpp"
 
 class PairSample {
@@ -13,11 +13,6 @@ class PairSample {
   u32 count_ = 0;
 
  public:
-  struct Shares {
-    f64 resting = 0;  // of two boxes at rest
-    f64 open = 0;  // of the others, unless rules or groups forbid them
-  };
-
   SMALL void take(const Pairs& from) {
     u64 step = from.count / most + 1;
     pairs_.reserve(most);
@@ -25,18 +20,15 @@ class PairSample {
     for (u64 k = 0; k < from.count; k += step) pairs_[count_++] = from.list[k];
   }
 
-  /// `rests`: whether the box of a slot is at rest.
-  template <int D, class Rests> SMALL Shares shares(const Scene<D>& scene, Rests rests) const {
-    u32 resting = 0, open = 0;
+  /// The share of the pairs of which neither box has moved.
+  template <int D> SMALL f64 resting(const Scene<D>& scene, const Origins<D>& origins) const {
+    u32 found = 0;
     for (u32 k = 0; k < count_; k++) {
       u32 a = u32(pairs_[k]), b = u32(pairs_[k] >> 32);
-      if (larger(a, b) >= scene.count) continue;
-      bool rest = rests(a) && rests(b);
-      resting += rest;
-      open += !rest && !scene.are_apart(a, b);
+      if (larger(a, b) >= smaller(scene.count, origins.count())) continue;
+      found += origins.has_rested(scene, a) && origins.has_rested(scene, b);
     }
-    f64 all = larger(1u, count_);
-    return {resting / all, open / all};
+    return f64(found) / larger(1u, count_);
   }
 
   SMALL void release() { pairs_.release(); }

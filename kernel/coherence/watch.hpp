@@ -39,7 +39,7 @@ template <int D> struct Prospect {
   f64 tests = 0;  // the tests in that
   f64 rest = 0;  // the share of boxes that will be known to rest
   f64 settled = 0;  // the share of pairs in which both will
-  f64 listed = 1;  // the share of pairs that are neither these, nor forbidden
+  f64 listed = 1;  // the share of pairs that it will test: neither these, nor forbidden ones as far as is known
   f64 planning = 0;  // work of choosing the margin
   f64 late = 0;  // work for a late box
 

@@ -153,3 +153,51 @@ test.each([
     expect(kept, 'updates of 250 answered from what is kept').toBeGreaterThan(220);
   },
 );
+
+test.each([
+  [2, 'no rules', 0],
+  [3, 'no rules', 0],
+  [2, 'one group', 0],
+  [3, 'one group', 0],
+  [2, 'no rules', 40],
+  [2, 'one group', 5],
+] as const)(
+  'a pool at one place beside boxes that move is kept, %iD, %s, one is fired every %i frames',
+  (dimensions, rules, every) => {
+    // Nearly all pairs are of two boxes at rest, though half of the boxes move.
+    const random = createRandom(31);
+    const [pool, count] = [300, 600];
+    const extent = dimensions === 2 ? 350 : 110;
+    const axes = Array.from({ length: dimensions }, (_, a) => a);
+    const [kept, fresh] = (['auto', 'strip-sweep'] as const).map(
+      (technique) => new BroadPhase({ dimensions, technique }),
+    );
+    const both = [kept!, fresh!];
+    const at = Array.from({ length: count }, (_, id) => axes.map(() => (id < pool ? -1000 : random() * extent)));
+    const way = at.map((_, id) => axes.map(() => (id < pool ? 0 : random() - 0.5)));
+    for (let id = 0; id < count; id++) {
+      for (const space of both) setCube(space, id, at[id]!);
+      if (rules === 'one group' && id < pool) for (const space of both) space.setGroup(id, 7);
+    }
+    let [answered, tests, spent] = [0, 0, 0];
+    for (let frame = 1; frame <= 200; frame++) {
+      if (every > 0 && frame % every === 0) {
+        const id = Math.floor(random() * pool);
+        at[id] = axes.map(() => random() * extent);
+        way[id] = axes.map(() => random() - 0.5);
+      }
+      for (let id = 0; id < count; id++) {
+        if (way[id]!.every((x) => x === 0)) continue;
+        at[id] = at[id]!.map((x, a) => x + way[id]![a]!);
+        for (const space of both) setCube(space, id, at[id]!);
+      }
+      for (const space of both) space.update();
+      if (frame % 40 === 0) expect(keysOf(kept!.pairs), `frame ${frame}`).toEqual(keysOf(fresh!.pairs));
+      answered += Number(isKept(kept!));
+      tests += kept!.stats.tests;
+      spent += fresh!.stats.tests;
+    }
+    expect(answered, 'updates of 200 answered from what is kept').toBeGreaterThan(150);
+    expect(tests / spent, 'tests, as a share of those of full rebuilds').toBeLessThan(0.2);
+  },
+);

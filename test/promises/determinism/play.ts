@@ -31,6 +31,7 @@ export function play(tape: Float64Array, technique: number): string {
       add(halves[1]!);
     }
   };
+  const box = new Float64Array(2 * dimensions);
   let saved = new Uint8Array();
   let at = 2;
   const next = () => tape[at++]!;
@@ -40,9 +41,13 @@ export function play(tape: Float64Array, technique: number): string {
   };
   while (at < tape.length) {
     switch (next()) {
-      case calls.set:
-        space.set(next(), ...(take(2 * dimensions) as unknown as Numbers));
+      case calls.set: {
+        const id = next();
+        space.set(id, ...(take(2 * dimensions) as unknown as Numbers));
+        // Ends its wait, as without JavaScript no box waits. A query may answer in another order after boxes have changed.
+        space.get(id, box);
         break;
+      }
       case calls.delete:
         add(Number(space.delete(next())));
         break;
