@@ -29,9 +29,11 @@ template <int D> class SceneBuilder {
     auto& groups = store.own.groups;
     const f32* boxes = numbers.boxes();
     doubles = numbers.exact();
-    if (store.own.reaches.some()) boxes = grow(store, store.changes());
+    const bool grows = store.own.reaches.some(), did_grow = grown_count_ > 0;
+    if (grows) boxes = grow(store, store.changes());
     else grown_count_ = 0;
-    Scene<D> scene{boxes, store.ids.count(), nullptr, follows ? &store.changes() : nullptr};
+    // Where the first box gets a reach, all are copied, and infinite ones are rounded to other numbers.
+    Scene<D> scene{boxes, store.ids.count(), nullptr, follows && grows == did_grow ? &store.changes() : nullptr};
     if (filters.active()) {
       filters.update(scene.count, in_order);
       scene.filtered = !filters.moved().none();
