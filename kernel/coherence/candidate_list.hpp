@@ -226,6 +226,7 @@ template <int D> class CandidateList {
     for (u32 slot = 0; slot < known; slot++)
       tags_[slot] = (tags_[slot] & ~rests) | (steady & u32(origins_.has_rested(scene, slot)));
   }
+
   /// Gives each box its region, which reaches ahead by `lead` times its displacement since its origin was recorded.
   NOINLINE void enclose(const Scene<D>& scene, f32 margin, u32 known, f32 lead, f32 far) {
     for (u32 slot = 0; slot < scene.count; slot++) {

@@ -1,6 +1,6 @@
 // A sample of the pairs, which tells how many of them a new list would settle.
-// Boxes at rest are often where the density is another than elsewhere, such as in a heap, or in a pool of bullets that
-// wait at one place. So the share of pairs of two boxes at rest does not follow from the share of boxes that rest.
+// Boxes at rest are often denser than others, as in a heap, or in a pool of bullets that wait at one place. The share of
+// boxes that rest then says little about the share of pairs that do.
 // Cost: two or three cache misses per sampled pair.
 #pragma once
 #include "coherence/origins.hpp"
