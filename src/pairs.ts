@@ -37,7 +37,7 @@ export const pairCount = (instance: KernelInstance): number => instance.statsVie
 /** The pairs that began with the last update, or those that ended. */
 export function eventsIn(instance: KernelInstance, list: typeof began | typeof ended): Uint32Array {
   if (!instance.events) noEvents(list === began ? 'began' : 'ended');
-  return instance.pairView(list, instance.kernel.events(list), instance.io()[0]!);
+  return instance.pairView(list, instance.exports.events(list), instance.io()[0]!);
 }
 
 export function* eachPair(pairs: Uint32Array): IterableIterator<[a: number, b: number]> {

@@ -220,7 +220,7 @@ export class KernelInstance {
     let view = views[count % viewsKept];
     // A detached view has the offset 0. Asking the memory for its buffer would take as long as all the rest.
     if (view?.byteOffset !== at || view.length !== 2 * count) {
-      view = new Uint32Array(this.kernel.memory.buffer, at, 2 * count);
+      view = new Uint32Array(this.exports.memory.buffer, at, 2 * count);
       views[count % viewsKept] = view;
     }
     return view;
