@@ -166,7 +166,7 @@ test.each([
   (dimensions, rules, every) => {
     // Nearly all pairs are of two boxes at rest, though half of the boxes move.
     const random = createRandom(31);
-    const [pool, count] = [300, 600];
+    const [pool, count] = [200, 400];
     const extent = dimensions === 2 ? 350 : 110;
     const axes = Array.from({ length: dimensions }, (_, a) => a);
     const [kept, fresh] = (['auto', 'strip-sweep'] as const).map(
