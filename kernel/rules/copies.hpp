@@ -219,8 +219,9 @@ class Copies {
 
   void copy(int a, f64 turn, const Home& home, const f64* box, f64& lo, f64& hi) const {
     f64 moved = (worlds_[a] - home.worlds[a] - turn) * world_[a];
-    lo = home.full[a] ? -__builtin_inf() : box[a] + moved;
-    hi = home.full[a] ? __builtin_inf() : box[axes_ + a] + moved;
+    bool countable = moved - moved == 0;  // else, what are worlds between them is less than a rounding error
+    lo = home.full[a] ? -__builtin_inf() : countable ? box[a] + moved : lo_[a];
+    hi = home.full[a] ? __builtin_inf() : countable ? box[axes_ + a] + moved : hi_[a];
   }
 
   SMALL bool touches(int a, const Span& its, f64 turn, bool holds, bool touching) const {

@@ -15,26 +15,41 @@ type Random = () => number;
 
 const upTo = (random: Random, n: number) => Math.floor(random() * n);
 
+interface World {
+  readonly size: readonly number[];
+  readonly origin: number;
+  /** The share of boxes that reach to infinity, or are there. */
+  readonly infinite: number;
+}
+
 /** A box anywhere in three worlds or, mostly, in the one at `origin`; on borders, too; a few as long as the world. */
-function anyBox(random: Random, wrap: readonly number[], origin: number): number[] {
+function anyBox(random: Random, { size: wrap, origin, infinite }: World): number[] {
   const lower = wrap.map((size) => {
     const at = random() < 0.1 ? (upTo(random, 7) - 3) * (size / 2) : (random() + origin) * size;
     return random() < 0.1 ? at + size * (upTo(random, 3) - 1) : at;
   });
   const giant = random() < 0.02;
-  return [...lower, ...lower.map((at, a) => at + (giant ? random() * 1.2 * wrap[a]! : upTo(random, 6) * 0.7))];
+  const box = [...lower, ...lower.map((at, a) => at + (giant ? random() * 1.2 * wrap[a]! : upTo(random, 6) * 0.7))];
+  if (random() < infinite) {
+    const axis = upTo(random, wrap.length);
+    const [from, to] = [upTo(random, 3) - 1, upTo(random, 3) - 1].sort(); // -1 and 1 are infinite
+    if (from !== 0) box[axis] = from! * Infinity;
+    if (to !== 0) box[axis + wrap.length] = to! * Infinity;
+    if (!(box[axis]! <= box[axis + wrap.length]!)) box[axis + wrap.length] = box[axis]!;
+  }
+  return box;
 }
 
 /** A call, made to all spaces alike. `stride`: from one id to the next. */
-function change(spaces: Space[], random: Random, wrap: readonly number[], origin: number, stride: number): void {
+function change(spaces: Space[], random: Random, world: World, stride: number): void {
   const id = upTo(random, most) * stride;
   const [first] = spaces as [Space];
   const box = first.get(id);
   const kind = random();
   const value = upTo(random, 3);
-  const another = anyBox(random, wrap, origin);
-  const step = wrap.map(() => (random() - 0.5) * 0.8);
-  const stepped = Array.from(box ?? [], (at, k) => at + step[k % wrap.length]!);
+  const another = anyBox(random, world);
+  const step = world.size.map(() => (random() - 0.5) * 0.8);
+  const stepped = Array.from(box ?? [], (at, k) => at + step[k % step.length]!);
   for (const space of spaces) {
     if (!box) setBox(space, id, another);
     else if (kind < 0.5) setBox(space, id, stepped);
@@ -70,13 +85,16 @@ describe.each(worlds)(`in %dD, in a world that is %s (SEED=${seed})`, (dimension
         new BroadPhase({ ...options, technique }),
         new BroadPhase({ ...options, technique: 'brute-force' }),
       ];
-      for (let id = 0; id < most / 2; id++) {
-        const box = anyBox(random, size, origin);
-        for (const space of spaces) setBox(space, id * stride, box);
+      // In some runs all boxes are float32 at first.
+      const at = { size, origin, infinite: world === 'open' && run % 2 ? 0.2 : 0 };
+      const boxes = Array.from({ length: most / 2 }, () => anyBox(random, at));
+      for (const space of spaces) {
+        if (run % 5 === 1) space.setAll(Float32Array.from(boxes.flat()));
+        else for (const [id, box] of boxes.entries()) setBox(space, id * stride, box);
       }
       let before = new Set<number>();
       for (let frame = 0; frame < frames; frame++) {
-        for (let call = upTo(random, busy); call > 0; call--) change(spaces, random, size, origin, stride);
+        for (let call = upTo(random, busy); call > 0; call--) change(spaces, random, at, stride);
         if (random() < 0.02) spaces[0]!.restore(spaces[0]!.snapshot());
         for (const space of spaces) space.update();
         const [found, expected] = spaces.map(({ pairs }) => keysOf(pairs)) as [number[], number[]];
