@@ -257,7 +257,7 @@ template <int D> class CandidateList {
     u64 left = 0;
     u64* list = candidates_.list.data();
     u64* out = settled_.list.reserve(candidates_.count + 1);
-    if (watched_ && some_nowhere<D>(regions_.data(), count_)) {  // its pairs are not recorded
+    if (watched_ && some_nowhere<D>(regions_.data(), count_)) {  // pairs of such boxes are not recorded
       candidates_.doubt_count = 0;
       candidates_.doubt(list, list + candidates_.count);
     }

@@ -219,7 +219,7 @@ class Copies {
 
   void copy(int a, f64 turn, const Home& home, const f64* box, f64& lo, f64& hi) const {
     f64 moved = (worlds_[a] - home.worlds[a] - turn) * world_[a];
-    bool countable = moved - moved == 0;  // else, what are worlds between them is less than a rounding error
+    bool countable = moved - moved == 0;  // else a world is less than a rounding error: the box may be anywhere
     lo = home.full[a] ? -__builtin_inf() : countable ? box[a] + moved : lo_[a];
     hi = home.full[a] ? __builtin_inf() : countable ? box[axes_ + a] + moved : hi_[a];
   }

@@ -56,7 +56,7 @@ export class KernelInstance {
   private counters = new Float64Array();
   /** Where the kernel's stack begins, to go back to after an exception. */
   private readonly top: number;
-  private asked = false;
+  private asked = false; // whether there has been a query
   private losses = 0; // how often memory has run out
 
   constructor(dimensions: Dimensions, wrap: readonly number[] | undefined, touching: boolean, events: boolean) {

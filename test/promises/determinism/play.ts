@@ -44,7 +44,7 @@ export function play(tape: Float64Array, technique: number): string {
       case calls.set: {
         const id = next();
         space.set(id, ...(take(2 * dimensions) as unknown as Numbers));
-        // Ends its wait, as without JavaScript no box waits. A query may answer in another order after boxes have changed.
+        // Ends its wait: the native player has no boxes that wait, and queries may answer in another order while some do.
         space.get(id, box);
         break;
       }
