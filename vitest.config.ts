@@ -24,6 +24,7 @@ export default defineConfig({
     testTimeout: 120_000, // a busy machine is slow, and no test is about time
     hookTimeout: 120_000,
     maxWorkers: '100%', // also where there are but two cores
+    execArgv: ['--max-semi-space-size=128'], // MiB: an eighth less time is spent
     projects: [
       {
         extends: true,

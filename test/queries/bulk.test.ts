@@ -200,7 +200,7 @@ test('a box that is off has no neighbours and is not one', () => {
   expect([...ids]).toEqual([2, 3, 2]);
 });
 
-test('more neighbours than memory holds are refused at once, and the space still answers', () => {
+test('more neighbours than memory holds are refused at once, and the space still answers', { tags: 'long' }, () => {
   const space = new BroadPhase();
   const side = 150;
   space.setAll(

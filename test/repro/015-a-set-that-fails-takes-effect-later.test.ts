@@ -4,7 +4,7 @@
 import { expect, test } from 'vitest';
 import { BroadPhase } from '../../src/all.ts';
 
-test('a set that runs out of stack has no effect, and the next one has', () => {
+test('a set that runs out of stack has no effect, and the next one has', { tags: 'long' }, () => {
   let failed = 0;
   const wrong: string[] = [];
   for (let round = 0; round < 4000; round++) {

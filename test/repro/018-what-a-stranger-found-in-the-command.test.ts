@@ -62,7 +62,7 @@ describe('join', () => {
   });
 });
 
-describe('a recording of hours', () => {
+describe('a recording of hours', { tags: 'long' }, () => {
   const frames = 300_000; // more arguments than fit the stack
 
   test('is put in a table', () => {

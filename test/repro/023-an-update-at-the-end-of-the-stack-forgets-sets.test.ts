@@ -12,7 +12,7 @@ const calls: Record<string, (space: BroadPhase) => unknown> = {
   setAlone: (space) => space.set(900_000, 70, 70, 71, 71),
 };
 
-test.each(Object.keys(calls))('boxes that were set wait on if %s runs out of stack', (name) => {
+test.each(Object.keys(calls))('boxes that were set wait on if %s runs out of stack', { tags: 'long' }, (name) => {
   let failed = 0;
   const lost: number[] = [];
   for (let round = 0; round < 300; round++) {

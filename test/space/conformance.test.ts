@@ -4,6 +4,7 @@ import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createScene, type SceneName, sceneNames } from '../../src/scenes/index.ts';
 import { createRandom } from '../../src/scenes/random.ts';
+import { describeEach } from '../support/each-technique.ts';
 import { expectKeys, expectPairs, expectSameWords } from '../support/expect-pairs.ts';
 import { hostileCases } from '../support/hostile-boxes.ts';
 import { readTrace, traceNames } from '../support/recordings.ts';
@@ -57,11 +58,7 @@ function setEach(space: BroadPhase<2 | 3>, boxes: Numbers, idOf: (index: number)
   }
 }
 
-const combinations = BroadPhase.techniques.flatMap((technique) =>
-  ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
-);
-
-describe.each(combinations)('%s in %d dimensions', (technique, dimensions) => {
+describeEach('%s in %d dimensions', (technique, dimensions) => {
   const create = () => new BroadPhase({ technique, dimensions });
   const scenesHere = sceneNames.filter((name) => name.endsWith(`${dimensions}d`));
 

@@ -5,6 +5,7 @@ import { describe, expect, test } from 'vitest';
 import { openTrace } from '../../src/trace/reader.ts';
 import { record } from '../../src/trace/record.ts';
 import { applyFrame, replay } from '../../src/trace/replay.ts';
+import { describeEach } from '../support/each-technique.ts';
 import { expectKeys } from '../support/expect-pairs.ts';
 import { Modelled, meet, pairsOf } from '../support/model.ts';
 import { inBox, near } from '../support/query-reference.ts';
@@ -12,10 +13,6 @@ import { keyOf, pairOf } from '../support/reference.ts';
 import { runs, seed } from '../support/runs.ts';
 import { setBox } from '../support/set-box.ts';
 import { wrappedPairs } from '../support/wrapped-reference.ts';
-
-const combinations = BroadPhase.techniques.flatMap((technique) =>
-  ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
-);
 
 type Loose = Record<string, (...given: unknown[]) => unknown>;
 
@@ -39,7 +36,7 @@ function ask(model: Modelled): void {
   expect(space.nearest!(...point, 9)).toEqual(near(model.entries, point, 9, {}).map(({ id }) => id));
 }
 
-describe.each(combinations)(`%s in %d dimensions (SEED=${seed})`, (technique, dimensions) => {
+describeEach(`%s in %d dimensions (SEED=${seed})`, (technique, dimensions) => {
   test.each([
     ['doubles', undefined],
     ['float32', whole],

@@ -3,15 +3,12 @@ import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createScene } from '../../src/scenes/index.ts';
 import { createRandom } from '../../src/scenes/random.ts';
+import { describeEach } from '../support/each-technique.ts';
 import { expectSameWords, firstDifference } from '../support/expect-pairs.ts';
 import { Modelled } from '../support/model.ts';
 import { readTrace, traceNames } from '../support/recordings.ts';
 import { keysOf, pairOf } from '../support/reference.ts';
 import { setBox } from '../support/set-box.ts';
-
-const combinations = BroadPhase.techniques.flatMap((technique) =>
-  ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
-);
 
 /** Compares the events of the last update with what the sets before and after say. */
 function expectEvents(
@@ -36,7 +33,7 @@ function expectEvents(
   return now;
 }
 
-describe.each(combinations)('%s in %d dimensions', (technique, dimensions) => {
+describeEach('%s in %d dimensions', (technique, dimensions) => {
   test.each(['uniform', 'dense'] as const)('follows the scene %s', (kind) => {
     const scene = createScene(`${kind}${dimensions}d`, 500);
     const space = new BroadPhase({ technique, dimensions, events: true });
@@ -59,7 +56,7 @@ describe.each([
   ['auto', 3],
   ['strip-sweep', 2],
   ['spatial-grid', 3],
-] as const)('%s in a dense crowd in %d dimensions', (technique, dimensions) => {
+] as const)('%s in a dense crowd in %d dimensions', { tags: 'long' }, (technique, dimensions) => {
   test('follows it, also once it is restored', () => {
     const random = createRandom(dimensions);
     const side = dimensions === 2 ? 60 : 30;

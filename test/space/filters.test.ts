@@ -3,14 +3,11 @@
 import { BroadPhase } from 'broadphase';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
+import { describeEach } from '../support/each-technique.ts';
 import { expectKeys } from '../support/expect-pairs.ts';
 import { type Entry, Modelled, meet, pairsOf } from '../support/model.ts';
 import { readTrace, traceNames } from '../support/recordings.ts';
 import { pairOf, referencePairs } from '../support/reference.ts';
-
-const combinations = BroadPhase.techniques.flatMap((technique) =>
-  ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
-);
 
 const all = 0xffffffff;
 
@@ -50,7 +47,7 @@ test('rules are set and read back while boxes wait to be flushed', () => {
   expect(space.filterOf(9)).toBeUndefined();
 });
 
-describe.each(combinations)('%s in %d dimensions', (technique, dimensions) => {
+describeEach('%s in %d dimensions', (technique, dimensions) => {
   test('finds the wanted pairs after any sequence of calls', () => {
     for (let seed = 1; seed <= 2; seed++) {
       const model = new Modelled({ technique, dimensions }, seed);

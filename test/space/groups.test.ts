@@ -4,16 +4,13 @@ import { describe, expect, test } from 'vitest';
 import { openTrace } from '../../src/trace/reader.ts';
 import { record } from '../../src/trace/record.ts';
 import { applyFrame, replay } from '../../src/trace/replay.ts';
+import { describeEach } from '../support/each-technique.ts';
 import { expectKeys } from '../support/expect-pairs.ts';
 import { Modelled, meet, pairsOf } from '../support/model.ts';
 import { keyOf, pairOf } from '../support/reference.ts';
 import { runs, seed } from '../support/runs.ts';
 import { setBox } from '../support/set-box.ts';
 import { wrappedPairs } from '../support/wrapped-reference.ts';
-
-const combinations = BroadPhase.techniques.flatMap((technique) =>
-  ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
-);
 
 type Loose = Record<string, (...given: unknown[]) => unknown>;
 
@@ -32,7 +29,7 @@ function step(model: Modelled): void {
   else model.step();
 }
 
-describe.each(combinations)(`%s in %d dimensions (SEED=${seed})`, (technique, dimensions) => {
+describeEach(`%s in %d dimensions (SEED=${seed})`, (technique, dimensions) => {
   test.each([
     ['doubles', undefined],
     ['float32', whole],

@@ -4,6 +4,7 @@ import { readFileSync } from 'node:fs';
 import { BroadPhase, findPairs, findPairsBetween, init } from 'broadphase';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
+import { describeEach, testEach } from '../support/each-technique.ts';
 import { setBox } from '../support/set-box.ts';
 
 const mebibyte = 2 ** 20;
@@ -38,14 +39,10 @@ function kernelWith(bytes: number): Uint8Array<ArrayBuffer> {
 const identical = (count: number, dimensions: number) =>
   Float32Array.from({ length: count * 2 * dimensions }, (_, k) => (k % (2 * dimensions) < dimensions ? 1 : 2));
 
-const combinations = BroadPhase.techniques.flatMap((technique) =>
-  ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
-);
-
 // Files that run after this one in the same process get the kernel as it is.
 afterAll(() => init(kernel));
 
-describe.each(combinations)('a cell size far too small, %s in %d dimensions', (technique, dimensions) => {
+describeEach('a cell size far too small, %s in %d dimensions', (technique, dimensions) => {
   const space = new BroadPhase({ technique, dimensions, cellSize: 1e-6 });
   const low = Array(dimensions);
 
@@ -95,9 +92,8 @@ describe('with 32 MiB of memory', () => {
     expect(failures).toBeGreaterThan(1);
   });
 
-  test.each(combinations)(
+  testEach(
     '%s in %d dimensions recovers from too many pairs',
-    { tags: 'long' },
     (technique, dimensions) => {
       const space = new BroadPhase({ technique, dimensions });
       const count = 20_000;
@@ -117,6 +113,7 @@ describe('with 32 MiB of memory', () => {
         expect(space.validate().stats.pairs).toBe(space.pairCount);
       }
     },
+    ['long'],
   );
 });
 

@@ -3,7 +3,8 @@
 // The seed is in the name of the suite and in the report of a failure; SEED=… runs it again, RUNS=… runs more.
 import { BroadPhase } from 'broadphase';
 import fc from 'fast-check';
-import { describe, expect, test } from 'vitest';
+import { describe, expect } from 'vitest';
+import { testEach } from '../support/each-technique.ts';
 import { expectKeys, expectSameWords } from '../support/expect-pairs.ts';
 import { referencePairs } from '../support/reference.ts';
 import { runs, seed } from '../support/runs.ts';
@@ -132,12 +133,8 @@ function holds(space: BroadPhase<2 | 3>, id: number, box: readonly number[]): bo
   return held !== undefined && box.every((value, k) => Object.is(held[k], value));
 }
 
-const combinations = BroadPhase.techniques.flatMap((technique) =>
-  ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
-);
-
 describe(`any sequence of calls (SEED=${seed})`, () => {
-  test.each(combinations)('keeps %s in %d dimensions true to the model', (technique, dimensions) => {
+  testEach('keeps %s in %d dimensions true to the model', (technique, dimensions) => {
     const sequence = fc.array(aCall(dimensions), { minLength: 1, maxLength: 60, size: 'max' });
     const property = fc.property(sequence, (calls) => {
       const spaces = [0, 1].map(() => new BroadPhase({ technique, dimensions }));

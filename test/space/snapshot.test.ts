@@ -4,6 +4,7 @@ import { BroadPhase, type BroadPhaseOptions } from 'broadphase';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
+import { testEach } from '../support/each-technique.ts';
 import { expectSameWords } from '../support/expect-pairs.ts';
 import { anyPlace, Modelled } from '../support/model.ts';
 import { readTrace } from '../support/recordings.ts';
@@ -11,10 +12,6 @@ import { runs, seed } from '../support/runs.ts';
 import { setBox } from '../support/set-box.ts';
 
 const numRuns = runs(25);
-
-const combinations = BroadPhase.techniques.flatMap((technique) =>
-  ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
-);
 
 /** Returns the space where it was updated. */
 type Call = (space: BroadPhase<2 | 3>) => unknown;
@@ -115,7 +112,7 @@ function opened(options: BroadPhaseOptions<2 | 3>): BroadPhase<2 | 3> {
 }
 
 describe(`a restored space (SEED=${seed})`, () => {
-  test.each(combinations)('continues like the original: %s in %d dimensions', (technique, dimensions) => {
+  testEach('continues like the original: %s in %d dimensions', (technique, dimensions) => {
     const numbers = fc.record({ seed: fc.nat(), before: fc.nat(60), after: fc.nat(40), lost: fc.nat(40) });
     const property = fc.property(numbers, ({ seed, before, after, lost }) => {
       const wrap = seed % 3 ? undefined : Array<number>(dimensions).fill(50);
@@ -147,9 +144,8 @@ describe(`a restored space (SEED=${seed})`, () => {
     fc.assert(property, { seed, numRuns });
   });
 
-  test.each(combinations)(
+  testEach(
     'replays a recorded scene: %s in %d dimensions',
-    { tags: 'long' },
     (technique, dimensions) => {
       const trace = readTrace(dimensions === 2 ? 'smash' : 'rapier3d-freefall10k');
       const options = { technique, dimensions };
@@ -162,6 +158,7 @@ describe(`a restored space (SEED=${seed})`, () => {
         expect(Buffer.compare(bytesOf(other.setAll(trace.frame(k)).update().pairs), bytesOf(pairs))).toBe(0);
       }
     },
+    ['long'],
   );
 
   test.each([2, 3] as const)('has the boxes, filters and flags of the model, in %d dimensions', (dimensions) => {

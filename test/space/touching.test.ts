@@ -5,16 +5,13 @@ import { exactPairs } from '../../src/trace/exact.ts';
 import { openTrace } from '../../src/trace/reader.ts';
 import { record } from '../../src/trace/record.ts';
 import { replay } from '../../src/trace/replay.ts';
+import { describeEach } from '../support/each-technique.ts';
 import { expectKeys } from '../support/expect-pairs.ts';
 import { type Entry, Modelled, meet, overlaps, pairsOf } from '../support/model.ts';
 import { keyOf, pairOf } from '../support/reference.ts';
 import { runs, seed } from '../support/runs.ts';
 import { setBox } from '../support/set-box.ts';
 import { wrappedPairs } from '../support/wrapped-reference.ts';
-
-const combinations = BroadPhase.techniques.flatMap((technique) =>
-  ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
-);
 
 type Loose = Record<string, (...given: unknown[]) => unknown>;
 
@@ -44,7 +41,7 @@ function step(model: Modelled): void {
   } else model.step();
 }
 
-describe.each(combinations)(`%s in %d dimensions (SEED=${seed})`, (technique, dimensions) => {
+describeEach(`%s in %d dimensions (SEED=${seed})`, (technique, dimensions) => {
   test.each([
     ['doubles', undefined],
     ['float32', whole],

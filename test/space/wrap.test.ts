@@ -4,6 +4,7 @@ import { BroadPhase } from 'broadphase';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { createRandom } from '../../src/scenes/random.ts';
+import { testEach } from '../support/each-technique.ts';
 import { expectKeys } from '../support/expect-pairs.ts';
 import { keysOf, pairOf } from '../support/reference.ts';
 import { runs, seed } from '../support/runs.ts';
@@ -12,10 +13,6 @@ import { aBox, aWorld } from '../support/wrapped-boxes.ts';
 import { wrappedPairs } from '../support/wrapped-reference.ts';
 
 const numRuns = runs(20);
-
-const combinations = BroadPhase.techniques.flatMap((technique) =>
-  ([2, 3] as const).map((dimensions) => [technique, dimensions] as const),
-);
 
 /** The reference takes its time: all techniques share what it has found. */
 const remembered = new Map<string, Float64Array>();
@@ -26,7 +23,7 @@ function remember(key: string, find: () => Float64Array): Float64Array {
 }
 
 describe(`in a world that wraps around (SEED=${seed})`, { tags: 'long' }, () => {
-  test.each(combinations)('%s in %d dimensions finds the pairs of the reference', (technique, dimensions) => {
+  testEach('%s in %d dimensions finds the pairs of the reference', (technique, dimensions) => {
     const boxes = fc.tuple(aWorld, fc.boolean()).chain(([world, middle]) => {
       const wrap = world.slice(0, dimensions);
       return fc.record({
@@ -46,7 +43,7 @@ describe(`in a world that wraps around (SEED=${seed})`, { tags: 'long' }, () => 
     fc.assert(property, { seed, numRuns });
   });
 
-  test.each(combinations)('%s in %d dimensions: filters, events, ids that come and go', (technique, dimensions) => {
+  testEach('%s in %d dimensions: filters, events, ids that come and go', (technique, dimensions) => {
     const random = createRandom(7);
     const wrap = [60, 45, 50].slice(0, dimensions);
     const space = new BroadPhase({ technique, dimensions, wrap, events: true });
